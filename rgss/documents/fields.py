@@ -1,0 +1,74 @@
+"""Field types of YAML files: quantities with units, identifiers, texts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, BeforeValidator, StringConstraints, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from rgss.errors import QuantityError
+from rgss.quantities import dimension, parse_quantity
+
+
+def _reader_of(unit: str) -> Callable[[Any], float]:
+    def read(value: Any) -> float:
+        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+            raise PydanticCustomError(
+                "quantity", "a quantity is expected, such as {example}", {"example": f'"1 {unit}"', "hint": ""}
+            )
+        try:
+            return parse_quantity(value if isinstance(value, str) else repr(value), unit)
+        except QuantityError as error:
+            raise _as_field_error(error) from error
+
+    return read
+
+
+def _as_field_error(error: QuantityError) -> PydanticCustomError:
+    return PydanticCustomError("quantity", "{message}", {"message": error.message, "hint": error.hint})
+
+
+def _schema(unit: str) -> WithJsonSchema:
+    return WithJsonSchema({"type": "string", "description": f"A quantity in {unit} or a unit that converts to it."})
+
+
+def _check_unit(text: str) -> str:
+    try:
+        dimension(text)
+    except QuantityError as error:
+        raise _as_field_error(error) from error
+    return text
+
+
+Metres = Annotated[float, BeforeValidator(_reader_of("m")), _schema("m")]
+Kilograms = Annotated[float, BeforeValidator(_reader_of("kg")), _schema("kg")]
+Seconds = Annotated[float, BeforeValidator(_reader_of("s")), _schema("s")]
+Newtons = Annotated[float, BeforeValidator(_reader_of("N")), _schema("N")]
+NewtonMetres = Annotated[float, BeforeValidator(_reader_of("N*m")), _schema("N*m")]
+Radians = Annotated[float, BeforeValidator(_reader_of("rad")), _schema("rad")]
+RadiansPerSecond = Annotated[float, BeforeValidator(_reader_of("rad/s")), _schema("rad/s")]
+RadiansPerSecondSquared = Annotated[float, BeforeValidator(_reader_of("rad/s**2")), _schema("rad/s**2")]
+MetresPerSecond = Annotated[float, BeforeValidator(_reader_of("m/s")), _schema("m/s")]
+MetresPerSecondSquared = Annotated[float, BeforeValidator(_reader_of("m/s**2")), _schema("m/s**2")]
+Hertz = Annotated[float, BeforeValidator(_reader_of("Hz")), _schema("Hz")]
+Dollars = Annotated[float, BeforeValidator(_reader_of("USD")), _schema("USD")]
+Dimensionless = Annotated[
+    float,
+    BeforeValidator(_reader_of("1")),
+    WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string", "pattern": "%$"}]}),
+]
+"""A pure number, or a percentage such as ``"95 %"``."""
+
+QuantityText = Annotated[str, StringConstraints(min_length=1, max_length=60)]
+"""A quantity whose unit is known only from elsewhere; its reader converts it."""
+
+UnitText = Annotated[str, StringConstraints(min_length=1, max_length=60), AfterValidator(_check_unit)]
+"""The name of a unit; ``"1"`` for a pure number."""
+
+Identifier = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=80)]
+"""An identifier: a letter, then letters, digits, and ``_ . -``."""
+
+Text = Annotated[str, StringConstraints(min_length=1, max_length=10_000, strip_whitespace=True)]
+"""Prose; not empty."""

@@ -1,0 +1,72 @@
+"""The exception hierarchy: raised only where the caller cannot go on.
+
+Expected outcomes (no path found, an object dropped) are enum values in records, and
+mistakes in a user's files are findings. Everything raised on purpose derives from
+`RgssError` and carries a hint that says how to mend it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rgss.findings import Finding
+
+
+class RgssError(Exception):
+    """Base of every error that rgss raises on purpose.
+
+    Attributes:
+        message: What is wrong, in one line.
+        hint: How to mend it, in one line; empty when there is nothing to add.
+    """
+
+    def __init__(self, message: str, *, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+    def __str__(self) -> str:
+        return f"{self.message} ({self.hint})" if self.hint else self.message
+
+
+class QuantityError(RgssError, ValueError):
+    """A text is not a quantity of the unit that is expected."""
+
+
+class DocumentError(RgssError):
+    """A user's file cannot be used; carries every problem found in it.
+
+    Attributes:
+        findings: The problems, in the order of their positions; never empty.
+    """
+
+    def __init__(self, findings: Sequence[Finding], *, hint: str = "") -> None:
+        if not findings:
+            raise ValueError("a DocumentError needs at least one finding")
+        self.findings = tuple(findings)
+        first = self.findings[0]
+        rest = len(self.findings) - 1
+        more = f" (and {rest} more)" if rest else ""
+        super().__init__(f"{first}{more}", hint=hint)
+
+
+class DefinitionError(RgssError):
+    """Definitions that are each well formed contradict one another or name what is not there."""
+
+
+class SimulationError(RgssError):
+    """The physics engine cannot build or advance the world."""
+
+
+class MotionError(RgssError):
+    """A motion cannot be planned or timed because its problem is ill posed."""
+
+
+class EvidenceError(RgssError):
+    """The evidence store is missing, damaged, or lacks what a decision needs."""
+
+
+class TradeoffError(RgssError):
+    """A trade-off is ill posed, or its solver did not prove an optimum."""

@@ -1,0 +1,75 @@
+"""The outcomes that a trial can have: expected results, kept in records, never raised."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class Phase(str, Enum):
+    """The eight states of the pick-and-place task, in their order."""
+
+    MOVE_TO_GRASP = "move_to_grasp"
+    GRASP = "grasp"
+    LIFT = "lift"
+    MOVE_TO_GRASP_DEPARTURE = "move_to_grasp_departure"
+    MOVE_TO_PLACE_APPROACH = "move_to_place_approach"
+    MOVE_TO_PLACE = "move_to_place"
+    PLACE = "place"
+    MOVE_TO_GRASP_APPROACH = "move_to_grasp_approach"
+
+
+PLANNED_PHASES: tuple[Phase, ...] = (
+    Phase.MOVE_TO_GRASP,
+    Phase.MOVE_TO_GRASP_DEPARTURE,
+    Phase.MOVE_TO_PLACE_APPROACH,
+    Phase.MOVE_TO_PLACE,
+    Phase.MOVE_TO_GRASP_APPROACH,
+)
+"""The five moves that a planner plans: the sub-tasks of the sums over n = 1..5 (eq. 4.3, 4.4)."""
+
+
+class PhaseOutcome(str, Enum):
+    """How a phase ended."""
+
+    COMPLETED = "completed"
+    FAILED = "failed"
+    NOT_RUN = "not_run"
+
+
+class PlanOutcome(str, Enum):
+    """How the planning of one sub-task ended."""
+
+    SOLVED = "solved"
+    BUDGET_SPENT = "budget_spent"
+    INVALID_START = "invalid_start"
+    INVALID_GOAL = "invalid_goal"
+    NOT_RUN = "not_run"
+
+
+class Failure(str, Enum):
+    """What ended a trial before its last phase was complete."""
+
+    PLANNING_LIMIT = "planning_limit"
+    INVALID_START = "invalid_start"
+    INVALID_GOAL = "invalid_goal"
+    UNREACHABLE_WAYPOINT = "unreachable_waypoint"
+    TRAJECTORY_INFEASIBLE = "trajectory_infeasible"
+    TRAJECTORY_IN_COLLISION = "trajectory_in_collision"
+    TRACKING_ERROR = "tracking_error"
+    ARM_COLLISION = "arm_collision"
+    NO_FIRM_GRASP = "no_firm_grasp"
+    OBJECT_DROPPED = "object_dropped"
+    OBJECT_DAMAGED = "object_damaged"
+    OBJECT_COLLISION = "object_collision"
+    NOT_RELEASED = "not_released"
+    NOT_IN_PLACE_REGION = "not_in_place_region"
+    NOT_UPRIGHT = "not_upright"
+    RUN_CRASHED = "run_crashed"
+
+
+class Fidelity(str, Enum):
+    """How much of the physics a trial has."""
+
+    KINEMATIC = "kinematic"
+    DYNAMIC = "dynamic"
+    CONTACT = "contact"

@@ -1,0 +1,48 @@
+"""What is wrong in a user's files, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Severity(str, Enum):
+    """How much a finding matters: an error makes the project unusable, a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, order=True)
+class Finding:
+    """One problem at one place of one file.
+
+    Attributes:
+        file: The file, relative to the project.
+        line: Line, from 1.
+        column: Column, from 1.
+        rule: The id of the rule that is broken, such as ``document.unknown-key``.
+        severity: How much it matters.
+        message: What is wrong, in one line.
+        hint: How to mend it, in one line; may be empty.
+    """
+
+    file: str
+    line: int
+    column: int
+    rule: str
+    severity: Severity
+    message: str
+    hint: str = ""
+
+    def __str__(self) -> str:
+        hint = f" ({self.hint})" if self.hint else ""
+        where = f"{self.file}:{self.line}:{self.column}"
+        return f"{where}: {self.severity.value}: {self.message}{hint} [{self.rule}]"
+
+
+def has_errors(findings: Iterable[Finding]) -> bool:
+    """Tell whether any of the findings is an error."""
+    return any(finding.severity is Severity.ERROR for finding in findings)
