@@ -1,0 +1,1 @@
+"""Choosing a robot design by evidence: requirements, simulated trials, a certified trade-off."""

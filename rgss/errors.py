@@ -51,6 +51,9 @@ class DocumentError(RgssError):
         more = f" (and {rest} more)" if rest else ""
         super().__init__(f"{first}{more}", hint=hint)
 
+    def __reduce__(self) -> tuple[type[DocumentError], tuple[tuple[Finding, ...]], dict[str, str]]:
+        return type(self), (self.findings,), {"hint": self.hint}
+
 
 class DefinitionError(RgssError):
     """Definitions that are each well formed contradict one another or name what is not there."""

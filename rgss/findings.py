@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
+_LONGEST_SHOWN = 60
+
 
 class Severity(str, Enum):
     """How much a finding matters: an error makes the project unusable, a warning does not."""
@@ -41,6 +43,14 @@ class Finding:
         hint = f" ({self.hint})" if self.hint else ""
         where = f"{self.file}:{self.line}:{self.column}"
         return f"{where}: {self.severity.value}: {self.message}{hint} [{self.rule}]"
+
+
+def shown(value: object) -> str:
+    """What a user wrote, as a message shows it: on one line and cut where it is long."""
+    if isinstance(value, str):
+        return repr(value if len(value) <= _LONGEST_SHOWN else value[: _LONGEST_SHOWN - 1] + "…")
+    text = repr(value)
+    return text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 1] + "…"
 
 
 def has_errors(findings: Iterable[Finding]) -> bool:

@@ -7,26 +7,36 @@ float is in SI (money in US dollars) and says so in its name.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from decimal import Decimal
+from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rgss.errors import QuantityError
+from rgss.findings import shown
 
 if TYPE_CHECKING:
     import pint
 
 _LONGEST_TEXT = 60
 _QUANTITY = re.compile(
-    r"""\s*(?P<number>[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?)
-        \s*(?P<unit>[A-Za-zµμ°%$][A-Za-z0-9µμ°%$*/^·.()\ -]*)?\s*""",
-    re.VERBOSE,
+    r"\s*(?P<number>[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*(?P<unit>[A-Za-zµμ°%$(].*)?"
 )
-_UNIT_WITH_SMALL_EXPONENTS = re.compile(r"[^*^0-9]*(?:(?:\*\*?|\^)?-?\d?[^*^0-9]+)*(?:\*\*|\^)?-?\d?")
+
+# Units are products and quotients of names with small whole exponents, grouped at most once: what
+# is matched here is safe to hand to pint, whose own grammar also takes numbers and huge powers.
+_POWER = r"(?:\s*(?:\*\*|\^)\s*-?[1-9]|⁻?[¹²³⁴⁵⁶⁷⁸⁹])?"
+_FACTOR = rf"[A-Za-zµμ°%$_]+{_POWER}"
+_BETWEEN = r"(?:\s*[*/·]\s*|\s+)"
+_GROUP = rf"\(\s*{_FACTOR}(?:{_BETWEEN}{_FACTOR})*\s*\){_POWER}"
+_UNIT = re.compile(rf"1|(?:1\s*/\s*)?(?:{_FACTOR}|{_GROUP})(?:{_BETWEEN}(?:{_FACTOR}|{_GROUP}))*")
 
 
 def parse_quantity(text: str, unit: str) -> float:
     """Read a quantity and express it in a unit.
+
+    Angles are told from pure numbers here, so that ``"1 Hz"`` is not taken for 1 rad/s.
 
     Args:
         text: A number and a unit, such as ``"120 mm"``.
@@ -37,31 +47,40 @@ def parse_quantity(text: str, unit: str) -> float:
         float nearest to 0.035.
 
     Raises:
-        QuantityError: The text is not a number with a unit, the unit is unknown, or it
-            measures something else.
+        QuantityError: The text is not a number with a unit, the unit is unknown, it
+            measures something else, or the number is beyond what a float can hold.
     """
     match = _QUANTITY.fullmatch(text) if len(text) <= _LONGEST_TEXT else None
     if match is None:
-        raise QuantityError(
-            f"{_shorten(text)!r} is not a quantity", hint=f'write a number and a unit, such as "1 {unit}"'
-        )
+        example = "a number, such as 0.5" if unit == "1" else f'a number and a unit, such as "1 {unit}"'
+        raise QuantityError(f"{shown(text)} is not a quantity", hint=f"write {example}")
     number, written = match["number"], (match["unit"] or "").strip()
-    if not written:
-        if unit == "1":
-            return float(number)
-        raise QuantityError(f"{text!r} has no unit", hint=f'write "{number} {unit}"')
-    if unit == "1" and written != "%":
-        raise QuantityError(f"{text!r} has a unit where a pure number is expected", hint=f"write {number}")
-    return float(Decimal(number) * Decimal(repr(_factor(written, unit))))
+    if not written and unit != "1":
+        raise QuantityError(f"{shown(text)} has no unit", hint=f'write "{number} {unit}"')
+    if unit == "1" and written not in ("", "%"):
+        raise QuantityError(f"{shown(text)} has a unit where a pure number is expected", hint=f"write {number}")
+    written = written or "1"
+    if _measure(written) != _measure(unit):
+        raise _mismatch(written, unit)
+    exact = Fraction(Decimal(number)) * Fraction(_factor(written, unit))
+    try:
+        value = float(exact)
+    except OverflowError:
+        raise QuantityError(f"{shown(text)} is too large", hint="give a number below 1e308") from None
+    if exact and not value:
+        raise QuantityError(f"{shown(text)} is too small to be told from zero", hint="write 0 if zero is meant")
+    return value
 
 
 def conversion_factor(from_unit: str, to_unit: str) -> float:
     """The number by which a magnitude in one unit is multiplied to be in another.
 
+    An angle in radians counts as a pure number here, as it does in equations.
+
     Raises:
         QuantityError: A unit is unknown, or the two measure different things.
     """
-    return _factor(from_unit, to_unit)
+    return float(_factor(from_unit, to_unit))
 
 
 def same_dimension(unit: str, other: str) -> bool:
@@ -80,15 +99,16 @@ def dimension(unit: str) -> tuple[tuple[str, float], ...]:
     Raises:
         QuantityError: The unit is unknown.
     """
-    powers = _unit(unit).dimensionality
+    powers: Mapping[str, Any] = _unit(unit).dimensionality
     return tuple(sorted((name.strip("[]"), float(power)) for name, power in powers.items()))
 
 
 @lru_cache(maxsize=1)
-def _registry() -> pint.UnitRegistry:
+def _registry() -> Any:
     import pint
 
-    registry: pint.UnitRegistry = pint.UnitRegistry(autoconvert_offset_to_baseunit=False, cache_folder=None)
+    # Decimals keep "35 mm" exact: with floats, cm**3 would be 1.0000000000000002e-06 m**3.
+    registry: Any = pint.UnitRegistry(autoconvert_offset_to_baseunit=False, cache_folder=None, non_int_type=Decimal)
     registry.define("US_dollar = [currency] = USD = dollar")
     return registry
 
@@ -97,31 +117,41 @@ def _registry() -> pint.UnitRegistry:
 def _unit(text: str) -> pint.Unit:
     import pint
 
+    if len(text) > _LONGEST_TEXT or not _UNIT.fullmatch(text):
+        raise QuantityError(f"{shown(text)} is not a unit", hint="write units such as mm, m/s or kg*m**2")
     cleaned = text.replace("·", "*").replace("^", "**").replace("$", "USD").replace("%", "percent")
-    if len(text) > _LONGEST_TEXT or not _UNIT_WITH_SMALL_EXPONENTS.fullmatch(text):
-        raise QuantityError(f"{_shorten(text)!r} is not a unit")
     try:
-        if cleaned == "1":
-            return _registry().Unit("dimensionless")
-        return _registry().Unit(cleaned)
-    except (pint.errors.PintError, ValueError, TypeError, SyntaxError, AttributeError, KeyError) as error:
-        raise QuantityError(f"unknown unit {text!r}", hint="use units such as mm, kg, s, N, deg, USD") from error
+        unit: pint.Unit = _registry().Unit("dimensionless" if text == "1" else cleaned)
+    except (pint.errors.PintError, ValueError) as error:
+        raise QuantityError(f"unknown unit {shown(text)}", hint="use units such as mm, kg, s, N, deg, USD") from error
+    return unit
 
 
 @lru_cache(maxsize=512)
-def _factor(from_unit: str, to_unit: str) -> float:
+def _measure(unit: str) -> str:
+    """What a unit measures, angles included, as the product of its root units."""
+    return str(_registry().get_root_units(_unit(unit))[1])
+
+
+@lru_cache(maxsize=512)
+def _factor(from_unit: str, to_unit: str) -> Decimal:
+    import pint
+
     source, target = _unit(from_unit), _unit(to_unit)
     if source.dimensionality != target.dimensionality:
-        raise QuantityError(
-            f"unit {from_unit!r} does not measure what {to_unit!r} measures",
-            hint=f"give it in {to_unit} or a multiple of it",
-        )
+        raise _mismatch(from_unit, to_unit)
     registry = _registry()
-    zero = float(registry.Quantity(0.0, source).to(target).magnitude)
-    if zero != 0.0:
-        raise QuantityError(f"unit {from_unit!r} has an offset zero", hint="use kelvin for temperatures")
-    return float(registry.convert(1.0, source, target))
+    try:
+        zero, one = (Decimal(registry.convert(Decimal(magnitude), source, target)) for magnitude in (0, 1))
+    except (pint.errors.PintError, TypeError):  # TypeError: a logarithm of a Decimal
+        zero, one = Decimal(1), Decimal(1)
+    if zero:
+        raise QuantityError(f"unit {shown(from_unit)} is not on a scale that starts at zero", hint=f"use {to_unit}")
+    return one
 
 
-def _shorten(text: str) -> str:
-    return text if len(text) <= _LONGEST_TEXT else text[: _LONGEST_TEXT - 1] + "…"
+def _mismatch(written: str, wanted: str) -> QuantityError:
+    return QuantityError(
+        f"unit {shown(written)} does not measure what {shown(wanted)} measures",
+        hint=f"give it in {wanted} or a multiple of it",
+    )

@@ -13,11 +13,11 @@ from rgss.quantities import dimension, parse_quantity
 
 
 def _reader_of(unit: str) -> Callable[[Any], float]:
+    example = "a number, such as 0.5" if unit == "1" else f'a number and a unit, such as "1 {unit}"'
+
     def read(value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-            raise PydanticCustomError(
-                "quantity", "a quantity is expected, such as {example}", {"example": f'"1 {unit}"', "hint": ""}
-            )
+            raise _as_field_error(QuantityError("a quantity is expected", hint=f"write {example}"))
         try:
             return parse_quantity(value if isinstance(value, str) else repr(value), unit)
         except QuantityError as error:
@@ -67,7 +67,8 @@ QuantityText = Annotated[str, StringConstraints(min_length=1, max_length=60)]
 UnitText = Annotated[str, StringConstraints(min_length=1, max_length=60), AfterValidator(_check_unit)]
 """The name of a unit; ``"1"`` for a pure number."""
 
-Identifier = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=80)]
+IDENTIFIER_PATTERN = r"^[A-Za-z][A-Za-z0-9_.-]*$"
+Identifier = Annotated[str, StringConstraints(pattern=IDENTIFIER_PATTERN, max_length=80)]
 """An identifier: a letter, then letters, digits, and ``_ . -``."""
 
 Text = Annotated[str, StringConstraints(min_length=1, max_length=10_000, strip_whitespace=True)]

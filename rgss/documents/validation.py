@@ -7,14 +7,16 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from types import UnionType
+from typing import Annotated, Any, Generic, TypeVar, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
+from rgss.documents.fields import IDENTIFIER_PATTERN
 from rgss.documents.model import DocumentModel
 from rgss.documents.reader import Document, read_document
 from rgss.errors import DocumentError
-from rgss.findings import Finding
+from rgss.findings import Finding, shown
 
 Model = TypeVar("Model", bound=DocumentModel)
 
@@ -47,27 +49,52 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
     try:
         value = model.model_validate_json(json.dumps(document.data))
     except ValidationError as error:
-        findings = {_finding(document, model, problem) for problem in error.errors(include_url=False)}
+        findings = {_finding(document, model, problem) for problem in _own_problems(error)}
         raise DocumentError(sorted(findings)) from error
     return LoadedDocument(value=value, document=document)
 
 
+def _own_problems(error: ValidationError) -> list[Any]:
+    """The problems without those that only follow from another.
+
+    A tuple whose entries are wrong is also called too short, because no valid entry is in it.
+    """
+    problems: list[Any] = list(error.errors(include_url=False))
+    locations = [problem["loc"] for problem in problems]
+    return [
+        problem
+        for problem in problems
+        if problem["type"] != "too_short"
+        or not any(len(loc) > len(problem["loc"]) and loc[: len(problem["loc"])] == problem["loc"] for loc in locations)
+    ]
+
+
 def _finding(document: Document, model: type[BaseModel], problem: Mapping[str, Any]) -> Finding:
-    location = problem["loc"]
+    location: tuple[str | int, ...] = problem["loc"]
     kind = problem["type"]
+    context = problem.get("ctx", {})
     if kind == "extra_forbidden":
-        key = str(location[-1])
-        names = _siblings(problem, model)
-        near = difflib.get_close_matches(key, names, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known keys: {', '.join(names)}" if names else ""
-        return document.finding("document.unknown-key", f"unknown key {key!r}", location, hint=hint, at_key=True)
-    if kind == "missing":
-        key = str(location[-1])
+        return _unknown_key(document, model, location)
+    if kind == "union_tag_not_found":
+        kind, location = "missing", (*location, context["discriminator"].strip("'"))
+    if kind == "missing" and isinstance(location[-1], str):
+        key = location[-1]
         return document.finding("document.missing-key", f"key {key!r} is missing", location[:-1], hint=f"add {key!r}")
+    if kind == "union_tag_invalid":
+        location = (*location, context["discriminator"].strip("'"))
     message = _in_our_words(kind, problem)
-    hint = str(problem.get("ctx", {}).get("hint", ""))
-    name = next((str(part) for part in reversed(location) if isinstance(part, str)), "")
-    return document.finding("document.value", f"{name}: {message}" if name else message, location, hint=hint)
+    name = next((part for part in reversed(document.nearest(location)) if isinstance(part, str)), "")
+    return document.finding(
+        "document.value", f"{name}: {message}" if name else message, location, hint=str(context.get("hint", ""))
+    )
+
+
+def _unknown_key(document: Document, model: type[BaseModel], location: tuple[str | int, ...]) -> Finding:
+    key = str(location[-1])
+    names = _siblings(location, model)
+    near = difflib.get_close_matches(key, names, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"known keys: {', '.join(names)}" if names else ""
+    return document.finding("document.unknown-key", f"unknown key {shown(key)}", location, hint=hint, at_key=True)
 
 
 _WORDS: Mapping[str, str] = {
@@ -89,47 +116,60 @@ def _in_our_words(kind: str, problem: Mapping[str, Any]) -> str:
         return _WORDS[kind]
     context = problem.get("ctx", {})
     if kind in ("enum", "literal_error"):
-        return f"{_shown(problem['input'])} is not one of {context.get('expected', '')}"
+        return f"{shown(problem['input'])} is not one of {context['expected']}"
+    if kind == "union_tag_invalid":
+        return f"{shown(context['tag'])} is not one of {context['expected_tags']}"
     if kind == "string_pattern_mismatch":
-        return f"{_shown(problem['input'])} is not an identifier (a letter, then letters, digits, '_', '.', '-')"
+        if context["pattern"] == IDENTIFIER_PATTERN:
+            return f"{shown(problem['input'])} is not an identifier (a letter, then letters, digits, '_', '.', '-')"
+        return f"{shown(problem['input'])} does not match {context['pattern']}"
+    if kind == "missing":
+        return f"entry {problem['loc'][-1] + 1} is missing"
     if kind == "too_short":
-        return f"at least {context['min_length']} entries are expected"
+        return f"at least {_entries(context['min_length'])} expected"
+    if kind == "too_long":
+        return f"at most {_entries(context['max_length'])} expected"
+    if kind == "quantity":
+        return str(context["message"])
     if kind == "value_error":
-        return str(context.get("error", problem["msg"]))
+        return str(context["error"])
     message = str(problem["msg"])
     return message[:1].lower() + message[1:]
 
 
-def _shown(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:59] + "…"
+def _entries(count: int) -> str:
+    return "1 entry is" if count == 1 else f"{count} entries are"
 
 
-def _siblings(problem: Mapping[str, Any], model: type[BaseModel]) -> list[str]:
+def _siblings(location: tuple[str | int, ...], model: type[BaseModel]) -> list[str]:
     """The keys that the mapping around an unknown key may have."""
     kinds: list[Any] = [model]
-    for part in problem["loc"][:-1]:
-        if isinstance(part, int):
-            continue
-        found = [
-            kind.model_fields[name].annotation
-            for kind in kinds
-            for name in kind.model_fields
-            if part in (name, kind.model_fields[name].alias)
-        ]
-        kinds = _models_in(found) if found else kinds
-    names: dict[str, None] = {}
-    for kind in kinds:
-        names.update({field.alias or name: None for name, field in kind.model_fields.items()})
-    return sorted(names)
+    for part in location[:-1]:
+        # A part that leads nowhere is the tag of a union, which is no level of its own.
+        kinds = _alternatives([inner for kind in kinds for inner in _inside(kind, part)]) or kinds
+    models = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+    return sorted({field.alias or name for kind in models for name, field in kind.model_fields.items()})
 
 
-def _models_in(annotations: list[Any]) -> list[Any]:
+def _inside(kind: Any, part: str | int) -> list[Any]:
+    """The annotations of what stands under a key or an index of a value of some kind."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        return [field.annotation for name, field in kind.model_fields.items() if part in (name, field.alias)]
+    origin, arguments = get_origin(kind), [each for each in get_args(kind) if each is not Ellipsis]
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        return arguments[1:] if isinstance(part, str) else []
+    return arguments if isinstance(part, int) else []
+
+
+def _alternatives(annotations: list[Any]) -> list[Any]:
+    """The annotations with unions and Annotated taken apart."""
     found: list[Any] = []
-    queue = list(annotations)
-    while queue:
-        annotation = queue.pop()
-        if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+    for annotation in annotations:
+        origin = get_origin(annotation)
+        if origin is Annotated:
+            found += _alternatives([get_args(annotation)[0]])
+        elif origin is Union or origin is UnionType:
+            found += _alternatives(list(get_args(annotation)))
+        else:
             found.append(annotation)
-        queue.extend(getattr(annotation, "__args__", ()))
     return found

@@ -1,0 +1,1 @@
+"""Grasp analysis from contacts."""

@@ -1,0 +1,32 @@
+"""Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
+
+from rgss.scenes.gripper import Gripper, GripperGeometry
+from rgss.scenes.gripper_file import load_gripper
+from rgss.scenes.pose import Pose
+from rgss.scenes.robot import Joint, Robot
+from rgss.scenes.robot_file import load_robot
+from rgss.scenes.scene import PlaceRegion, Scene, SceneBody, Task, Workpiece
+from rgss.scenes.scene_file import load_scene
+from rgss.scenes.shapes import Box, Cylinder, Shape
+from rgss.scenes.waypoints import Waypoint, waypoint_poses
+
+__all__ = [
+    "Box",
+    "Cylinder",
+    "Gripper",
+    "GripperGeometry",
+    "Joint",
+    "PlaceRegion",
+    "Pose",
+    "Robot",
+    "Scene",
+    "SceneBody",
+    "Shape",
+    "Task",
+    "Waypoint",
+    "Workpiece",
+    "load_gripper",
+    "load_robot",
+    "load_scene",
+    "waypoint_poses",
+]

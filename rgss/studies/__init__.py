@@ -1,0 +1,1 @@
+"""Studies: from a project folder to trials, evidence, estimates and a decision."""

@@ -1,0 +1,1 @@
+"""Trials: one design variant through the eight states of the task."""

@@ -1,0 +1,43 @@
+"""Printing: JSON for programs, tables for people."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+
+def print_json(value: Any) -> None:
+    """Print one JSON document."""
+    print(json.dumps(value, indent=2, allow_nan=False, ensure_ascii=False))
+
+
+def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = ()) -> None:
+    """Print a table as aligned text.
+
+    Args:
+        titles: The head of each column.
+        rows: The cells.
+        right: Columns that are aligned to the right.
+    """
+    cells = [[_safe(text) for text in row] for row in (titles, *rows)]
+    widths = [max(len(row[column]) for row in cells) for column in range(len(titles))]
+    to_right = set(right)
+    for number, row in enumerate(cells):
+        parts = [
+            text.rjust(width) if column in to_right else text.ljust(width)
+            for column, (text, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        print("  ".join(parts).rstrip())
+        if number == 0:
+            print("  ".join("─" * width for width in widths))
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """A number for people; a dash for what is not known."""
+    return "–" if value is None else f"{value:.{digits}g}"
+
+
+def _safe(text: str) -> str:
+    """Text that comes from a file must not steer the terminal."""
+    return "".join(character if character.isprintable() else "�" for character in text)

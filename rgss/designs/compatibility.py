@@ -1,0 +1,76 @@
+"""Rules that say which combinations of levels and components make a design."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import prod
+
+from rgss.designs.components import Component
+from rgss.designs.parameters import ParameterValue
+from rgss.designs.sources import COMPONENT_PREFIX, numbers
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Condition:
+    """Holds when every named parameter has, and every named role is filled by, one of its values.
+
+    Attributes:
+        choices: Values in SI by parameter id, and component ids by ``component.<role>``.
+    """
+
+    choices: Mapping[str, tuple[ParameterValue, ...]]
+
+    def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
+        """Tell whether it holds for a combination."""
+        for name, allowed in self.choices.items():
+            if name.startswith(COMPONENT_PREFIX):
+                component = components.get(name.removeprefix(COMPONENT_PREFIX))
+                if component is None or component.id not in allowed:
+                    return False
+            elif parameters.get(name) not in allowed:
+                return False
+        return True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limit:
+    """Holds when a product of numbers of the design is at most another of them.
+
+    Attributes:
+        product_of: Names of the factors, such as ``design.d5``.
+        at_most: Name of the bound, such as ``component.gripper.max_force``.
+    """
+
+    product_of: tuple[str, ...]
+    at_most: str
+
+    def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
+        """Tell whether it holds for a combination; it does where a role has no component yet."""
+        known = numbers(parameters, components)
+        if not {*self.product_of, self.at_most} <= known.keys():
+            return True
+        return prod(known[name] for name in self.product_of) <= known[self.at_most]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """What a combination must satisfy to be a design.
+
+    Attributes:
+        id: Its id.
+        rationale: Why it is so.
+        when: Where the rule applies; everywhere if it has no choices.
+        require: What must hold there; None where nothing that it applies to is a design.
+    """
+
+    id: str
+    rationale: str
+    when: Condition
+    require: Condition | Limit | None
+
+    def allows(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
+        """Tell whether a combination satisfies the rule."""
+        if not self.when.holds(parameters, components):
+            return True
+        return self.require is not None and self.require.holds(parameters, components)

@@ -1,0 +1,64 @@
+"""What the file of a design space may say."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from rgss.designs.fields import ConditionsField, ScalarField
+from rgss.designs.parameters import ParameterKind
+from rgss.documents import DocumentModel, Identifier, Text, UnitText
+
+
+class ParameterModel(DocumentModel):
+    """A design parameter: a quantity with a unit, a count, or the name of a component."""
+
+    id: Identifier
+    name: Identifier
+    symbol: Text
+    kind: ParameterKind = ParameterKind.QUANTITY
+    unit: UnitText | None = None
+    role: Identifier | None = None
+    description: Text
+    assumption: Text | None = None
+
+
+class LevelModel(DocumentModel):
+    """One setting of a factor."""
+
+    id: Identifier
+    sets: dict[Identifier, ScalarField]
+
+
+class FactorModel(DocumentModel):
+    """Parameters that are chosen together."""
+
+    id: Identifier
+    name: Text
+    levels: tuple[LevelModel, ...]
+
+
+class LimitModel(DocumentModel):
+    """A product of numbers of the design, and what it may not exceed."""
+
+    product_of: tuple[Identifier, ...] = Field(min_length=1)
+    at_most: Identifier
+
+
+class RuleModel(DocumentModel):
+    """A rule: ``exclude``, or ``require`` with or without ``when``, or ``limit`` likewise."""
+
+    id: Identifier
+    rationale: Text
+    when: ConditionsField | None = None
+    require: ConditionsField | None = None
+    limit: LimitModel | None = None
+    exclude: ConditionsField | None = None
+
+
+class DesignSpaceModel(DocumentModel):
+    """The file ``designs/grasping_system.yaml``."""
+
+    parameters: tuple[ParameterModel, ...] = Field(min_length=1)
+    constants: dict[Identifier, ScalarField] = Field(default_factory=dict)
+    factors: tuple[FactorModel, ...] = ()
+    rules: tuple[RuleModel, ...] = ()

@@ -1,0 +1,61 @@
+"""Findings about ids, values and names that more than one of the design files needs."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator, Sequence
+
+from rgss.designs.parameters import is_si, si_unit
+from rgss.documents import Document
+from rgss.errors import QuantityError
+from rgss.findings import Finding
+
+
+def duplicate_findings(
+    document: Document, section: Sequence[str | int], entries: Iterable[object], key: str = "id"
+) -> Iterator[Finding]:
+    """A finding at each entry of a list whose key repeats that of an earlier entry.
+
+    Args:
+        document: The file.
+        section: Where the list stands.
+        entries: The entries.
+        key: The key that tells them apart.
+    """
+    first: dict[str, int] = {}
+    for index, entry in enumerate(entries):
+        value = getattr(entry, key)
+        if value in first:
+            place = (*section, first[value], key)
+            message = f"{key} {value!r} stands already in line {document.values[place][0]}"
+            hint = f"give each its own {key}"
+            yield document.finding("design.duplicate-id", message, (*section, index, key), hint=hint)
+        first.setdefault(value, index)
+
+
+def dotted_findings(
+    document: Document, location: Sequence[str | int], name: str, *, at_key: bool = False
+) -> Iterator[Finding]:
+    """A finding if a name has a dot, which would make ``component.<role>.<property>`` ambiguous."""
+    if "." in name:
+        hint = f"write {name.replace('.', '_')}"
+        yield document.finding("design.dotted-id", f"{name!r} has a dot", location, hint=hint, at_key=at_key)
+
+
+def unit_findings(document: Document, location: Sequence[str | int], name: str, unit: str) -> Iterator[Finding]:
+    """A finding if a unit in which numbers are kept is not of SI."""
+    try:
+        if not is_si(unit):
+            message = f"{name}: unit {unit!r} is not of SI"
+            yield document.finding("design.unit", message, location, hint=f"write {si_unit(unit)}")
+    except QuantityError as error:
+        yield document.finding("design.unit", f"{name}: {error.message}", location, hint=error.hint)
+
+
+def near_hint(name: str, known: Iterable[str], what: str) -> str:
+    """A hint for a name that is not known: the nearest that is, or the list of them."""
+    names = sorted(set(known))
+    near = difflib.get_close_matches(name, names, n=1)
+    if near:
+        return f"did you mean {near[0]!r}?"
+    return f"{what}: {', '.join(names)}" if names else f"there are no {what}"

@@ -1,0 +1,202 @@
+"""Reading a design space, with every mistake in it and in the catalogue's matches."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from rgss.designs.components import Catalogue
+from rgss.designs.document import DesignSpaceModel, FactorModel, LevelModel, ParameterModel
+from rgss.designs.findings import dotted_findings, duplicate_findings, near_hint, unit_findings
+from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue
+from rgss.designs.rules import RuleReader
+from rgss.designs.selection import selection_findings
+from rgss.designs.space import DesignSpace, Factor, Level
+from rgss.designs.values import ValueReader
+from rgss.documents import Document, load_document
+from rgss.errors import DocumentError
+from rgss.findings import Finding
+
+LARGEST_SPACE = 100_000
+"""Combinations of levels that a design space may have."""
+
+
+def load_design_space(path: Path, catalogue: Catalogue, *, label: str | None = None) -> DesignSpace:
+    """Read a design space and match it with a catalogue.
+
+    Args:
+        path: The file.
+        catalogue: The components that it chooses from.
+        label: Its name in messages; the path itself by default.
+
+    Raises:
+        DocumentError: The file is not a design space, or a combination of its levels does
+            not select one component for each role; with every problem, also those in the
+            catalogue that only a design space shows.
+    """
+    loaded = load_document(path, DesignSpaceModel, label=label)
+    return _SpaceReader(loaded.document, loaded.value, catalogue).read()
+
+
+class _SpaceReader:
+    """Keeps what is sound while it reads, so that one mistake does not hide the others."""
+
+    def __init__(self, document: Document, model: DesignSpaceModel, catalogue: Catalogue) -> None:
+        self._document = document
+        self._model = model
+        self._catalogue = catalogue
+        self._findings: list[Finding] = []
+        self._values = ValueReader(parameters={}, names={})
+
+    def read(self) -> DesignSpace:
+        parameters = tuple(self._parameter(index, item) for index, item in enumerate(self._model.parameters))
+        self._find_duplicates()
+        self._values = ValueReader.of(parameters, self._catalogue)
+        selectors = self._selectors()
+        constants = self._read_values(self._model.constants, "constants")
+        setters: dict[str, str] = dict.fromkeys(self._model.constants, "the constants")
+        factors = tuple(self._factor(index, item, setters) for index, item in enumerate(self._model.factors))
+        self._find_unset(parameters, setters)
+        rules = RuleReader(self._document, self._values, self._catalogue, constants, factors).read(self._model.rules)
+        self._findings += rules.findings
+        space = DesignSpace(
+            parameters=parameters,
+            constants=constants,
+            factors=tuple(factor for factor in factors if factor.levels),
+            rules=rules.rules,
+            catalogue=self._catalogue,
+            selectors=selectors,
+        )
+        if not self._is_too_large(space):
+            self._findings += selection_findings(space, self._document, self._model)
+        if self._findings:
+            raise DocumentError(sorted(set(self._findings)))
+        return space
+
+    def _report(self, rule: str, message: str, *location: str | int, hint: str = "", at_key: bool = False) -> None:
+        self._findings.append(self._document.finding(f"design.{rule}", message, location, hint=hint, at_key=at_key))
+
+    def _find_duplicates(self) -> None:
+        document, model = self._document, self._model
+        self._findings += duplicate_findings(document, ("parameters",), model.parameters)
+        self._findings += duplicate_findings(document, ("parameters",), model.parameters, "name")
+        self._findings += duplicate_findings(document, ("factors",), model.factors)
+        self._findings += duplicate_findings(document, ("rules",), model.rules)
+        for index, factor in enumerate(model.factors):
+            self._findings += duplicate_findings(document, ("factors", index, "levels"), factor.levels)
+
+    def _parameter(self, index: int, model: ParameterModel) -> DesignParameter:
+        place = ("parameters", index)
+        self._findings += dotted_findings(self._document, (*place, "id"), model.id)
+        unit = model.unit or ("" if model.kind is ParameterKind.NAME else "1")
+        if model.kind is ParameterKind.NAME:
+            self._check_name_parameter(model, *place)
+        elif model.role is not None:
+            hint = "remove 'role', or write 'kind: name'"
+            self._report("role", f"{model.id} has a role but no names", *place, "role", hint=hint, at_key=True)
+        elif model.kind is ParameterKind.COUNT and unit != "1":
+            message = f"{model.id} is a count with a unit"
+            self._report("unit", message, *place, "unit", hint="remove 'unit'", at_key=True)
+        elif model.kind is ParameterKind.QUANTITY and model.unit is None:
+            self._report("unit", f"{model.id} has no unit", *place, hint="add 'unit', or 'kind: count' or 'kind: name'")
+        else:
+            self._findings += unit_findings(self._document, (*place, "unit"), model.id, unit)
+        return DesignParameter(
+            id=model.id,
+            name=model.name,
+            symbol=model.symbol,
+            kind=model.kind,
+            unit=unit,
+            role=model.role or "",
+            description=model.description,
+            assumption=model.assumption or "",
+        )
+
+    def _check_name_parameter(self, model: ParameterModel, *place: str | int) -> None:
+        roles = [role.id for role in self._catalogue.roles]
+        if model.unit is not None:
+            message = f"{model.id} has names and a unit"
+            self._report("unit", message, *place, "unit", hint="remove 'unit'", at_key=True)
+        if model.role is None:
+            hint = "add 'role': what its names stand for"
+            self._report("role", f"{model.id} has names of no role", *place, hint=hint)
+        elif model.role not in roles:
+            hint = near_hint(model.role, roles, "known roles")
+            self._report("unknown-role", f"unknown role {model.role!r}", *place, "role", hint=hint)
+
+    def _selectors(self) -> Mapping[str, Mapping[str, tuple[ParameterValue, ...]]]:
+        selectors = {}
+        for index, component in enumerate(self._catalogue.components):
+            read: dict[str, tuple[ParameterValue, ...]] = {}
+            for name, written in component.matches.items():
+                location = ("components", index, "matches", name)
+                values, findings = self._values.choices(self._catalogue.document, location, name, written)
+                self._findings += findings
+                read[name] = values
+            selectors[component.id] = read
+        return selectors
+
+    def _read_values(self, written: Mapping[str, ParameterValue], *place: str | int) -> Mapping[str, ParameterValue]:
+        """The sound ones among the values that a mapping gives to parameters."""
+        read = {}
+        for name, value in written.items():
+            values, findings = self._values.choices(self._document, (*place, name), name, (value,))
+            self._findings += findings
+            if values:
+                read[name] = values[0]
+        return read
+
+    def _factor(self, index: int, model: FactorModel, setters: dict[str, str]) -> Factor:
+        place = ("factors", index)
+        if not model.levels:
+            hint = "add a level, or set the parameters under 'constants'"
+            self._report("no-levels", f"factor {model.id!r} has no levels", *place, "levels", hint=hint)
+        names = list(dict.fromkeys(name for level in model.levels for name in level.sets))
+        taken = {name: setters[name] for name in names if name in setters}
+        for number, level in enumerate(model.levels):
+            self._check_level(level, names, taken, *place, "levels", number)
+        setters.update({name: f"factor {model.id!r}" for name in names if name not in taken})
+        levels = self._levels(model, taken, *place, "levels")
+        return Factor(id=model.id, name=model.name, levels=levels)
+
+    def _check_level(self, level: LevelModel, names: list[str], taken: Mapping[str, str], *place: str | int) -> None:
+        if not level.sets:
+            hint = "name a parameter and its value"
+            self._report("empty-level", f"level {level.id!r} sets nothing", *place, "sets", hint=hint)
+            return
+        for name in names:
+            if name not in level.sets:
+                message = f"level {level.id!r} does not set {name}, which other levels of its factor set"
+                self._report("level-incomplete", message, *place, "sets", hint=f"add {name}")
+            elif name in taken:
+                message = f"{name} is set already by {taken[name]}"
+                self._report("set-twice", message, *place, "sets", name, hint="set it in one place", at_key=True)
+
+    def _levels(self, model: FactorModel, taken: Mapping[str, str], *place: str | int) -> tuple[Level, ...]:
+        levels: list[Level] = []
+        for number, level in enumerate(model.levels):
+            values = self._read_values(level.sets, *place, number, "sets")
+            if len(values) < len(level.sets) or not values:
+                continue
+            equal = next((other.id for other in levels if other.values == values), None)
+            if equal is not None:
+                hint = "remove one of them"
+                self._report("equal-levels", f"level {level.id!r} equals level {equal!r}", *place, number, hint=hint)
+                continue
+            levels.append(Level(id=level.id, values={name: values[name] for name in values if name not in taken}))
+        return tuple(levels)
+
+    def _find_unset(self, parameters: tuple[DesignParameter, ...], setters: Mapping[str, str]) -> None:
+        for index, parameter in enumerate(parameters):
+            if parameter.id not in setters:
+                hint = "set it under 'constants', or in every level of a factor"
+                self._report("never-set", f"{parameter.id} is never set", "parameters", index, "id", hint=hint)
+
+    def _is_too_large(self, space: DesignSpace) -> bool:
+        combinations = 1
+        for factor in space.factors:
+            combinations *= len(factor.levels)
+        if combinations > LARGEST_SPACE:
+            message = f"the factors make {combinations} combinations; at most {LARGEST_SPACE} are expanded"
+            self._report("too-large", message, "factors", hint="study fewer factors or levels at once", at_key=True)
+        return combinations > LARGEST_SPACE

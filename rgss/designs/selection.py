@@ -1,0 +1,106 @@
+"""Whether every design selects exactly one component for each role."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from rgss.designs.components import Component
+from rgss.designs.document import DesignSpaceModel
+from rgss.designs.parameters import ParameterValue, format_value
+from rgss.designs.space import DesignSpace
+from rgss.documents import Document
+from rgss.findings import Finding
+
+
+def selection_findings(space: DesignSpace, document: Document, model: DesignSpaceModel) -> Iterator[Finding]:
+    """Findings for combinations without a component or with several for a role, each once.
+
+    Values with mistakes are not in the space, and say nothing here; with mistakes in the rules
+    nothing is said at all, for the rules might exclude what has no component.
+
+    Args:
+        space: The sound part of a design space.
+        document: Its file.
+        model: What the file says.
+    """
+    if len(space.rules) < len(model.rules):
+        return
+    selecting = _selecting_parameters(space)
+    seen: set[tuple[str, tuple[ParameterValue, ...]]] = set()
+    allowed = 0
+    for _, levels, parameters in space.combinations():
+        if space.rules_against(parameters):
+            continue
+        allowed += 1
+        for role, names in selecting.items():
+            if not all(name in parameters for name in names):
+                continue
+            values = tuple(parameters[name] for name in names)
+            if (role, values) in seen:
+                continue
+            seen.add((role, values))
+            candidates = space.candidates(role, parameters)
+            if len(candidates) == 1:
+                continue
+            where = _Combination(space=space, role=role, values=dict(zip(names, values, strict=True)), levels=levels)
+            yield where.several(candidates) if candidates else where.none(document, model)
+    if not allowed:
+        hint = "loosen a rule, or add levels"
+        yield document.finding(
+            "design.nothing-left", "the rules exclude every combination", ("rules",), hint=hint, at_key=True
+        )
+
+
+def _selecting_parameters(space: DesignSpace) -> Mapping[str, tuple[str, ...]]:
+    """The parameters that select the components of each role, of roles whose matches are sound."""
+    selecting = {}
+    for role in space.catalogue.roles:
+        components = space.catalogue.of_role(role.id)
+        selectors = [space.selectors[component.id] for component in components]
+        written = [component.matches for component in components]
+        if all(
+            len(read[name]) == len(values)
+            for read, match in zip(selectors, written, strict=True)
+            for name, values in match.items()
+        ):
+            selecting[role.id] = tuple(dict.fromkeys(name for match in written for name in match))
+    return selecting
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Combination:
+    """Values of the parameters that select the component of a role, and where they come from."""
+
+    space: DesignSpace
+    role: str
+    values: Mapping[str, ParameterValue]
+    levels: Mapping[str, str]
+
+    def none(self, document: Document, model: DesignSpaceModel) -> Finding:
+        message = f"no {self.role} in the catalogue matches {self._words()}"
+        hint = "add a component, or a rule that excludes the combination"
+        return document.finding("design.no-component", message, self._location(model), hint=hint)
+
+    def several(self, candidates: tuple[Component, ...]) -> Finding:
+        catalogue = self.space.catalogue
+        index = catalogue.components.index(candidates[1])
+        ids = ", ".join(component.id for component in candidates)
+        where = f" where {self._words()}" if self.values else " in every design"
+        message = f"{len(candidates)} components fill the role {self.role!r}{where}: {ids}"
+        hint = "let their 'matches' differ"
+        location = ("components", index, "matches" if candidates[1].matches else "id")
+        return catalogue.document.finding("design.several-components", message, location, hint=hint)
+
+    def _words(self) -> str:
+        units = {parameter.id: parameter.unit for parameter in self.space.parameters}
+        return ", ".join(f"{name} = {format_value(value, units[name])}" for name, value in self.values.items())
+
+    def _location(self, model: DesignSpaceModel) -> tuple[str | int, ...]:
+        """Where the innermost factor sets one of the values; else where a constant does."""
+        for index, factor in reversed(list(enumerate(model.factors))):
+            for number, level in enumerate(factor.levels):
+                for name in self.values:
+                    if self.levels.get(factor.id) == level.id and name in level.sets:
+                        return ("factors", index, "levels", number, "sets", name)
+        return ("constants", *list(self.values)[:1])

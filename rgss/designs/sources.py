@@ -1,0 +1,47 @@
+"""The values of a design that measures and rules name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from rgss.designs.components import Catalogue, Component
+from rgss.designs.parameters import DesignParameter, ParameterValue
+
+if TYPE_CHECKING:
+    from rgss.designs.variants import DesignVariant
+
+COMPONENT_PREFIX = "component."
+DESIGN_PREFIX = "design."
+
+
+def sources(variant: DesignVariant) -> Mapping[str, float | str]:
+    """The values that measures may take from a design, in SI.
+
+    Returns:
+        ``design.<parameter>`` for every parameter, then ``component.<role>.<property>`` for
+        every component, where ``cost`` (in US dollars) is a property of each.
+    """
+    named = {f"{DESIGN_PREFIX}{name}": value for name, value in variant.parameters.items()}
+    return {**named, **numbers(variant.parameters, variant.components)}
+
+
+def numbers(parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> Mapping[str, float]:
+    """Every number of a combination of parameter values and components, named as by `sources`."""
+    found: dict[str, float] = {}
+    for name, value in parameters.items():
+        if not isinstance(value, str):
+            found[f"{DESIGN_PREFIX}{name}"] = value
+    for role, component in components.items():
+        for name, magnitude in component.magnitudes().items():
+            found[f"{COMPONENT_PREFIX}{role}.{name}"] = magnitude
+    return found
+
+
+def source_units(parameters: Iterable[DesignParameter], catalogue: Catalogue) -> Mapping[str, str]:
+    """The SI unit of each value that `sources` gives, by its name; empty for names."""
+    units = {f"{DESIGN_PREFIX}{parameter.id}": parameter.unit for parameter in parameters}
+    for role in catalogue.roles:
+        for name, unit in {"cost": "USD", **role.properties}.items():
+            units[f"{COMPONENT_PREFIX}{role.id}.{name}"] = unit
+    return units

@@ -1,0 +1,75 @@
+"""Values of design parameters as they stand in files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from rgss.designs.components import Catalogue
+from rgss.designs.findings import near_hint
+from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue
+from rgss.documents import Document
+from rgss.errors import QuantityError
+from rgss.findings import Finding, shown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ValueReader:
+    """Reads the values of named parameters.
+
+    Attributes:
+        parameters: The parameters by id.
+        names: The names that the components of a known role list under a parameter, by
+            parameter id.
+    """
+
+    parameters: Mapping[str, DesignParameter]
+    names: Mapping[str, tuple[str, ...]]
+
+    @classmethod
+    def of(cls, parameters: Sequence[DesignParameter], catalogue: Catalogue) -> ValueReader:
+        """A reader for parameters whose names are those of a catalogue."""
+        names = {}
+        roles = {role.id for role in catalogue.roles}
+        for parameter in parameters:
+            if parameter.kind is ParameterKind.NAME and parameter.role in roles:
+                matches = [component.matches.get(parameter.id, ()) for component in catalogue.of_role(parameter.role)]
+                names[parameter.id] = tuple(str(name) for values in matches for name in values)
+        return cls(parameters={parameter.id: parameter for parameter in reversed(parameters)}, names=names)
+
+    def choices(
+        self, document: Document, location: Sequence[str | int], name: str, written: Sequence[ParameterValue]
+    ) -> tuple[tuple[ParameterValue, ...], list[Finding]]:
+        """Read the values that a key gives to a parameter.
+
+        Args:
+            document: The file.
+            location: Where the value or the list of values stands.
+            name: The key: the parameter's id.
+            written: The values as they are written.
+
+        Returns:
+            The sound ones in SI, and a finding for each of the others.
+        """
+        parameter = self.parameters.get(name)
+        if parameter is None:
+            hint = near_hint(name, self.parameters, "known parameters")
+            message = f"unknown design parameter {name!r}"
+            return (), [document.finding("design.unknown-parameter", message, location, hint=hint, at_key=True)]
+        values: list[ParameterValue] = []
+        findings = []
+        for index, item in enumerate(written):
+            # A single value stands at the location itself: the index is then passed over.
+            place = (*location, index)
+            try:
+                value = parameter.read(item)
+            except QuantityError as error:
+                findings.append(document.finding("design.value", f"{name}: {error.message}", place, hint=error.hint))
+                continue
+            if value not in self.names.get(name, (value,)):
+                hint = near_hint(str(value), self.names[name], f"known {parameter.role} names")
+                message = f"{name}: no {parameter.role} component is named {shown(value)}"
+                findings.append(document.finding("design.unknown-name", message, place, hint=hint))
+                continue
+            values.append(value)
+        return tuple(values), findings

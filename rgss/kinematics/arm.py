@@ -1,0 +1,144 @@
+"""Forward kinematics, Jacobians and inverse dynamics of the arm at its tool centre."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rgss.kinematics.description import build_model, pose_of, transform
+from rgss.scenes import Pose, Robot
+
+Vector = NDArray[np.float64]
+
+STANDARD_GRAVITY_M_S2 = 9.80665
+
+
+class Arm:
+    """A six-joint arm with a tool at its flange.
+
+    Args:
+        robot: The arm.
+        tool: Transform of the tool-centre frame to the flange.
+        gravity_m_s2: Magnitude of gravity along the world's -z, for the inverse dynamics.
+
+    Raises:
+        DefinitionError: The robot's description and its data contradict each other.
+    """
+
+    def __init__(self, robot: Robot, tool: Pose, *, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> None:
+        import pinocchio
+
+        self.robot = robot
+        self.tool = tool
+        self._engine: Any = pinocchio
+        self._model = build_model(robot)
+        self._model.gravity.linear = np.array([0.0, 0.0, -gravity_m_s2])
+        flange = self._model.frames[self._model.getFrameId(robot.flange)]
+        self._tool = self._model.addFrame(
+            pinocchio.Frame(
+                "tool_centre", flange.parentJoint, flange.placement * transform(tool), pinocchio.FrameType.OP_FRAME
+            )
+        )
+        self._data = self._model.createData()
+
+    @property
+    def lower_rad(self) -> Vector:
+        """Lower ends of the joints' planning ranges, shape (6,)."""
+        return np.array([joint.lower_rad for joint in self.robot.joints])
+
+    @property
+    def upper_rad(self) -> Vector:
+        """Upper ends of the joints' planning ranges, shape (6,)."""
+        return np.array([joint.upper_rad for joint in self.robot.joints])
+
+    def tool_pose(self, q: Sequence[float] | Vector) -> Pose:
+        """Transform of the tool-centre frame to the world.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+        """
+        return pose_of(self._placement(q))
+
+    def tool_position(self, qs: ArrayLike) -> Vector:
+        """Positions of the tool centre in the world.
+
+        Args:
+            qs: Joint angles in rad, shape (n, 6).
+
+        Returns:
+            Positions in m, shape (n, 3).
+        """
+        rows = np.atleast_2d(np.asarray(qs, dtype=float))
+        positions = np.empty((len(rows), 3))
+        for index, q in enumerate(rows):
+            positions[index] = self._placement(q).translation
+        return positions
+
+    def tool_jacobian(self, q: Sequence[float] | Vector) -> Vector:
+        """Jacobian at the tool centre along the axes of the world: ``(v, ω) = J(q) q̇``.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+
+        Returns:
+            Shape (6, 6): the linear rows in m/rad first, then the angular rows.
+        """
+        jacobian: Vector = self._engine.computeFrameJacobian(
+            self._model,
+            self._data,
+            np.asarray(q, dtype=float),
+            self._tool,
+            self._engine.ReferenceFrame.LOCAL_WORLD_ALIGNED,
+        )
+        return jacobian
+
+    def inverse_dynamics(
+        self, q: Sequence[float] | Vector, dq: Sequence[float] | Vector, ddq: Sequence[float] | Vector
+    ) -> Vector:
+        """Torques of the bare arm by the recursive Newton-Euler algorithm.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+            dq: Joint speeds in rad/s, shape (6,).
+            ddq: Joint accelerations in rad/s², shape (6,).
+
+        Returns:
+            Joint torques in N·m, shape (6,).
+        """
+        torques: Vector = self._engine.rnea(
+            self._model,
+            self._data,
+            np.asarray(q, dtype=float),
+            np.asarray(dq, dtype=float),
+            np.asarray(ddq, dtype=float),
+        )
+        return np.array(torques)
+
+    def joint_axes(self) -> tuple[Vector, Vector]:
+        """Axes of the joints and a point of the tool at the zero configuration, in the world.
+
+        Returns:
+            Unit directions, shape (6, 3), and the steps between points on consecutive axes, shape
+            (7, 3): from the world's origin to the first, …, from the last to the tool centre. This is
+            the product-of-exponentials form that the analytic inverse kinematics takes.
+        """
+        zero = np.zeros(self._model.nq)
+        directions = np.array(self._engine.computeJointJacobians(self._model, self._data, zero))[3:].T
+        joints = [self._data.oMi[index].translation for index in range(1, self._model.njoints)]
+        points = np.array([np.zeros(3), *joints, self._placement(zero).translation])
+        return directions, np.diff(points, axis=0)
+
+    def tool_rotation_at_zero(self) -> Vector:
+        """Orientation of the tool-centre frame in the world at the zero configuration, shape (3, 3)."""
+        return np.array(self._placement(np.zeros(self._model.nq)).rotation)
+
+    def tool_matrix(self, q: Sequence[float] | Vector) -> Vector:
+        """Homogeneous transform of the tool-centre frame to the world, shape (4, 4)."""
+        return np.array(self._placement(q).homogeneous)
+
+    def _placement(self, q: Sequence[float] | Vector) -> Any:
+        self._engine.forwardKinematics(self._model, self._data, np.asarray(q, dtype=float))
+        return self._engine.updateFramePlacement(self._model, self._data, self._tool)

@@ -1,0 +1,79 @@
+"""Straight lines of the tool, followed in one branch of the inverse kinematics."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.kinematics.inverse import InverseKinematics
+from rgss.scenes import Pose
+
+Vector = NDArray[np.float64]
+Quaternion = tuple[float, float, float, float]
+
+
+def straight_line(
+    inverse: InverseKinematics,
+    start: Sequence[float] | Vector,
+    goal: Pose,
+    *,
+    step_m: float = 0.005,
+    step_rad: float = 0.02,
+    largest_joint_step_rad: float = 0.2,
+) -> Vector | None:
+    """Move the tool centre along a straight line, turning it evenly, without changing the branch.
+
+    Args:
+        inverse: Inverse kinematics of the arm.
+        start: Joint angles in rad at the start, shape (6,).
+        goal: Transform of the tool-centre frame to the world at the end.
+        step_m: Greatest distance of the tool between two rows of the result.
+        step_rad: Greatest turn of the tool between two rows of the result.
+        largest_joint_step_rad: Greatest change of a joint between two rows; more means that the branch
+            ends there, as it does at a singularity.
+
+    Returns:
+        Joint angles in rad, shape (n, 6), from the start to the goal; None when the line leaves the reach
+        or the joints' ranges, or the branch ends on the way.
+    """
+    rows = [np.array(start, dtype=float)]
+    origin = inverse.arm.tool_pose(rows[0])
+    distance = math.dist(origin.position_m, goal.position_m)
+    turn = _angle(origin.quaternion_xyzw, goal.quaternion_xyzw)
+    count = max(1, math.ceil(distance / step_m - 1e-9), math.ceil(turn / step_rad - 1e-9))
+    for index in range(1, count + 1):
+        q = inverse.nearest(_between(origin, goal, index / count), rows[-1])
+        if q is None or np.max(np.abs(q - rows[-1])) > largest_joint_step_rad:
+            return None
+        rows.append(q)
+    return np.array(rows)
+
+
+def _between(start: Pose, goal: Pose, fraction: float) -> Pose:
+    x, y, z = (a + fraction * (b - a) for a, b in zip(start.position_m, goal.position_m, strict=True))
+    return Pose(position_m=(x, y, z), quaternion_xyzw=_slerp(start.quaternion_xyzw, goal.quaternion_xyzw, fraction))
+
+
+def _angle(one: Quaternion, other: Quaternion) -> float:
+    """Angle between two orientations, accurate near zero, where an arc cosine is not."""
+    same = math.dist(one, other)
+    opposite = math.dist(one, [-value for value in other])
+    return 4 * math.asin(min(1.0, min(same, opposite) / 2))
+
+
+def _slerp(start: Quaternion, goal: Quaternion, fraction: float) -> Quaternion:
+    """Turn evenly from one orientation to another, the short way round (Shoemake 1985)."""
+    if math.dist(start, goal) > math.dist(start, [-value for value in goal]):
+        goal = (-goal[0], -goal[1], -goal[2], -goal[3])
+    half = 2 * math.asin(min(1.0, math.dist(start, goal) / 2))
+    if half < 1e-9:
+        first, second = 1.0 - fraction, fraction
+    else:
+        first = math.sin((1 - fraction) * half) / math.sin(half)
+        second = math.sin(fraction * half) / math.sin(half)
+    x, y, z, w = (first * a + second * b for a, b in zip(start, goal, strict=True))
+    norm = math.sqrt(x * x + y * y + z * z + w * w)
+    return (x / norm, y / norm, z / norm, w / norm)

@@ -1,0 +1,69 @@
+"""The arm's rigid-body model in the world, read from its URDF."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rgss.errors import DefinitionError
+from rgss.scenes import Pose, Robot
+
+
+def build_model(robot: Robot) -> Any:
+    """Build the Pinocchio model of an arm whose base stands where the scene puts it.
+
+    Every frame of the model, and gravity, is expressed in the world, so that a tilted base
+    needs no further care.
+
+    Args:
+        robot: The arm.
+
+    Raises:
+        DefinitionError: The URDF cannot be read, or its joints or links are not those of the robot.
+    """
+    import pinocchio
+
+    try:
+        model = pinocchio.buildModelFromXML(robot.urdf)
+    except (ValueError, RuntimeError) as error:
+        raise DefinitionError(
+            f"the description of the robot {robot.id} cannot be read", hint=str(error).strip() or "it is no URDF"
+        ) from error
+    found = tuple(model.names)[1:]
+    wanted = tuple(joint.name for joint in robot.joints)
+    if found != wanted:
+        raise DefinitionError(
+            f"the robot {robot.id} has the joints {', '.join(wanted)}, but its description "
+            f"has {', '.join(found) or 'none'}",
+            hint="name the movable joints as the description does, from base to flange",
+        )
+    if not model.existFrame(robot.flange):
+        links = [frame.name for frame in model.frames if frame.type == pinocchio.FrameType.BODY]
+        raise DefinitionError(
+            f"the robot {robot.id} has no link {robot.flange} to carry the gripper",
+            hint=f"the links are {', '.join(links)}",
+        )
+    base = transform(robot.base)
+    # A joint's placement is relative to its parent joint, the universe's being the base frame.
+    for index in range(1, model.njoints):
+        if model.parents[index] == 0:
+            model.jointPlacements[index] = base * model.jointPlacements[index]
+    for frame in model.frames:
+        if frame.parentJoint == 0 and frame.name != "universe":
+            frame.placement = base * frame.placement
+    return model
+
+
+def transform(pose: Pose) -> Any:
+    """The rigid transform of Pinocchio that equals a pose."""
+    import numpy as np
+    import pinocchio
+
+    return pinocchio.XYZQUATToSE3(np.array([*pose.position_m, *pose.quaternion_xyzw]))
+
+
+def pose_of(placement: Any) -> Pose:
+    """The pose that equals a rigid transform of Pinocchio."""
+    import pinocchio
+
+    x, y, z, qx, qy, qz, qw = (float(value) for value in pinocchio.SE3ToXYZQUAT(placement))
+    return Pose(position_m=(x, y, z), quaternion_xyzw=(qx, qy, qz, qw))

@@ -1,0 +1,101 @@
+"""The solids that can collide, each with the joint it moves with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from rgss.errors import DefinitionError
+from rgss.kinematics.description import transform
+from rgss.kinematics.situation import Situation
+from rgss.scenes import Box, GripperGeometry, Scene, Shape
+from rgss.scenes.assembly import GRIPPER_BASE_LINK, finger_link
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Part:
+    """One convex solid.
+
+    Attributes:
+        name: The link, body or workpiece that it belongs to; a name can have several parts.
+        chain: Number of the joint it moves with, 0 for the arm's base; None when it belongs to the scene.
+        joint: Index of that joint in the model, the universe for what stands still.
+        placement: Transform of the solid to the joint's frame (to the world where the joint is the universe).
+        shape: The solid.
+    """
+
+    name: str
+    chain: int | None
+    joint: int
+    placement: Any
+    shape: Any
+
+    def can_meet(self, other: Part) -> bool:
+        """Tell whether the two can come together: not when nothing moves between them, nor as neighbouring links."""
+        if self.joint == other.joint:
+            return False
+        if self.chain is None or other.chain is None:
+            return True
+        return abs(self.chain - other.chain) > 1
+
+
+def collision_parts(model: Any, scene: Scene, gripper: GripperGeometry, situation: Situation) -> tuple[Part, ...]:
+    """List the solids of arm, gripper, workpiece and scene.
+
+    Args:
+        model: The arm's model in the world.
+        scene: The scene.
+        gripper: The gripper at the flange.
+        situation: Opening of the gripper, and where the workpiece is.
+    """
+    flange = model.frames[model.getFrameId(scene.robot.flange)]
+    joint, to_joint = flange.parentJoint, flange.placement
+    parts = _arm_parts(model, scene)
+
+    def held(name: str, placement: Any, shape: Shape) -> Part:
+        return Part(name=name, chain=joint, joint=joint, placement=to_joint * placement, shape=_solid(shape))
+
+    def fixed(name: str, placement: Any, shape: Shape) -> Part:
+        return Part(name=name, chain=None, joint=0, placement=placement, shape=_solid(shape))
+
+    parts.append(held(GRIPPER_BASE_LINK, transform(gripper.base_pose), gripper.base))
+    for finger in range(gripper.fingers):
+        pose = gripper.finger_pose(finger, situation.opening_m)
+        parts.append(held(finger_link(finger), transform(pose), gripper.finger))
+    workpiece = scene.workpiece
+    if situation.carried is not None:
+        parts.append(held(workpiece.id, transform(gripper.grasp_centre @ situation.carried), workpiece.shape))
+    if situation.standing is not None:
+        parts.append(fixed(workpiece.id, transform(situation.standing), workpiece.shape))
+    parts.extend(fixed(body.id, transform(body.pose), body.shape) for body in scene.bodies)
+    return tuple(parts)
+
+
+def _arm_parts(model: Any, scene: Scene) -> list[Part]:
+    import pinocchio
+
+    try:
+        solids = pinocchio.buildGeomFromUrdfString(model, scene.robot.urdf, pinocchio.GeometryType.COLLISION)
+    except (ValueError, RuntimeError) as error:
+        raise DefinitionError(
+            f"the collision shapes of the robot {scene.robot.id} cannot be read",
+            hint=str(error).strip() or "use boxes and cylinders alone",
+        ) from error
+    return [
+        Part(
+            name=model.frames[solid.parentFrame].name,
+            chain=solid.parentJoint,
+            joint=solid.parentJoint,
+            placement=solid.placement,
+            shape=solid.geometry,
+        )
+        for solid in solids.geometryObjects
+    ]
+
+
+def _solid(shape: Shape) -> Any:
+    import coal
+
+    if isinstance(shape, Box):
+        return coal.Box(*shape.size_m)
+    return coal.Cylinder(shape.radius_m, shape.height_m)

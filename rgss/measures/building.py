@@ -1,0 +1,211 @@
+"""From the entries of a measures file to a consistent set of measures."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from rgss.documents import LoadedDocument
+from rgss.errors import QuantityError
+from rgss.findings import Finding
+from rgss.measures.consistency import check_entries, check_roles
+from rgss.measures.definitions import (
+    Assumption,
+    Constant,
+    Equation,
+    EstimateRule,
+    Estimator,
+    InputSymbol,
+    Measure,
+    MeasureSet,
+)
+from rgss.measures.dependencies import evaluation_order, transitive_use
+from rgss.measures.dimensions import PURE, Kind, kind_of, si_unit
+from rgss.measures.document import ConstantEntry, MeasureEntry, MeasuresDocument
+from rgss.measures.expressions import Expression, ExpressionProblem
+from rgss.measures.parsing import parse_expression
+from rgss.quantities import conversion_factor, dimension, parse_quantity
+
+
+def build_measures(loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str]) -> MeasureSet | list[Finding]:
+    """Build the set of measures.
+
+    Args:
+        loaded: The file's entries with their positions.
+        lines: The file's lines, to point into expressions.
+
+    Returns:
+        The measures, or every problem of the file.
+    """
+    return _Builder(loaded, lines).build()
+
+
+class _Builder:
+    def __init__(self, loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str]) -> None:
+        self._document = loaded.document
+        self._entries = loaded.value
+        self._lines = lines
+        self._indices: dict[str, int] = {}
+        for index, entry in enumerate(loaded.value.measures):
+            self._indices.setdefault(entry.id, index)
+        self._findings: list[Finding] = check_entries(loaded)
+
+    def build(self) -> MeasureSet | list[Finding]:
+        entries = self._entries
+        values = [self._constant_value(index) for index in range(len(entries.constants))]
+        expressions = self._expressions()
+        self._check_symbols(expressions)
+        order, used = self._order(expressions)
+        lengths = self._check_kinds(expressions, order)
+        by_trial = {name: told for name in order if (told := self._differs(used[name], {*order})) is not None}
+        self._findings += check_roles(self._document, entries, used, by_trial, lengths)
+        if self._findings:
+            return self._findings
+        measures = {
+            name: _measure(entries.measures[self._indices[name]], expressions[name], lengths[name]) for name in order
+        }
+        return MeasureSet(
+            constants=tuple(_constant(entry, value) for entry, value in zip(entries.constants, values, strict=True)),
+            inputs=tuple(InputSymbol(**dict(entry)) for entry in entries.inputs),
+            assumptions=tuple(Assumption(**dict(entry)) for entry in entries.assumptions),
+            equations=tuple(
+                Equation(id=entry.id, relation=entry.relation, note=entry.note or "") for entry in entries.equations
+            ),
+            measures=tuple(measures[entry.id] for entry in entries.measures),
+            evaluation_order=tuple(measures[name] for name in order),
+            used=used,
+        )
+
+    def _order(self, expressions: dict[str, Expression]) -> tuple[tuple[str, ...], Mapping[str, frozenset[str]]]:
+        uses = {name: [other for other in one.names if other in expressions] for name, one in expressions.items()}
+        order, cycles = evaluation_order(uses)
+        for cycle in cycles:
+            message = f"measures stand on one another in a circle: {' → '.join(cycle)}"
+            self._report(cycle[0], "measures.cycle", message, hint="let one of them not use the next")
+        return order, transitive_use({name: one.names for name, one in expressions.items()}, order)
+
+    def _differs(self, used: frozenset[str], sound: set[str]) -> bool | None:
+        """Whether what stands on these symbols differs from trial to trial; None if it cannot be told."""
+        inputs = {entry.id: entry.source.startswith("trial.") for entry in self._entries.inputs}
+        if any(inputs.get(name, False) for name in used):
+            return True
+        sound_symbols = {*inputs, *sound, *(entry.id for entry in self._entries.constants)}
+        return False if used <= sound_symbols else None
+
+    def _constant_value(self, index: int) -> float:
+        entry = self._entries.constants[index]
+        location = ("constants", index, "value")
+        try:
+            value = parse_quantity(entry.value, entry.unit) * _si_per_unit(entry.unit)
+        except QuantityError as error:
+            self._findings.append(self._document.finding("measures.unit", error.message, location, hint=error.hint))
+            return math.nan
+        if not math.isfinite(value):
+            self._findings.append(self._document.finding("measures.unit", "the number is too large", location))
+        return value
+
+    def _expressions(self) -> dict[str, Expression]:
+        expressions: dict[str, Expression] = {}
+        for name, index in self._indices.items():
+            parsed = parse_expression(self._entries.measures[index].expression)
+            if isinstance(parsed, Expression):
+                expressions[name] = parsed
+            else:
+                self._report_all(name, parsed)
+        return expressions
+
+    def _check_symbols(self, expressions: dict[str, Expression]) -> None:
+        constants, inputs = self._entries.constants, self._entries.inputs
+        known = {*self._indices, *(entry.id for entry in constants), *(entry.id for entry in inputs)}
+        for name, expression in expressions.items():
+            for symbol, offset in expression.names.items():
+                if symbol not in known:
+                    near = difflib.get_close_matches(symbol, sorted(known), n=1)
+                    hint = f"did you mean {near[0]!r}?" if near else "define it as a constant, an input or a measure"
+                    message = f"unknown symbol {symbol!r}"
+                    self._report(name, "measures.unknown-symbol", message, offset=offset, hint=hint)
+
+    def _check_kinds(self, expressions: dict[str, Expression], order: tuple[str, ...]) -> dict[str, int | None]:
+        """Check every unit; the number of entries of each measure of which it can be told."""
+        kinds: dict[str, Kind | None] = {}
+        for constant in self._entries.constants:
+            kinds[constant.id] = Kind(dimension=dimension(constant.unit))
+        for index, symbol in enumerate(self._entries.inputs):
+            kinds[symbol.id] = Kind(dimension=dimension(symbol.unit), length=symbol.length)
+            self._check_unit(("inputs", index, "unit"), symbol.unit)
+        lengths: dict[str, int | None] = {}
+        for name in order:
+            entry = self._entries.measures[self._indices[name]]
+            self._check_unit(("measures", self._indices[name], "unit"), entry.unit)
+            kind, problems = kind_of(expressions[name], kinds)
+            self._report_all(name, problems)
+            if kind is None:
+                continue
+            declared = dimension(entry.unit)
+            if kind.dimension != declared:
+                message = f"the expression gives {si_unit(kind.dimension)}, the measure's unit is {entry.unit}"
+                self._report(name, "measures.unit", message, hint="correct the expression or the unit")
+            # What stands on this measure is checked against what it is declared to be.
+            kinds[name] = Kind(dimension=declared, length=kind.length)
+            lengths[name] = kind.length
+            proportion = entry.estimate is not None and entry.estimate.statistic is Estimator.PROPORTION
+            if proportion and (declared != PURE or entry.unit != "1" or kind.length is not None):
+                location = ("measures", self._indices[name], "estimate", "statistic")
+                message = 'a proportion needs a single number in unit "1"'
+                self._findings.append(self._document.finding("measures.estimate", message, location))
+        return lengths
+
+    def _check_unit(self, location: tuple[str | int, ...], unit: str) -> None:
+        try:
+            _si_per_unit(unit)
+        except QuantityError as error:
+            self._findings.append(self._document.finding("measures.unit", error.message, location, hint=error.hint))
+
+    def _report_all(self, name: str, problems: Sequence[ExpressionProblem]) -> None:
+        for problem in problems:
+            self._report(name, problem.rule, problem.message, offset=problem.offset, hint=problem.hint)
+
+    def _report(self, name: str, rule: str, message: str, *, offset: int | None = None, hint: str = "") -> None:
+        location = ("measures", self._indices[name], "expression")
+        finding = self._document.finding(rule, message, location, hint=hint)
+        if offset is not None:
+            expression = self._entries.measures[self._indices[name]].expression
+            finding = replace(finding, column=self._column(finding, expression, offset))
+        self._findings.append(finding)
+
+    def _column(self, finding: Finding, expression: str, offset: int) -> int:
+        """The column of a character of an expression; its first where it is folded over lines."""
+        written = self._lines[finding.line - 1][finding.column - 1 :]
+        if written.startswith(expression):
+            return finding.column + offset
+        return finding.column + 1 + offset if written[1:].startswith(expression) else finding.column
+
+
+def _constant(entry: ConstantEntry, value: float) -> Constant:
+    return Constant(id=entry.id, value=value, unit=entry.unit, definition=entry.definition, source=entry.source or "")
+
+
+def _measure(entry: MeasureEntry, expression: Expression, length: int | None) -> Measure:
+    rule = entry.estimate
+    return Measure(
+        id=entry.id,
+        kind=entry.kind,
+        name=entry.name,
+        definition=entry.definition,
+        unit=entry.unit,
+        si_per_unit=_si_per_unit(entry.unit),
+        expression=expression,
+        equation=entry.equation,
+        better=entry.better,
+        traces=entry.traces,
+        contributes_to=entry.contributes_to,
+        estimate=None if rule is None else EstimateRule(statistic=rule.statistic, over=rule.over),
+        summary=entry.summary,
+        length=length,
+    )
+
+
+def _si_per_unit(unit: str) -> float:
+    return conversion_factor(unit, si_unit(dimension(unit)))

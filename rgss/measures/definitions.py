@@ -1,0 +1,255 @@
+"""What a measures file defines: constants, inputs, equations, assumptions and measures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.errors import DefinitionError
+from rgss.measures.expressions import Expression
+
+
+class MeasureKind(str, Enum):
+    """What a measure is for: effectiveness is judged by stakeholders, performance by engineers."""
+
+    EFFECTIVENESS = "moe"
+    PERFORMANCE = "mop"
+    SUPPLEMENTARY = "supplementary"
+
+
+class Direction(str, Enum):
+    """Which values of a measure are better."""
+
+    HIGHER = "higher"
+    LOWER = "lower"
+    NONE = "none"
+
+
+class Estimator(str, Enum):
+    """How trial values become one value.
+
+    A mean is the mean of the trials' values; a proportion is the share of trials whose value
+    is complete, which is 1.
+    """
+
+    MEAN = "mean"
+    PROPORTION = "proportion"
+
+
+class Population(str, Enum):
+    """Which trials an estimate stands on: those that succeeded, or every one."""
+
+    SUCCESSFUL = "successful"
+    ALL = "all"
+
+
+class Summary(str, Enum):
+    """How the entries of a row become the one number that is estimated."""
+
+    SUM = "sum"
+    MEAN = "mean"
+    MAX = "max"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Constant:
+    """A number that is the same for every design.
+
+    Attributes:
+        id: Its symbol.
+        value: Its value in SI.
+        unit: The unit it is shown in.
+        definition: What it is.
+        source: Where it is from; empty when it is an assumption.
+    """
+
+    id: str
+    value: float
+    unit: str
+    definition: str
+    source: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InputSymbol:
+    """A symbol whose value comes from a design, a component or a trial.
+
+    Attributes:
+        id: Its symbol.
+        source: Where its value comes from: ``design.d1``, ``component.gripper.cost`` or
+            ``trial.path_length_m``. Values arrive in SI.
+        unit: What it measures.
+        length: The number of its entries; None for a single number.
+        definition: What it is.
+    """
+
+    id: str
+    source: str
+    unit: str
+    length: int | None
+    definition: str
+
+    @property
+    def from_trial(self) -> bool:
+        """Whether it differs from trial to trial."""
+        return self.source.startswith("trial.")
+
+    @property
+    def metric(self) -> str:
+        """The name of its value in its source, such as ``path_length_m``."""
+        return self.source.split(".", 1)[1]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assumption:
+    """A decision on something that the sources leave open.
+
+    Attributes:
+        id: Its id.
+        statement: What is assumed.
+        rationale: Why.
+        concerns: The constants, inputs, measures and equations that rest on it.
+    """
+
+    id: str
+    statement: str
+    rationale: str
+    concerns: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Equation:
+    """A numbered relation that measures realise.
+
+    Attributes:
+        id: Its number, such as ``4.1``.
+        relation: The relation as it is published.
+        note: How it is realised where that is not the expression itself; may be empty.
+    """
+
+    id: str
+    relation: str
+    note: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EstimateRule:
+    """How the values of trials become an estimate."""
+
+    statistic: Estimator
+    over: Population
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measure:
+    """A quantity by which designs are compared.
+
+    Attributes:
+        id: Its id, which is also its symbol in expressions.
+        kind: What it is for.
+        name: Its name.
+        definition: What it is.
+        unit: The unit that it is given in.
+        si_per_unit: What one of that unit is in SI.
+        expression: Its value from constants, inputs and other measures.
+        equation: The equation that it realises; None if none is published.
+        better: Which values are better.
+        traces: Stakeholder needs that it stands for.
+        contributes_to: Measures of effectiveness that it contributes to.
+        estimate: How trial values become one; None when it follows from the design alone.
+        summary: How a row becomes one number; None for a single number.
+        length: The number of its entries; None for a single number.
+    """
+
+    id: str
+    kind: MeasureKind
+    name: str
+    definition: str
+    unit: str
+    si_per_unit: float
+    expression: Expression
+    equation: str | None
+    better: Direction
+    traces: tuple[str, ...]
+    contributes_to: tuple[str, ...]
+    estimate: EstimateRule | None
+    summary: Summary | None
+    length: int | None
+
+    @property
+    def from_trials(self) -> bool:
+        """Whether it differs from trial to trial."""
+        return self.estimate is not None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeasureSet:
+    """Every measure of a project, consistent as a whole.
+
+    Attributes:
+        constants: The constants, in the order of the file.
+        inputs: The input symbols, in the order of the file.
+        assumptions: The assumptions, in the order of the file.
+        equations: The equations, in the order of the file.
+        measures: The measures, in the order of the file.
+        evaluation_order: The measures, each after those that it stands on.
+        used: For each measure, the ids of all measures and the symbols of all inputs and
+            constants that it stands on, directly or not.
+    """
+
+    constants: tuple[Constant, ...]
+    inputs: tuple[InputSymbol, ...]
+    assumptions: tuple[Assumption, ...]
+    equations: tuple[Equation, ...]
+    measures: tuple[Measure, ...]
+    evaluation_order: tuple[Measure, ...]
+    used: Mapping[str, frozenset[str]]
+
+    def measure(self, id: str) -> Measure:  # noqa: A002 - the domain's word
+        """The measure with an id.
+
+        Raises:
+            DefinitionError: There is none.
+        """
+        for measure in self.measures:
+            if measure.id == id:
+                return measure
+        raise DefinitionError(
+            f"no measure {id!r} is defined", hint=f"measures: {', '.join(measure.id for measure in self.measures)}"
+        )
+
+    def of_kind(self, kind: MeasureKind) -> tuple[Measure, ...]:
+        """The measures of a kind, in the order of the file."""
+        return tuple(measure for measure in self.measures if measure.kind is kind)
+
+    def dependencies(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
+        """Ids of all measures that a measure stands on, directly or not, in evaluation order.
+
+        Two measures of which one is among the other's dependencies count the same thing twice
+        when both are valued.
+
+        Raises:
+            DefinitionError: There is no such measure.
+        """
+        used = self.used[self.measure(id).id]
+        return tuple(other.id for other in self.evaluation_order if other.id in used)
+
+    def sources(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
+        """The sources that a measure stands on, directly or not, such as ``design.d7``.
+
+        Raises:
+            DefinitionError: There is no such measure.
+        """
+        used = self.used[self.measure(id).id]
+        return tuple(symbol.source for symbol in self.inputs if symbol.id in used)
+
+    def assumptions_of(self, id: str) -> tuple[Assumption, ...]:  # noqa: A002 - the domain's word
+        """The assumptions that a measure rests on, directly or not.
+
+        Raises:
+            DefinitionError: There is no such measure.
+        """
+        reached = {id, *self.used[self.measure(id).id]}
+        equations = {measure.equation for measure in self.measures if measure.id in reached}
+        return tuple(assumption for assumption in self.assumptions if (reached | equations) & {*assumption.concerns})

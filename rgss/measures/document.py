@@ -1,0 +1,87 @@
+"""The YAML form of measures."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field
+
+from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
+from rgss.measures.definitions import Direction, Estimator, MeasureKind, Population, Summary
+
+
+def _as_text(value: Any) -> Any:
+    """A pure number may stand without quotes; its unit decides later whether it may."""
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+class ConstantEntry(DocumentModel):
+    """A number that is the same for every design."""
+
+    id: Identifier
+    value: Annotated[QuantityText, BeforeValidator(_as_text)]
+    unit: UnitText
+    definition: Text
+    source: Text | None = None
+
+
+class InputEntry(DocumentModel):
+    """A symbol whose value comes from a design, a component or a trial."""
+
+    id: Identifier
+    source: Identifier
+    unit: UnitText
+    length: Annotated[int, Field(ge=1, le=1000)] | None = None
+    definition: Text
+
+
+class AssumptionEntry(DocumentModel):
+    """A decision on something that the sources leave open."""
+
+    id: Identifier
+    statement: Text
+    rationale: Text
+    concerns: tuple[Text, ...]
+
+
+class EquationEntry(DocumentModel):
+    """A numbered relation; its number is quoted, since 4.10 would be a number."""
+
+    id: Text
+    relation: Text
+    note: Text | None = None
+
+
+class EstimateEntry(DocumentModel):
+    """How the values of trials become an estimate."""
+
+    statistic: Estimator
+    over: Population
+
+
+class MeasureEntry(DocumentModel):
+    """A quantity by which designs are compared."""
+
+    id: Identifier
+    kind: MeasureKind
+    name: Text
+    definition: Text
+    unit: UnitText
+    expression: Text
+    equation: Text | None = None
+    better: Direction
+    traces: tuple[Identifier, ...] = ()
+    contributes_to: tuple[Identifier, ...] = ()
+    estimate: EstimateEntry | None = None
+    summary: Summary | None = None
+
+
+class MeasuresDocument(DocumentModel):
+    """A measures file."""
+
+    title: Text
+    constants: tuple[ConstantEntry, ...] = ()
+    inputs: tuple[InputEntry, ...] = ()
+    assumptions: tuple[AssumptionEntry, ...] = ()
+    equations: tuple[EquationEntry, ...] = ()
+    measures: Annotated[tuple[MeasureEntry, ...], Field(min_length=1)]

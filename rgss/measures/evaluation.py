@@ -1,0 +1,163 @@
+"""From a design's values and its trials to the estimates of every measure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from rgss.errors import DefinitionError
+from rgss.measures.definitions import Estimator, InputSymbol, Measure, MeasureSet, Population
+from rgss.measures.estimates import Estimate, interval_seed, mean_estimate, proportion_estimate
+from rgss.measures.functions import FUNCTIONS, Value
+
+Observed = float | int | None | Sequence[float | int | None]
+"""A metric as a trial recorded it."""
+
+COMPLETE = 1.0
+"""The value at which a trial counts towards a proportion."""
+
+
+def evaluate(
+    measure_set: MeasureSet,
+    *,
+    fixed: Mapping[str, float | str],
+    trials: Sequence[Mapping[str, Observed]],
+    seed: int,
+    variant: int,
+) -> dict[str, Estimate]:
+    """Estimate every measure of one variant.
+
+    A measure that follows from the design alone is computed once. Any other is computed for
+    each trial and estimated over the trials, or the successful ones, in which it is known.
+
+    Args:
+        measure_set: The measures.
+        fixed: The value of each ``design.…`` and ``component.…`` source, in SI. Sources that
+            no measure names may be among them, texts too.
+        trials: The metrics of each trial, in SI; an absent key is an unknown value. A trial
+            succeeded if its metric ``success`` is 1.
+        seed: The study's master seed, for the resampling of intervals.
+        variant: The variant's id, for the same.
+
+    Returns:
+        The estimate of each measure by its id, in the order of the file, in the measure's unit.
+
+    Raises:
+        DefinitionError: A value of the design is missing or is a text; a measure is not
+            defined for this design (a division by zero); a metric has not the shape declared.
+    """
+    design = design_values(measure_set, fixed=fixed, variant=variant)
+    rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
+    successes = [trial.get("success") == 1 for trial in trials]
+    estimates: dict[str, Estimate] = {}
+    for measure in measure_set.measures:
+        rule = measure.estimate
+        if rule is None:
+            estimates[measure.id] = Estimate.exact(design[measure.id] / measure.si_per_unit, measure.unit)
+            continue
+        counted = [row for row, success in zip(rows, successes, strict=True) if success or rule.over is Population.ALL]
+        known = [value for row in counted if (value := _summarised(measure, row)) is not None]
+        if rule.statistic is Estimator.PROPORTION:
+            complete = sum(value >= COMPLETE for value in known)
+            estimates[measure.id] = proportion_estimate(complete, len(known))
+        else:
+            seed_here = interval_seed(seed, variant, measure.id)
+            estimates[measure.id] = mean_estimate(known, measure.unit, seed=seed_here)
+    return estimates
+
+
+def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], variant: int) -> dict[str, float]:
+    """The constants, inputs and measures that follow from a design alone.
+
+    Args:
+        measure_set: The measures.
+        fixed: As for `evaluate`.
+        variant: The variant's id, for messages.
+
+    Returns:
+        Their values in SI by symbol.
+
+    Raises:
+        DefinitionError: As for `evaluate`.
+    """
+    values = {constant.id: constant.value for constant in measure_set.constants}
+    of_design = [symbol for symbol in measure_set.inputs if not symbol.from_trial]
+    missing = [symbol.source for symbol in of_design if symbol.source not in fixed]
+    if missing:
+        raise DefinitionError(
+            f"variant {variant} has no value for {', '.join(missing)}",
+            hint="give it in the design space or the component catalogue, or correct the input's source",
+        )
+    for symbol in of_design:
+        value = fixed[symbol.source]
+        if isinstance(value, str) or not math.isfinite(value):
+            raise DefinitionError(
+                f"{symbol.source} of variant {variant} is {value!r}; the measures' input {symbol.id!r} needs a number"
+            )
+        values[symbol.id] = float(value)
+    for measure in measure_set.evaluation_order:
+        if measure.from_trials:
+            continue
+        result = measure.expression.evaluate(values)
+        if not isinstance(result, float):
+            raise DefinitionError(
+                f"measure {measure.id!r} is not defined for variant {variant}: {measure.expression.text}",
+                hint="look for a division by zero or the root of a negative number",
+            )
+        values[measure.id] = result
+    return values
+
+
+def trial_values(
+    measure_set: MeasureSet, *, design: Mapping[str, float], trial: Mapping[str, Observed]
+) -> dict[str, Value]:
+    """Every symbol's value in one trial.
+
+    Args:
+        measure_set: The measures.
+        design: What `design_values` gave for the trial's variant.
+        trial: The trial's metrics, in SI.
+
+    Returns:
+        The values in SI by symbol: numbers and rows, None where unknown.
+
+    Raises:
+        DefinitionError: A metric has not the shape that is declared for it.
+    """
+    values: dict[str, Value] = dict(design)
+    for symbol in measure_set.inputs:
+        if symbol.from_trial:
+            values[symbol.id] = _observed(symbol, trial.get(symbol.metric))
+    for measure in measure_set.evaluation_order:
+        if measure.from_trials:
+            values[measure.id] = measure.expression.evaluate(values)
+    return values
+
+
+def _observed(symbol: InputSymbol, metric: object) -> Value:
+    if metric is None:
+        return None
+    if isinstance(metric, (list, tuple)):
+        if symbol.length != len(metric):
+            declared = "one number" if symbol.length is None else str(symbol.length)
+            raise DefinitionError(f"{symbol.source} has {len(metric)} entries; input {symbol.id!r} declares {declared}")
+        return tuple(_number(symbol, entry) for entry in metric)
+    number = _number(symbol, metric)
+    if symbol.length is not None:
+        raise DefinitionError(f"{symbol.source} is one number; input {symbol.id!r} declares {symbol.length}")
+    return number
+
+
+def _number(symbol: InputSymbol, value: object) -> float | None:
+    if value is None:
+        return None
+    if not isinstance(value, (int, float)):
+        raise DefinitionError(f"{symbol.source} is {value!r}; input {symbol.id!r} needs a number")
+    return float(value) if math.isfinite(value) else None
+
+
+def _summarised(measure: Measure, values: Mapping[str, Value]) -> float | None:
+    value = values[measure.id]
+    if measure.summary is not None:
+        value = FUNCTIONS[measure.summary.value].evaluate((value,))
+    return value / measure.si_per_unit if isinstance(value, float) else None

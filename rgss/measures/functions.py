@@ -1,0 +1,95 @@
+"""The functions that an expression may call; there is no way to add one from a file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from types import MappingProxyType
+
+Value = float | None | tuple[float | None, ...]
+"""A number or a row of numbers in SI; None where the value, or an entry of it, is unknown."""
+
+
+class Shape(Enum):
+    """What a function takes, and what it gives."""
+
+    ENTRY_BY_ENTRY = "entry by entry"
+    REDUCTION = "reduction"
+    EXTREME = "extreme"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Function:
+    """A function of expressions.
+
+    Attributes:
+        name: Its name in an expression.
+        shape: What it takes: one value, entry by entry; one row, reduced to a number; or
+            several numbers or one row, of which it picks the extreme.
+        dimension_power: The result's dimension as a power of the argument's.
+        compute: The function itself, on a number (entry by entry) or on a row of known numbers.
+        skips_unknown: Whether a reduction takes the known entries and passes over the others.
+    """
+
+    name: str
+    shape: Shape
+    dimension_power: float
+    compute: Callable[..., float]
+    skips_unknown: bool = False
+
+    def evaluate(self, arguments: tuple[Value, ...]) -> Value:
+        """Call it; an unknown argument, or an undefined result, makes the result unknown."""
+        if self.shape is Shape.ENTRY_BY_ENTRY:
+            (argument,) = arguments
+            if isinstance(argument, tuple):
+                return tuple(self._call(entry) for entry in argument)
+            return self._call(argument)
+        row = arguments[0] if len(arguments) == 1 else arguments
+        if not isinstance(row, tuple):
+            return None
+        known = [entry for entry in row if isinstance(entry, float)]
+        return self._call(known) if self.skips_unknown or len(known) == len(row) else None
+
+    def _call(self, argument: float | list[float] | None) -> float | None:
+        return None if argument is None else defined(self.compute, argument)
+
+
+def defined(compute: Callable[..., float], *arguments: float | list[float]) -> float | None:
+    """The result of a computation; None where it is not defined or not finite."""
+    try:
+        result = compute(*arguments)
+    except (ZeroDivisionError, OverflowError, ValueError):
+        return None
+    return result if math.isfinite(result) else None
+
+
+def _mean(values: list[float]) -> float:
+    return math.fsum(values) / len(values)
+
+
+def _norm(values: list[float]) -> float:
+    return math.hypot(*values)
+
+
+def _count(values: list[float]) -> float:
+    return float(len(values))
+
+
+FUNCTIONS: Mapping[str, Function] = MappingProxyType(
+    {
+        function.name: function
+        for function in (
+            Function(name="abs", shape=Shape.ENTRY_BY_ENTRY, dimension_power=1.0, compute=abs),
+            Function(name="count", shape=Shape.REDUCTION, dimension_power=0.0, compute=_count, skips_unknown=True),
+            Function(name="max", shape=Shape.EXTREME, dimension_power=1.0, compute=max),
+            Function(name="mean", shape=Shape.REDUCTION, dimension_power=1.0, compute=_mean),
+            Function(name="min", shape=Shape.EXTREME, dimension_power=1.0, compute=min),
+            Function(name="norm", shape=Shape.REDUCTION, dimension_power=1.0, compute=_norm),
+            Function(name="sqrt", shape=Shape.ENTRY_BY_ENTRY, dimension_power=0.5, compute=math.sqrt),
+            Function(name="sum", shape=Shape.REDUCTION, dimension_power=1.0, compute=math.fsum),
+        )
+    }
+)
+"""Every function by its name; ``count`` is the number of known entries of a row."""

@@ -1,0 +1,84 @@
+"""The planning clock: what a search costs in time."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.errors import MotionError
+
+
+class ClockKind(str, Enum):
+    """How planning time is told."""
+
+    COUNTED = "counted"
+    WALL = "wall"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanningClock:
+    """Tells the time of a search.
+
+    A counted clock charges the same time for each state-validity check, so that a seed gives the same
+    result on any machine. A wall clock measures, and its results differ from run to run.
+
+    Attributes:
+        kind: How the time is told.
+        charge_s: What a counted clock charges for one check.
+
+    Raises:
+        MotionError: A counted clock charges nothing for a check.
+    """
+
+    kind: ClockKind = ClockKind.COUNTED
+    charge_s: float = 0.001
+
+    def __post_init__(self) -> None:
+        if self.kind is ClockKind.COUNTED and not self.charge_s > 0.0:
+            raise MotionError(
+                f"a planning clock cannot charge {self.charge_s:g} s for a check",
+                hint="charge more than zero, or use the wall clock",
+            )
+
+    def checks_within(self, limit_s: float) -> int:
+        """Number of checks that fit into a time; their time is at most the limit.
+
+        Args:
+            limit_s: The time, inclusive.
+
+        Raises:
+            MotionError: The limit is negative, or the clock does not count.
+        """
+        if self.kind is ClockKind.WALL:
+            raise MotionError("a wall clock cannot tell how many checks fit into a time", hint="use a counted clock")
+        if not 0.0 <= limit_s < math.inf:
+            raise MotionError(f"a planning time of {limit_s:g} s is no limit", hint="give a time of zero or more")
+        # 4 s at 0.1 ms are 40,000 checks, although 4 / 0.0001 is less in binary.
+        return math.floor(limit_s / self.charge_s * (1 + 1e-12))
+
+    def time_s(self, checks: int) -> float:
+        """Time that a number of checks takes.
+
+        Args:
+            checks: Number of state-validity checks.
+
+        Raises:
+            MotionError: The clock does not count.
+        """
+        if self.kind is ClockKind.WALL:
+            raise MotionError("a wall clock charges nothing for a check", hint="use a counted clock")
+        return checks * self.charge_s
+
+    def start(self) -> Callable[[int], float]:
+        """Start the clock.
+
+        Returns:
+            A function that tells the time in s since now, given the number of checks made since now.
+        """
+        if self.kind is ClockKind.COUNTED:
+            return self.time_s
+        begun = time.perf_counter()
+        return lambda _checks: time.perf_counter() - begun

@@ -1,0 +1,94 @@
+"""Joint paths: polylines in joint space."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointPath:
+    """A polyline in joint space.
+
+    Attributes:
+        points_rad: Its corners in rad, shape (n, joints), n at least 1; read-only.
+    """
+
+    points_rad: Vector
+
+    def __post_init__(self) -> None:
+        points = np.array(self.points_rad, dtype=float)
+        points.setflags(write=False)
+        object.__setattr__(self, "points_rad", points)
+
+    @property
+    def length_rad(self) -> float:
+        """Its Euclidean length in joint space."""
+        return path_length(self.points_rad)
+
+
+def path_length(positions: ArrayLike) -> float:
+    """Summed distance between consecutive rows, in their unit.
+
+    Args:
+        positions: Points, shape (n, dimensions).
+    """
+    points = np.asarray(positions, dtype=float)
+    return float(np.sum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
+
+
+def segment_states(start: Vector, end: Vector, resolution_rad: float, *, density: int = 1) -> Vector:
+    """Evenly spaced states after the start of a segment up to its end, no further apart than the resolution.
+
+    Args:
+        start: First end, not itself among the states.
+        end: Second end, the last of the states.
+        resolution_rad: Greatest Euclidean distance between neighbours, at density 1.
+        density: How many times as many states to give; those of density 1 are among them.
+    """
+    count = density * max(1, math.ceil(float(np.linalg.norm(end - start)) / resolution_rad))
+    fractions = np.arange(1, count + 1)[:, None] / count
+    states: Vector = start + fractions * (end - start)
+    states[-1] = end
+    return states
+
+
+def coarse_to_fine(count: int) -> tuple[int, ...]:
+    """The indices 0..count-1, the last first and then by halving, so that a bad segment is found out early.
+
+    Args:
+        count: Number of indices.
+    """
+    order = [count - 1] if count else []
+    gaps = [(-1, count - 1)]
+    for low, high in gaps:
+        if high - low > 1:
+            middle = (low + high) // 2
+            order.append(middle)
+            gaps.extend(((low, middle), (middle, high)))
+    return tuple(order)
+
+
+def is_path_valid(
+    points: Vector, is_valid: Callable[[Vector], bool], resolution_rad: float, *, density: int = 1
+) -> bool:
+    """Tell whether every state along a polyline is valid.
+
+    Args:
+        points: Corners, shape (n, joints).
+        is_valid: Tells whether a state is valid.
+        resolution_rad: Greatest Euclidean distance between the states that are checked, at density 1.
+        density: How many times as many states to check.
+    """
+    return is_valid(points[0]) and all(
+        is_valid(state)
+        for start, end in itertools.pairwise(points)
+        for state in segment_states(start, end, resolution_rad, density=density)
+    )

@@ -1,0 +1,94 @@
+"""What is to be planned, and how the planning of it ended."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rgss.errors import MotionError
+from rgss.evidence.outcomes import PlanOutcome
+from rgss.motion.paths import JointPath
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanningProblem:
+    """One move to plan.
+
+    Attributes:
+        lower_rad: Lower end of each joint's planning range.
+        upper_rad: Upper end of each joint's planning range.
+        start: Joint angles in rad at the start.
+        goal: Joint angles in rad at the end.
+        resolution_rad: Greatest Euclidean distance in joint space between two checked states of a path.
+
+    Raises:
+        MotionError: The numbers of joints differ, a range is empty, or the resolution is not positive.
+    """
+
+    lower_rad: tuple[float, ...]
+    upper_rad: tuple[float, ...]
+    start: tuple[float, ...]
+    goal: tuple[float, ...]
+    resolution_rad: float
+
+    def __post_init__(self) -> None:
+        for name in ("lower_rad", "upper_rad", "start", "goal"):
+            object.__setattr__(self, name, tuple(float(value) for value in getattr(self, name)))
+        sizes = (len(self.lower_rad), len(self.upper_rad), len(self.start), len(self.goal))
+        if len(set(sizes)) != 1 or 0 in sizes:
+            raise MotionError(
+                "a planning problem needs ranges, start and goal of the same number of joints",
+                hint=f"found {', '.join(str(size) for size in sizes)}",
+            )
+        if not all(low < high for low, high in zip(self.lower_rad, self.upper_rad, strict=True)):
+            raise MotionError("a joint's planning range is empty", hint="let its lower end be below its upper end")
+        if not 0.0 < self.resolution_rad < math.inf:
+            raise MotionError(
+                f"a path cannot be checked every {self.resolution_rad:g} rad", hint="give a distance above zero"
+            )
+
+    def in_range(self, state: tuple[float, ...]) -> bool:
+        """Tell whether a state keeps the planning ranges."""
+        return all(low <= value <= high for low, value, high in zip(self.lower_rad, state, self.upper_rad, strict=True))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PlanResult:
+    """How the planning of one move ended.
+
+    A search is *solved within* a budget when the number of checks at its solution is at most the
+    budget; otherwise the budget counts as spent to its end. A search with a budget is the beginning of
+    the same search with a larger one, so that every smaller limit can be read off one search.
+
+    Attributes:
+        outcome: How it ended.
+        path: The simplified path; None unless solved.
+        checks: Validity checks of the search: those up to the solution, or the whole budget.
+        simplification_checks: Validity checks of the simplification and of its result.
+        search_time_s: Time of the search by the planning clock.
+    """
+
+    outcome: PlanOutcome
+    path: JointPath | None
+    checks: int
+    simplification_checks: int
+    search_time_s: float
+
+
+def outcome_within(result: PlanResult, budget_checks: int) -> PlanOutcome:
+    """The outcome that the same search has with a smaller budget.
+
+    Args:
+        result: The result with the larger budget.
+        budget_checks: The smaller budget.
+    """
+    if result.outcome is PlanOutcome.SOLVED and result.checks > budget_checks:
+        return PlanOutcome.BUDGET_SPENT
+    return result.outcome
+
+
+def spent(checks: int, time_s: float) -> PlanResult:
+    """The result of a search that was ended before it found a path."""
+    return PlanResult(
+        outcome=PlanOutcome.BUDGET_SPENT, path=None, checks=checks, simplification_checks=0, search_time_s=time_s
+    )

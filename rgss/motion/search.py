@@ -1,0 +1,107 @@
+"""One run of an OMPL planner whose effort is counted in validity checks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.motion.engine import Engine, load_engine
+from rgss.motion.problem import PlanningProblem
+from rgss.motion.validity import StateValidity
+
+Vector = NDArray[np.float64]
+
+PLANNERS: tuple[str, ...] = ("RRT", "TRRT", "STRIDE")
+"""Names of the planners: rapidly-exploring random trees, their transition-based kind, and search tree
+with resolution-independent density estimation."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SearchResult:
+    """What a search found.
+
+    Attributes:
+        corners: Corners of the path found in rad, shape (n, joints); None when it was ended before.
+        checks: Validity checks made; a search that is ended exceeds its budget by what its last step takes.
+    """
+
+    corners: Vector | None
+    checks: int
+
+
+def search(
+    problem: PlanningProblem,
+    validity: StateValidity,
+    planner: str,
+    *,
+    seed: int,
+    is_over: Callable[[int], bool],
+    range_rad: float | None = None,
+) -> SearchResult:
+    """Run a planner until it finds a path or is told to stop.
+
+    Args:
+        problem: The move; its start and goal are valid.
+        validity: Tells valid states from invalid ones.
+        planner: One of `PLANNERS`.
+        seed: Seed of the engine's random numbers, at least 1.
+        is_over: Told the number of checks so far before every step of the planner; ends the search when true.
+        range_rad: Longest step of the planner's tree; the planner's own default when None.
+    """
+    engine = load_engine()
+    joints = len(problem.start)
+    indices = range(joints)
+    checks = 0
+
+    def is_valid(state: Any) -> bool:
+        nonlocal checks
+        checks += 1
+        return validity.is_valid([state[index] for index in indices])
+
+    # Every random generator of the engine draws its seed from one generator of the process when it is
+    # made; seeding that one before anything is made leaves no trace of what ran before.
+    engine.util.RNG.setSeed(seed)
+    information = _space(engine, problem)
+    information.setStateValidityChecker(engine.base.StateValidityCheckerFn(is_valid))
+    information.setup()
+    definition = engine.base.ProblemDefinition(information)
+    definition.setStartAndGoalStates(
+        _state(engine, information, problem.start), _state(engine, information, problem.goal)
+    )
+    algorithm = getattr(engine.geometric, planner)(information)
+    if range_rad is not None:
+        algorithm.setRange(range_rad)
+    algorithm.setProblemDefinition(definition)
+    algorithm.setup()
+    stop = engine.base.PlannerTerminationConditionFn(lambda: is_over(checks))
+    algorithm.solve(engine.base.PlannerTerminationCondition(stop))
+    if not definition.hasExactSolution():
+        return SearchResult(corners=None, checks=checks)
+    path = definition.getSolutionPath()
+    corners = np.array([[state[index] for index in indices] for state in path.getStates()])
+    return SearchResult(corners=corners, checks=checks)
+
+
+def _space(engine: Engine, problem: PlanningProblem) -> Any:
+    joints = len(problem.start)
+    space = engine.base.RealVectorStateSpace(joints)
+    bounds = engine.base.RealVectorBounds(joints)
+    for index, (lower, upper) in enumerate(zip(problem.lower_rad, problem.upper_rad, strict=True)):
+        bounds.setLow(index, lower)
+        bounds.setHigh(index, upper)
+    space.setBounds(bounds)
+    information = engine.base.SpaceInformation(space)
+    # The engine takes the resolution as a fraction of the diagonal of the space.
+    information.setStateValidityCheckingResolution(problem.resolution_rad / space.getMaximumExtent())
+    return information
+
+
+def _state(engine: Engine, information: Any, values: tuple[float, ...]) -> Any:
+    state = engine.base.State(information)
+    for index, value in enumerate(values):
+        state[index] = value
+    return state

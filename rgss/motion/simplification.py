@@ -1,0 +1,175 @@
+"""Shortening a path by shortcuts, within a budget of validity checks of its own."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.motion.paths import coarse_to_fine, is_path_valid, path_length, segment_states
+
+Vector = NDArray[np.float64]
+IsValid = Callable[[Vector], bool]
+
+_ROPE_STRETCHES = 20
+_SMALLEST_ROPE_GAIN = 0.05
+_SMALLEST_RANDOM_GAIN = 0.001
+_LARGEST_FRUITLESS_RUN = 60
+_FINAL_DENSITY = 4
+
+
+def shorten(
+    points: Vector, is_valid: IsValid, *, generator: np.random.Generator, budget_checks: int, resolution_rad: float
+) -> tuple[Vector, int]:
+    """Shorten a valid polyline by replacing stretches of it with straight segments.
+
+    Three stages follow each other while the budget lasts. Each corner is joined with the furthest corner
+    that it can be joined with. Then the path is cut into equal stretches and the two points are joined
+    that save most. Then random pairs of points are tried, until many in a row have saved nothing. The
+    result depends on the path, the generator's state and the budget alone.
+
+    Shortcuts pass close by what is in the way. The result is therefore checked once more, four times as
+    densely; where it touches something between the states that were checked before, the shortcuts are
+    taken back one by one.
+
+    Args:
+        points: Corners of a valid path in rad, shape (n, joints).
+        is_valid: Tells whether a state is valid.
+        generator: Source of the random choices.
+        budget_checks: Greatest number of validity checks; those of the final check come on top.
+        resolution_rad: Greatest distance between the states that are checked.
+
+    Returns:
+        The corners of the shorter path and the number of checks that it took.
+    """
+    check = _CheckBudget(is_valid, budget_checks)
+    paths = [points]
+    # What is found before the budget is spent is kept.
+    with contextlib.suppress(_BudgetSpentError):
+        paths.extend(_improvements(points, check, generator, resolution_rad))
+    final = _CheckBudget(is_valid, None)
+    while len(paths) > 1 and not is_path_valid(paths[-1], final, resolution_rad, density=_FINAL_DENSITY):
+        paths.pop()
+    return paths[-1], check.spent + final.spent
+
+
+class _BudgetSpentError(Exception):
+    """The next check would exceed the budget."""
+
+
+class _CheckBudget:
+    """Counts validity checks and refuses those beyond a budget."""
+
+    def __init__(self, is_valid: IsValid, budget: int | None) -> None:
+        self._is_valid = is_valid
+        self._budget = budget
+        self.spent = 0
+
+    def __call__(self, state: Vector) -> bool:
+        if self._budget is not None and self.spent >= self._budget:
+            raise _BudgetSpentError
+        self.spent += 1
+        return self._is_valid(state)
+
+
+def _improvements(
+    points: Vector, is_valid: IsValid, generator: np.random.Generator, resolution_rad: float
+) -> Iterator[Vector]:
+    def joined(start: Vector, end: Vector) -> bool:
+        states = segment_states(start, end, resolution_rad)
+        return all(is_valid(states[number]) for number in coarse_to_fine(len(states)))
+
+    path = points
+    for stage in (_skip_corners, _pull_rope):
+        for shorter in stage(path, joined):
+            path = shorter
+            yield path
+    yield from _random_shortcuts(path, joined, generator)
+
+
+def _skip_corners(path: Vector, joined: Callable[[Vector, Vector], bool]) -> Iterator[Vector]:
+    corner = 0
+    while corner < len(path) - 2:
+        for far in range(len(path) - 1, corner + 1, -1):
+            if joined(path[corner], path[far]):
+                path = np.vstack([path[: corner + 1], path[far:]])
+                yield path
+                break
+        corner += 1
+
+
+def _pull_rope(path: Vector, joined: Callable[[Vector, Vector], bool]) -> Iterator[Vector]:
+    while True:
+        rope = _subdivided(path, _ROPE_STRETCHES)
+        along = _arc_lengths(rope)
+        direct = np.linalg.norm(rope[:, None] - rope[None], axis=2)
+        starts, ends = np.triu_indices(len(rope), 2)
+        gains = (along[ends] - along[starts]) - direct[starts, ends]
+        # Rounded, so that noise in the last digit cannot choose between equal gains.
+        order = np.argsort(-np.round(gains, 9), kind="stable")
+        worth = order[gains[order] > _SMALLEST_ROPE_GAIN * along[-1]]
+        pairs = ((int(starts[index]), int(ends[index])) for index in worth)
+        best = next(((start, end) for start, end in pairs if joined(rope[start], rope[end])), None)
+        if best is None:
+            return
+        path = _without_straight_corners(np.vstack([rope[: best[0] + 1], rope[best[1] :]]))
+        yield path
+
+
+def _random_shortcuts(
+    path: Vector, joined: Callable[[Vector, Vector], bool], generator: np.random.Generator
+) -> Iterator[Vector]:
+    fruitless = 0
+    while fruitless < _LARGEST_FRUITLESS_RUN:
+        fruitless += 1
+        along = _arc_lengths(path)
+        first, last = np.sort(generator.random(2)) * along[-1]
+        start = int(np.searchsorted(along, first, side="right"))
+        stop = int(np.searchsorted(along, last, side="left"))
+        if start >= stop:
+            continue
+        entry, leave = _at(path, along, start - 1, first), _at(path, along, stop - 1, last)
+        gain = (last - first) - float(np.linalg.norm(leave - entry))
+        if gain > _SMALLEST_RANDOM_GAIN * along[-1] and all(
+            joined(one, other) for one, other in ((entry, leave), (path[start - 1], entry), (leave, path[stop]))
+        ):
+            path = _without_straight_corners(np.vstack([path[:start], entry, leave, path[stop:]]))
+            fruitless = 0
+            yield path
+
+
+def _arc_lengths(path: Vector) -> Vector:
+    steps: Vector = np.linalg.norm(np.diff(path, axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _at(path: Vector, along: Vector, segment: int, distance: float) -> Vector:
+    fraction = (distance - along[segment]) / (along[segment + 1] - along[segment])
+    point: Vector = path[segment] + fraction * (path[segment + 1] - path[segment])
+    return point
+
+
+def _subdivided(path: Vector, stretches: int) -> Vector:
+    """The path with corners added so that no segment is longer than a fraction of the whole."""
+    longest = path_length(path) / stretches
+    points = [path[:1]]
+    for start, end in itertools.pairwise(path):
+        if np.any(start != end):
+            points.append(segment_states(start, end, longest))
+    return np.vstack(points)
+
+
+def _without_straight_corners(path: Vector) -> Vector:
+    """Drop corners at which the path does not turn."""
+    kept = [path[0]]
+    for corner, following in itertools.pairwise(path[1:]):
+        before, after = corner - kept[-1], following - corner
+        if not np.any(before):
+            continue
+        sideways = after - before * (before @ after) / (before @ before)
+        if np.linalg.norm(sideways) > 1e-9 or before @ after < 0.0:
+            kept.append(corner)
+    return np.array([*kept, path[-1]])

@@ -1,0 +1,299 @@
+"""Timing of a path, as fast as joints and tool allow."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import MotionError
+from rgss.motion.blending import BlendedPath, SmoothPath, blend
+from rgss.motion.limits import MotionLimits
+from rgss.motion.parametrization import RateConstraints, fastest_rates
+from rgss.motion.paths import JointPath
+from rgss.motion.trajectory import Trajectory
+from rgss.motion.validity import StateValidity, ToolKinematics
+
+Vector = NDArray[np.float64]
+
+_CELL_RAD = 0.04
+_TURN_OF_CELL = 0.12
+_FEWEST_CELLS = 24
+_POINTS_OF_CELL = 4
+_REFINEMENTS = 2
+_TOLERATED_EXCESS = 1.02
+# Half-planes of the polygon inside the circle of the tool's tangential and normal acceleration.
+_POLYGON_ANGLES = np.linspace(0.0, math.pi, 9)
+_POLYGON_INRADIUS = math.cos(math.pi / 16)
+
+
+class TimingOutcome(str, Enum):
+    """How the timing of a path ended."""
+
+    TIMED = "timed"
+    IN_COLLISION = "in_collision"
+    INFEASIBLE = "infeasible"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TimedMove:
+    """How the timing of one move ended.
+
+    Attributes:
+        outcome: How it ended.
+        trajectory: The motion; None unless it could be timed.
+        blended: Corners of the path that are rounded.
+        stops: Corners of the path at which the motion comes to rest.
+    """
+
+    outcome: TimingOutcome
+    trajectory: Trajectory | None
+    blended: int
+    stops: int
+
+
+def time_move(
+    path: JointPath,
+    validity: StateValidity,
+    tool: ToolKinematics,
+    limits: MotionLimits,
+    *,
+    resolution_rad: float,
+    largest_deviation_rad: float = 0.1,
+) -> TimedMove:
+    """Round the corners of a path, check what will run, and time it.
+
+    Args:
+        path: A valid polyline.
+        validity: Tells valid states from invalid ones.
+        tool: Kinematics of the tool centre.
+        limits: What the motion keeps.
+        resolution_rad: Greatest distance in joint space between two checked states.
+        largest_deviation_rad: Greatest distance of a rounded corner from the corner itself.
+    """
+    blended = blend(path, validity, resolution_rad=resolution_rad, largest_deviation_rad=largest_deviation_rad)
+    return time_blended(blended, tool, limits)
+
+
+def time_blended(blended: BlendedPath, tool: ToolKinematics, limits: MotionLimits) -> TimedMove:
+    """Time a path whose corners are rounded; one rounded path serves every set of limits.
+
+    Args:
+        blended: The path.
+        tool: Kinematics of the tool centre.
+        limits: What the motion keeps.
+    """
+    trajectory = None
+    outcome = TimingOutcome.IN_COLLISION
+    if blended.is_valid:
+        trajectory = fastest_trajectory(blended.path, tool, limits)
+        outcome = TimingOutcome.INFEASIBLE if trajectory is None else TimingOutcome.TIMED
+    return TimedMove(outcome=outcome, trajectory=trajectory, blended=blended.blended, stops=blended.stops)
+
+
+def fastest_trajectory(path: SmoothPath, tool: ToolKinematics, limits: MotionLimits) -> Trajectory | None:
+    """Time a smooth path from rest to rest, with a rest at each of its stops.
+
+    The limits are constraints of the optimisation at the ends of each grid cell. In between they are
+    verified: where one is exceeded by more than two hundredths the grid is refined, and what excess remains is
+    removed by slowing the motion down evenly, so that the limits hold at every verified point.
+
+    Args:
+        path: The path.
+        tool: Kinematics of the tool centre.
+        limits: What the motion keeps.
+
+    Returns:
+        The motion; None when the optimisation finds none.
+
+    Raises:
+        MotionError: The limits are not for the joints of the path.
+    """
+    joints = path.coefficients.shape[2]
+    if len(limits.speed_rad_s) != joints:
+        raise MotionError(
+            f"the path has {joints} joints, but there are limits for {len(limits.speed_rad_s)}",
+            hint="give limits for every joint",
+        )
+    runs = []
+    for first, last in zip(path.stops, path.stops[1:], strict=False):
+        if path.breaks[last] > path.breaks[first]:
+            run = _timed_run(path, first, last, tool, limits)
+            if run is None:
+                return None
+            runs.append(run)
+    return _joined(path, runs)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Run:
+    """A motion between two stops."""
+
+    parameters: Vector
+    rates: Vector
+    tool_speed_m_s: float
+    tool_acceleration_m_s2: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Derivatives:
+    """Derivatives with respect to the parameter, at points of the path: of the joints and of the tool centre."""
+
+    first: Vector
+    second: Vector
+    tool_first: Vector
+    tool_second: Vector
+
+    def every(self, stride: int) -> _Derivatives:
+        return _Derivatives(
+            first=self.first[::stride],
+            second=self.second[::stride],
+            tool_first=self.tool_first[::stride],
+            tool_second=self.tool_second[::stride],
+        )
+
+
+def _timed_run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, limits: MotionLimits) -> _Run | None:
+    for refinement in range(_REFINEMENTS + 1):
+        grid = _grid(path, first, last, 2**refinement)
+        fine = np.append(
+            (grid[:-1, None] + np.diff(grid)[:, None] * np.arange(_POINTS_OF_CELL) / _POINTS_OF_CELL).ravel(), grid[-1]
+        )
+        derivatives = _derivatives(path, fine, tool)
+        at_grid = derivatives.every(_POINTS_OF_CELL)
+        rates = fastest_rates(grid, _largest_squares(at_grid, limits), _constraints(at_grid, limits))
+        if rates is None:
+            continue
+        excess, speed, acceleration = _verify(grid, rates, derivatives, limits)
+        if excess <= _TOLERATED_EXCESS or refinement == _REFINEMENTS:
+            slowdown = max(excess, 1.0)
+            return _Run(
+                parameters=grid,
+                rates=rates / slowdown,
+                tool_speed_m_s=speed / slowdown,
+                tool_acceleration_m_s2=acceleration / slowdown**2,
+            )
+    return None
+
+
+def _grid(path: SmoothPath, first: int, last: int, refinement: int) -> Vector:
+    """Grid points between two stops: at the ends of all pieces, and denser where the path turns."""
+    breaks = path.breaks[first : last + 1]
+    starts, ends = path(breaks[:-1], 1), path(breaks[1:] - 1e-12 * np.diff(breaks), 1)
+    turns = np.linalg.norm(ends - starts, axis=1)
+    smallest = min(_CELL_RAD, (breaks[-1] - breaks[0]) / _FEWEST_CELLS)
+    counts = np.maximum(np.ceil(np.diff(breaks) / smallest), np.ceil(turns / _TURN_OF_CELL)).astype(int) * refinement
+    parts = [
+        np.linspace(start, end, count, endpoint=False)
+        for start, end, count in zip(breaks[:-1], breaks[1:], counts, strict=True)
+    ]
+    return np.append(np.concatenate(parts), breaks[-1])
+
+
+def _derivatives(path: SmoothPath, parameters: Vector, tool: ToolKinematics) -> _Derivatives:
+    first = path(parameters, 1)
+    tool_first = np.array([tool.tool_jacobian(q)[:3] @ step for q, step in zip(path(parameters), first, strict=True)])
+    return _Derivatives(
+        first=first,
+        second=path(parameters, 2),
+        tool_first=tool_first,
+        tool_second=np.gradient(tool_first, parameters, axis=0, edge_order=2),
+    )
+
+
+def _largest_squares(at: _Derivatives, limits: MotionLimits) -> Vector:
+    """The greatest (ds/dt)² that keeps the speeds of joints and tool."""
+    joints = np.max(np.abs(at.first) / np.array(limits.speed_rad_s), axis=1)
+    tool = np.linalg.norm(at.tool_first, axis=1) / limits.tool_speed_m_s
+    squares: Vector = np.maximum(joints, tool) ** -2
+    return squares
+
+
+def _constraints(at: _Derivatives, limits: MotionLimits) -> list[RateConstraints]:
+    joints = len(limits.acceleration_rad_s2)
+    identity = np.eye(joints)
+    result = [
+        RateConstraints(
+            first=at.first,
+            second=at.second,
+            rows=np.vstack([identity, -identity]),
+            bounds=np.tile(limits.acceleration_rad_s2, 2),
+        )
+    ]
+    if math.isfinite(limits.tool_acceleration_m_s2):
+        tangential, normal = _along_and_across(at)
+        speed = np.linalg.norm(at.tool_first, axis=1)
+        result.append(
+            RateConstraints(
+                first=np.column_stack([speed, np.zeros(len(speed))]),
+                second=np.column_stack([tangential, normal]),
+                rows=np.column_stack([np.cos(_POLYGON_ANGLES), np.sin(_POLYGON_ANGLES)]),
+                bounds=np.full(len(_POLYGON_ANGLES), limits.tool_acceleration_m_s2 * _POLYGON_INRADIUS),
+            )
+        )
+    return result
+
+
+def _along_and_across(at: _Derivatives) -> tuple[Vector, Vector]:
+    """The tool's second derivative along its direction, and its magnitude across it."""
+    speed = np.linalg.norm(at.tool_first, axis=1)
+    direction = at.tool_first / np.where(speed > 0.0, speed, 1.0)[:, None]
+    along = np.sum(at.tool_second * direction, axis=1)
+    across = np.linalg.norm(at.tool_second - along[:, None] * direction, axis=1)
+    return along, across
+
+
+def _verify(grid: Vector, rates: Vector, fine: _Derivatives, limits: MotionLimits) -> tuple[float, float, float]:
+    """By what factor must the motion slow down? And the peak speed and acceleration of the tool."""
+    squares = rates**2
+    accelerations = np.diff(squares) / (2 * np.diff(grid))
+    # Both ends of a cell belong to it, as the acceleration jumps from cell to cell.
+    index = np.arange(len(accelerations))[:, None] * _POINTS_OF_CELL + np.arange(_POINTS_OF_CELL + 1)
+    fractions = np.arange(_POINTS_OF_CELL + 1) / _POINTS_OF_CELL
+    x = (squares[:-1, None] + np.diff(squares)[:, None] * fractions).ravel()
+    u = np.repeat(accelerations, _POINTS_OF_CELL + 1)
+    cells = index.ravel()
+    rate = np.sqrt(np.maximum(x, 0.0))
+    joint_speed = np.abs(fine.first[cells]) * rate[:, None] / np.array(limits.speed_rad_s)
+    joint_acceleration = np.abs(fine.first[cells] * u[:, None] + fine.second[cells] * x[:, None])
+    tool_speed = float(np.max(np.linalg.norm(fine.tool_first[cells], axis=1) * rate))
+    tool_acceleration = float(
+        np.max(np.linalg.norm(fine.tool_first[cells] * u[:, None] + fine.tool_second[cells] * x[:, None], axis=1))
+    )
+    excess = max(
+        float(np.max(joint_speed)),
+        math.sqrt(float(np.max(joint_acceleration / np.array(limits.acceleration_rad_s2)))),
+        tool_speed / limits.tool_speed_m_s,
+        math.sqrt(tool_acceleration / limits.tool_acceleration_m_s2),
+    )
+    return excess, tool_speed, tool_acceleration
+
+
+def _joined(path: SmoothPath, runs: list[_Run]) -> Trajectory:
+    if not runs:
+        still = np.zeros(2)
+        return Trajectory(
+            path=path,
+            parameters=still,
+            rates=still,
+            times_s=still,
+            peak_tool_speed_m_s=0.0,
+            peak_tool_acceleration_m_s2=0.0,
+        )
+    parameters = np.concatenate([run.parameters for run in runs])
+    rates = np.concatenate([run.rates for run in runs])
+    steps = []
+    for run in runs:
+        # Constant acceleration over a cell: its mean rate is the mean of the rates at its ends.
+        steps.extend([0.0, *(2 * np.diff(run.parameters) / (run.rates[:-1] + run.rates[1:]))])
+    return Trajectory(
+        path=path,
+        parameters=parameters,
+        rates=rates,
+        times_s=np.cumsum(steps),
+        peak_tool_speed_m_s=max(run.tool_speed_m_s for run in runs),
+        peak_tool_acceleration_m_s2=max(run.tool_acceleration_m_s2 for run in runs),
+    )

@@ -1,0 +1,70 @@
+"""A smooth path with its timing: where every joint is at every time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rgss.motion.blending import SmoothPath
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Trajectory:
+    """A timed motion from rest to rest.
+
+    Between its knots the path's parameter s moves with constant acceleration.
+
+    Attributes:
+        path: The path that it follows exactly.
+        parameters: The path's parameter s at the knots, shape (n,).
+        rates: Its rate ds/dt at the knots in 1/s, shape (n,).
+        times_s: Time at the knots, shape (n,), from 0.
+        peak_tool_speed_m_s: Greatest speed of the tool centre.
+        peak_tool_acceleration_m_s2: Greatest acceleration of the tool centre.
+    """
+
+    path: SmoothPath
+    parameters: Vector
+    rates: Vector
+    times_s: Vector
+    peak_tool_speed_m_s: float
+    peak_tool_acceleration_m_s2: float
+
+    @property
+    def duration_s(self) -> float:
+        """Time from start to end."""
+        return float(self.times_s[-1])
+
+    def sample(self, times: ArrayLike) -> tuple[Vector, Vector, Vector]:
+        """Joint angles, speeds and accelerations at given times.
+
+        Before the start and after the end the arm rests there.
+
+        Args:
+            times: Times in s, shape (n,).
+
+        Returns:
+            q in rad, dq in rad/s and ddq in rad/s², each of shape (n, joints).
+        """
+        asked = np.atleast_1d(np.asarray(times, dtype=float))
+        time = np.clip(asked, 0.0, self.duration_s)
+        moving = ((asked >= 0.0) & (asked <= self.duration_s) & (self.duration_s > 0.0)).astype(float)
+        knot = np.clip(np.searchsorted(self.times_s, time, side="right") - 1, 0, len(self.times_s) - 2)
+        span = self.times_s[knot + 1] - self.times_s[knot]
+        safe = np.where(span > 0.0, span, 1.0)
+        acceleration = np.where(span > 0.0, (self.rates[knot + 1] - self.rates[knot]) / safe, 0.0) * moving
+        since = time - self.times_s[knot]
+        rate = (self.rates[knot] + acceleration * since) * moving
+        parameter = self.parameters[knot] + self.rates[knot] * since + 0.5 * acceleration * since**2
+        parameter = np.clip(parameter, self.parameters[knot], self.parameters[knot + 1])
+        first = self.path(parameter, 1)
+        second = self.path(parameter, 2)
+        return (
+            self.path(parameter),
+            first * rate[:, None],
+            first * acceleration[:, None] + second * rate[:, None] ** 2,
+        )

@@ -1,0 +1,34 @@
+"""Contacts of one physics step, sorted by who touches whom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Contacts:
+    """What touches what after a step.
+
+    Attributes:
+        finger_forces_n: Normal force of each finger on the workpiece.
+        other_force_n: Normal force of every other link of the robot on the workpiece.
+        friction_n: Vector sum of the fingers' friction forces on the workpiece, in the world.
+        robot_bodies: Pairs (link, body) of the robot touching the scene.
+        workpiece_bodies: Scene bodies that the workpiece touches.
+    """
+
+    finger_forces_n: tuple[float, ...]
+    other_force_n: float
+    friction_n: tuple[float, float, float]
+    robot_bodies: tuple[tuple[str, str], ...]
+    workpiece_bodies: tuple[str, ...]
+
+    @property
+    def finger_force_sum_n(self) -> float:
+        """Sum of the fingers' normal forces."""
+        return sum(self.finger_forces_n)
+
+    @property
+    def fingers_touching(self) -> int:
+        """Number of fingers that press on the workpiece."""
+        return sum(force > 0.0 for force in self.finger_forces_n)

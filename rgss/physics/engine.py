@@ -1,0 +1,96 @@
+"""The one place where PyBullet is imported and where a client is opened."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from rgss.errors import SimulationError
+
+_STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
+_MESSAGE = re.compile(r"b3(Error|Warning)\[[^\]]*\]:\s*")
+
+
+@lru_cache(maxsize=1)
+def pybullet() -> Any:
+    """The engine's module, imported on first use so that start-up stays light."""
+    with _engine_output():  # it announces its build time
+        import pybullet as module
+
+    return module
+
+
+def open_client() -> int:
+    """Open a headless physics client and return its id.
+
+    Raises:
+        SimulationError: The engine refused.
+    """
+    module = pybullet()
+    client = int(module.connect(module.DIRECT))
+    if client < 0:
+        raise SimulationError("the physics engine opened no client", hint="close other worlds first")
+    return client
+
+
+def load_urdf_text(client: int, text: str, *, position: Any, orientation: Any, flags: int) -> int:
+    """Load a fixed-base URDF from its text; the engine itself reads files only.
+
+    Raises:
+        SimulationError: The engine could not read the description.
+    """
+    module = pybullet()
+    handle, name = tempfile.mkstemp(suffix=".urdf")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(text)
+        with _engine_output() as output:
+            try:
+                body = module.loadURDF(
+                    name, position, orientation, useFixedBase=True, flags=flags, physicsClientId=client
+                )
+            except module.error as error:
+                reasons = _reported_errors(output) or str(error)
+                raise SimulationError(
+                    f"the physics engine cannot load the robot: {reasons}", hint="check its URDF"
+                ) from error
+    finally:
+        Path(name).unlink(missing_ok=True)
+    return int(body)
+
+
+@contextmanager
+def _engine_output() -> Iterator[BinaryIO]:
+    """Keep what the engine's C code prints off standard output and error, and give it as a file.
+
+    Python's own streams do not see it, so the descriptors beneath them are turned aside; a
+    result on standard output would be mixed with it otherwise.
+    """
+    with tempfile.TemporaryFile() as caught:
+        saved = {}
+        try:
+            for descriptor in (_STANDARD_OUTPUT, _STANDARD_ERROR):
+                try:
+                    saved[descriptor] = os.dup(descriptor)
+                except OSError:  # closed, as it may be for a background process
+                    continue
+                os.dup2(caught.fileno(), descriptor)
+            yield caught
+        finally:
+            for descriptor, copy in saved.items():
+                os.dup2(copy, descriptor)
+                os.close(copy)
+
+
+def _reported_errors(output: BinaryIO) -> str:
+    """The errors among the engine's messages, on one line; it leads from the cause to its consequences."""
+    output.seek(0)
+    parts = _MESSAGE.split(output.read().decode("utf-8", errors="replace"))
+    errors = [text for kind, text in zip(parts[1::2], parts[2::2], strict=True) if kind == "Error"]
+    return ": ".join(" ".join(text.split()).rstrip(":") for text in errors)

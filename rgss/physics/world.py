@@ -1,0 +1,359 @@
+"""A headless world: the scene's bodies, the workpiece, and the arm with its gripper.
+
+Facts of the engine that shape this file: friction of a contact is the product of the two
+bodies' coefficients; damping must be set to zero or falling bodies are slowed; a finger held
+by a velocity motor exerts its force limit exactly, while a torque command slams; target
+position and velocity must be commanded at every step; every call names its client.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Any
+
+from rgss.errors import SimulationError
+from rgss.physics.contacts import Contacts
+from rgss.physics.engine import load_urdf_text, open_client, pybullet
+from rgss.physics.settings import PhysicsSettings
+from rgss.scenes import Box, Gripper, Pose, Scene, Shape
+from rgss.scenes.assembly import assembled_urdf, finger_joint
+
+_ARM_POSITION_GAIN = 0.2
+_GEAR_FORCE_N = 1.0e4
+_FRICTION_RECOVERY = 0.9
+_RENEWAL_COSINE = math.cos(math.radians(30.0) / 2)
+_RENEWAL_CHECK_STEPS = 8
+
+
+class World:
+    """One physics world; a context manager that always closes its client.
+
+    The arm follows targets through velocity motors with the joints' torque limits; fingers move
+    at their velocity with their force limit.
+    """
+
+    def __init__(self, scene: Scene, gripper: Gripper, settings: PhysicsSettings) -> None:
+        """Build the world.
+
+        Args:
+            scene: Fixed bodies, workpiece and robot.
+            gripper: The gripper on the robot's flange.
+            settings: Step length and solver.
+
+        Raises:
+            SimulationError: The engine cannot build it.
+        """
+        self._engine = pybullet()
+        self._client = open_client()
+        self.scene = scene
+        self.gripper = gripper
+        self.settings = settings
+        self._steps = 0
+        self._renewed_at = scene.workpiece.pose.quaternion_xyzw
+        try:
+            self._set_parameters()
+            self._scene_names = self._add_scene()
+            self._workpiece = self._add_workpiece()
+            self._robot = self._add_robot()
+            self._index_robot()
+        except self._engine.error as error:
+            self.close()
+            raise SimulationError(f"the physics engine refused the world: {error}", hint="check the scene") from error
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self) -> World:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the physics client; closing twice is allowed."""
+        if self._client >= 0:
+            self._engine.disconnect(physicsClientId=self._client)
+            self._client = -1
+
+    def reset_arm(self, configuration_rad: Sequence[float]) -> None:
+        """Put the arm at rest at a configuration, fingers open, without stepping."""
+        for joint, angle in zip(self._arm_joints, configuration_rad, strict=True):
+            self._engine.resetJointState(self._robot, joint, angle, 0.0, physicsClientId=self._client)
+        for joint in self._finger_joints:
+            self._engine.resetJointState(self._robot, joint, 0.0, 0.0, physicsClientId=self._client)
+        self.command_arm(configuration_rad, (0.0,) * len(self._arm_joints))
+        self.hold_open()
+
+    def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
+        """Set the arm's targets for the next step."""
+        self._engine.setJointMotorControlArray(
+            self._robot,
+            self._arm_joints,
+            self._engine.POSITION_CONTROL,
+            targetPositions=position_rad,
+            targetVelocities=velocity_rad_s,
+            forces=self._arm_torques,
+            positionGains=self._arm_position_gains,
+            velocityGains=self._arm_velocity_gains,
+            physicsClientId=self._client,
+        )
+
+    def hold_open(self) -> None:
+        """Hold the fingers at their open end."""
+        count = len(self._finger_joints)
+        self._engine.setJointMotorControlArray(
+            self._robot,
+            self._finger_joints,
+            self._engine.POSITION_CONTROL,
+            targetPositions=[0.0] * count,
+            targetVelocities=[0.0] * count,
+            forces=[self.gripper.finger_force_n] * count,
+            physicsClientId=self._client,
+        )
+
+    def drive_fingers(self, velocity_m_s: float, force_n: float) -> None:
+        """Move every finger at a velocity (positive closes) with at most a force."""
+        if velocity_m_s < 0.0:
+            self.renew_contacts()
+        count = len(self._finger_joints)
+        self._engine.setJointMotorControlArray(
+            self._robot,
+            self._finger_joints,
+            self._engine.VELOCITY_CONTROL,
+            targetVelocities=[velocity_m_s] * count,
+            forces=[force_n] * count,
+            physicsClientId=self._client,
+        )
+
+    def step(self) -> None:
+        """Advance by one step."""
+        self._steps += 1
+        if self._steps % _RENEWAL_CHECK_STEPS == 0:
+            self._renew_contacts_after_rotation()
+        self._engine.stepSimulation(physicsClientId=self._client)
+
+    def renew_contacts(self) -> None:
+        """Let the engine find the workpiece's contacts anew.
+
+        The engine keeps the points of a lasting contact, with their normals as they were in the
+        world when the point was found. While a held object is turned they go astray: forces change
+        that should not, and an opening finger drags the object along. Each renewal costs the
+        deflection of the friction that held the object, some hundredths of a millimetre.
+        """
+        # Setting a filter, even to what it is, takes the body out of the broad phase and puts it back.
+        self._engine.setCollisionFilterGroupMask(self._workpiece, -1, 1, -1, physicsClientId=self._client)
+
+    def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
+        """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm."""
+        states = self._engine.getJointStates(self._robot, self._arm_joints, physicsClientId=self._client)
+        return tuple(s[0] for s in states), tuple(s[1] for s in states), tuple(s[3] for s in states)
+
+    def finger_travel_m(self) -> tuple[float, ...]:
+        """How far each finger has closed from its open end."""
+        states = self._engine.getJointStates(self._robot, self._finger_joints, physicsClientId=self._client)
+        return tuple(state[0] for state in states)
+
+    def workpiece_pose(self) -> Pose:
+        """Transform of the workpiece to the world."""
+        position, orientation = self._engine.getBasePositionAndOrientation(
+            self._workpiece, physicsClientId=self._client
+        )
+        return Pose(position_m=tuple(position), quaternion_xyzw=tuple(orientation))
+
+    def workpiece_speed(self) -> tuple[float, float]:
+        """Linear (m/s) and angular (rad/s) speed of the workpiece."""
+        linear, angular = self._engine.getBaseVelocity(self._workpiece, physicsClientId=self._client)
+        return sum(v * v for v in linear) ** 0.5, sum(w * w for w in angular) ** 0.5
+
+    def tool_pose(self) -> Pose:
+        """Transform of the grasp-centre frame to the world as the arm really stands."""
+        state = self._engine.getLinkState(
+            self._robot, self._flange, computeForwardKinematics=1, physicsClientId=self._client
+        )
+        flange = Pose(position_m=tuple(state[4]), quaternion_xyzw=tuple(state[5]))
+        return flange @ self.gripper.geometry.grasp_centre
+
+    def contacts(self) -> Contacts:
+        """What touches what after the last step.
+
+        The arm's base link does not move and so is never reported, wherever it is mounted.
+        """
+        forces = [0.0] * len(self._finger_joints)
+        other = fx = fy = fz = 0.0
+        robot_bodies: list[tuple[str, str]] = []
+        workpiece_bodies: list[str] = []
+        robot, workpiece = self._robot, self._workpiece
+        # All are asked for: asked for one body's, the engine names it A, yet does not turn the friction round.
+        for point in self._engine.getContactPoints(physicsClientId=self._client):
+            force = point[9]
+            if force <= 0.0 and point[8] > 0.0:
+                continue
+            body_a, body_b = point[1], point[2]
+            if body_a == robot or body_b == robot:
+                robot_is_a = body_a == robot
+                link, partner = (point[3], body_b) if robot_is_a else (point[4], body_a)
+                if partner != workpiece:
+                    robot_bodies.append((self._link_names[link], self._scene_names[partner]))
+                    continue
+                finger = self._finger_of_link.get(link)
+                if finger is None:
+                    other += force
+                    continue
+                forces[finger] += force
+                # The engine gives friction as it acts on body A.
+                sign = -1.0 if robot_is_a else 1.0
+                first, along_first, second, along_second = point[10], point[11], point[12], point[13]
+                fx += sign * (first * along_first[0] + second * along_second[0])
+                fy += sign * (first * along_first[1] + second * along_second[1])
+                fz += sign * (first * along_first[2] + second * along_second[2])
+            elif body_a == workpiece or body_b == workpiece:
+                workpiece_bodies.append(self._scene_names[body_b if body_a == workpiece else body_a])
+        return Contacts(
+            finger_forces_n=tuple(forces),
+            other_force_n=other,
+            friction_n=(fx, fy, fz),
+            robot_bodies=tuple(dict.fromkeys(robot_bodies)),
+            workpiece_bodies=tuple(dict.fromkeys(workpiece_bodies)),
+        )
+
+    def _renew_contacts_after_rotation(self) -> None:
+        _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=self._client)
+        cosine = abs(sum(a * b for a, b in zip(turned, self._renewed_at, strict=True)))
+        if cosine < _RENEWAL_COSINE:
+            self._renewed_at = turned
+            self.renew_contacts()
+
+    def _set_parameters(self) -> None:
+        engine, client = self._engine, self._client
+        engine.setGravity(0.0, 0.0, -self.scene.gravity_m_s2, physicsClientId=client)
+        engine.setPhysicsEngineParameter(
+            fixedTimeStep=self.settings.step_s,
+            numSolverIterations=self.settings.solver_iterations,
+            numSubSteps=0,
+            # With a residual threshold of zero every iteration runs, and a held object does not creep.
+            solverResidualThreshold=0.0,
+            # A body that is carried round a bend is moved along the tangent in each step; friction takes
+            # it back by this share, which keeps it within a millimetre of where it was gripped.
+            frictionERP=_FRICTION_RECOVERY,
+            # Without it the order of contact pairs, and so the last bits of a result, can differ by run.
+            deterministicOverlappingPairs=1,
+            physicsClientId=client,
+        )
+
+    def _shape(self, shape: Shape) -> int:
+        engine, client = self._engine, self._client
+        sizes = shape.size_m if isinstance(shape, Box) else (shape.radius_m, shape.height_m)
+        if not all(0.0 < size < math.inf for size in sizes):
+            # The engine takes some of these without a word and prints about the others.
+            raise SimulationError(f"a body cannot have the sizes {sizes}", hint="give lengths greater than zero")
+        if isinstance(shape, Box):
+            half = [size / 2 for size in shape.size_m]
+            return int(engine.createCollisionShape(engine.GEOM_BOX, halfExtents=half, physicsClientId=client))
+        return int(
+            engine.createCollisionShape(
+                engine.GEOM_CYLINDER, radius=shape.radius_m, height=shape.height_m, physicsClientId=client
+            )
+        )
+
+    def _add_body(self, shape: Shape, pose: Pose, mass_kg: float) -> int:
+        body = int(
+            self._engine.createMultiBody(
+                mass_kg,
+                self._shape(shape),
+                -1,
+                pose.position_m,
+                pose.quaternion_xyzw,
+                physicsClientId=self._client,
+            )
+        )
+        if body < 0:
+            raise SimulationError("the physics engine refused a body", hint="check its sizes")
+        return body
+
+    def _add_scene(self) -> dict[int, str]:
+        names = {}
+        for body in self.scene.bodies:
+            number = self._add_body(body.shape, body.pose, 0.0)
+            self._engine.changeDynamics(number, -1, lateralFriction=body.friction, physicsClientId=self._client)
+            names[number] = body.id
+        return names
+
+    def _add_workpiece(self) -> int:
+        workpiece = self.scene.workpiece
+        if not 0.0 < workpiece.mass_kg < math.inf:
+            # A body without mass would stand in the air.
+            raise SimulationError(
+                f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
+            )
+        body = self._add_body(workpiece.shape, workpiece.pose, workpiece.mass_kg)
+        self._engine.changeDynamics(
+            body,
+            -1,
+            lateralFriction=workpiece.friction,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            frictionAnchor=1,
+            activationState=self._engine.ACTIVATION_STATE_DISABLE_SLEEPING,
+            physicsClientId=self._client,
+        )
+        return body
+
+    def _add_robot(self) -> int:
+        base, engine = self.scene.robot.base, self._engine
+        return load_urdf_text(
+            self._client,
+            assembled_urdf(self.scene.robot, self.gripper),
+            position=base.position_m,
+            orientation=base.quaternion_xyzw,
+            flags=engine.URDF_USE_INERTIA_FROM_FILE | engine.URDF_USE_IMPLICIT_CYLINDER,
+        )
+
+    def _index_robot(self) -> None:
+        engine, client, robot = self._engine, self._client, self._robot
+        info: list[Any] = [
+            engine.getJointInfo(robot, index, physicsClientId=client)
+            for index in range(engine.getNumJoints(robot, physicsClientId=client))
+        ]
+        joints = {entry[1].decode(): entry[0] for entry in info}
+        links = {entry[12].decode(): entry[0] for entry in info}
+        self._link_names = {index: name for name, index in links.items()}
+        self._link_names[-1] = engine.getBodyInfo(robot, physicsClientId=client)[0].decode()
+        arm = self.scene.robot.joints
+        self._arm_joints = [joints[joint.name] for joint in arm]
+        self._arm_torques = [joint.torque_n_m for joint in arm]
+        self._arm_position_gains = [_ARM_POSITION_GAIN] * len(arm)
+        self._arm_velocity_gains = [1.0] * len(arm)
+        fingers = range(self.gripper.geometry.fingers)
+        self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
+        self._finger_of_link = {joint: finger for finger, joint in enumerate(self._finger_joints)}
+        self._flange = links[self.scene.robot.flange]
+        for link in range(-1, len(info)):
+            engine.changeDynamics(
+                robot, link, linearDamping=0.0, angularDamping=0.0, jointDamping=0.0, physicsClientId=client
+            )
+        for joint in self._finger_joints:
+            engine.changeDynamics(
+                robot, joint, lateralFriction=self.gripper.friction, frictionAnchor=1, physicsClientId=client
+            )
+        if len(self._finger_joints) == 2:
+            self._couple_fingers()
+
+    def _couple_fingers(self) -> None:
+        """Gear two opposed fingers together: each alone resists no force along their common axis."""
+        engine = self._engine
+        gear = engine.createConstraint(
+            self._robot,
+            self._finger_joints[0],
+            self._robot,
+            self._finger_joints[1],
+            engine.JOINT_GEAR,
+            [1, 0, 0],
+            [0, 0, 0],
+            [0, 0, 0],
+            physicsClientId=self._client,
+        )
+        engine.changeConstraint(gear, gearRatio=-1, maxForce=_GEAR_FORCE_N, erp=0.2, physicsClientId=self._client)

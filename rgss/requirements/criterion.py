@@ -1,0 +1,75 @@
+"""The success criterion of a requirement: a bound on one measure."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from enum import Enum
+from types import MappingProxyType
+
+from rgss.quantities import conversion_factor
+
+
+class Statistic(str, Enum):
+    """Which number of an estimate is compared: its value, or an end of its interval."""
+
+    VALUE = "value"
+    LOW = "low"
+    HIGH = "high"
+
+
+class Comparison(str, Enum):
+    """How the statistic must stand to the threshold."""
+
+    AT_LEAST = ">="
+    AT_MOST = "<="
+    ABOVE = ">"
+    BELOW = "<"
+
+    def holds(self, value: float, threshold: float) -> bool:
+        """Tell whether the value stands to the threshold as it must; both in one unit."""
+        return _OPERATORS[self](value, threshold)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Criterion:
+    """A bound that a measure must keep for the requirement to be met.
+
+    Attributes:
+        measure: Id of the measure, such as ``P_max``.
+        statistic: Which number of the measure's estimate is compared.
+        comparison: How it must stand to the threshold.
+        threshold: The bound, in ``unit``.
+        unit: The unit in which the file gives the bound; ``"1"`` for a pure number.
+    """
+
+    measure: str
+    statistic: Statistic
+    comparison: Comparison
+    threshold: float
+    unit: str
+
+    def threshold_in(self, unit: str) -> float:
+        """The threshold in another unit, usually that of the measure.
+
+        Raises:
+            QuantityError: The unit measures something else than the threshold's.
+        """
+        # Decimal, so that 35 mm become the float nearest to 0.035 m.
+        return float(Decimal(repr(self.threshold)) * Decimal(repr(conversion_factor(self.unit, unit))))
+
+    def __str__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"{self.measure} {self.comparison.value} {self.threshold:g}{unit}"
+
+
+_OPERATORS: Mapping[Comparison, Callable[[float, float], bool]] = MappingProxyType(
+    {
+        Comparison.AT_LEAST: operator.ge,
+        Comparison.AT_MOST: operator.le,
+        Comparison.ABOVE: operator.gt,
+        Comparison.BELOW: operator.lt,
+    }
+)

@@ -1,0 +1,153 @@
+"""What the three YAML files of the requirements folder look like."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Any, TypeVar
+
+from pydantic import AfterValidator, BeforeValidator, WithJsonSchema, model_validator
+
+from rgss.documents import DocumentModel, Identifier, QuantityText, Text
+from rgss.errors import QuantityError
+from rgss.quantities import parse_quantity
+from rgss.requirements.architecture import BehaviourKind, BlockLevel, BlockRelation
+from rgss.requirements.attributes import NeedKind, Priority, RequirementGroup, Status, VerificationMethod
+from rgss.requirements.criterion import Comparison, Statistic
+
+_Entry = TypeVar("_Entry")
+
+_UNIT_START = re.compile(r"(?![eE][+-]?\d)[A-Za-zµμ°%$]")
+
+
+def split_quantity(text: str) -> tuple[float, str]:
+    """Read a quantity of any unit.
+
+    Returns:
+        The magnitude, and the unit as it is written; ``"1"`` for a pure number.
+
+    Raises:
+        QuantityError: The text is not a number with a known unit.
+    """
+    start = _UNIT_START.search(text)
+    if start is None:
+        return parse_quantity(text, "1"), "1"
+    if not text[: start.start()].strip():
+        raise QuantityError(f"{text!r} has no number", hint='write a number and a unit, such as "1 kg"')
+    unit = text[start.start() :].strip()
+    return parse_quantity(text, unit), unit
+
+
+def _as_text(value: Any) -> Any:
+    # A threshold without a unit may stand as a plain number.
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+def _check_quantity(text: str) -> str:
+    split_quantity(text)
+    return text
+
+
+def _not_empty(entries: tuple[_Entry, ...]) -> tuple[_Entry, ...]:
+    # Not pydantic's min_length, which counts only sound entries and so reports a broken one twice.
+    if not entries:
+        raise ValueError("at least 1 entry is expected")
+    return entries
+
+
+_Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty)]
+
+ThresholdText = Annotated[
+    QuantityText,
+    BeforeValidator(_as_text),
+    AfterValidator(_check_quantity),
+    WithJsonSchema({"type": ["string", "number"], "description": "A quantity in a unit of the measure's dimension."}),
+]
+"""A quantity whose unit the measure decides, such as ``"0.8 kg"``; a pure number may be bare."""
+
+
+class NeedFile(DocumentModel):
+    """A stakeholder requirement in ``stakeholder.yaml``."""
+
+    id: Identifier
+    kind: NeedKind
+    text: Text
+    rationale: Text
+    source: Text
+    priority: Priority
+    status: Status
+    owner: Text
+
+
+class StakeholderFile(DocumentModel):
+    """The file ``stakeholder.yaml``."""
+
+    requirements: _Entries[NeedFile]
+
+
+class CriterionFile(DocumentModel):
+    """The success criterion of a system requirement."""
+
+    measure: Identifier
+    statistic: Statistic = Statistic.VALUE
+    comparison: Comparison
+    threshold: ThresholdText
+
+
+class RequirementFile(DocumentModel):
+    """A system requirement in ``system.yaml``."""
+
+    id: Identifier
+    group: RequirementGroup
+    text: Text
+    rationale: Text
+    source: Text
+    derived_from: tuple[Identifier, ...] = ()
+    satisfied_by: tuple[Identifier, ...] = ()
+    verification: VerificationMethod | None = None
+    criterion: CriterionFile | None = None
+    criterion_exemption: Text | None = None
+    priority: Priority
+    status: Status
+    owner: Text
+
+    @model_validator(mode="after")
+    def _criterion_or_exemption(self) -> RequirementFile:
+        if self.criterion is not None and self.criterion_exemption is not None:
+            raise ValueError("a criterion and an exemption from it exclude each other")
+        return self
+
+
+class SystemFile(DocumentModel):
+    """The file ``system.yaml``."""
+
+    requirements: _Entries[RequirementFile]
+
+
+class BlockFile(DocumentModel):
+    """A block in ``architecture.yaml``."""
+
+    id: Identifier
+    name: Text
+    level: BlockLevel
+    parent: Identifier | None = None
+    relation: BlockRelation = BlockRelation.PART
+    text: Text
+
+
+class BehaviourFile(DocumentModel):
+    """A behaviour in ``architecture.yaml``."""
+
+    id: Identifier
+    name: Text
+    kind: BehaviourKind
+    allocated_to: tuple[Identifier, ...] = ()
+    refines: tuple[Identifier, ...] = ()
+    includes: tuple[Identifier, ...] = ()
+    text: Text
+
+
+class ArchitectureFile(DocumentModel):
+    """The file ``architecture.yaml``."""
+
+    blocks: _Entries[BlockFile]
+    behaviours: tuple[BehaviourFile, ...] = ()

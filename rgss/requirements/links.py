@@ -1,0 +1,40 @@
+"""Links between elements of the model, with the relations of SysML."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class LinkKind(str, Enum):
+    """The relations of SysML that links use; each reads from source to target."""
+
+    CONTAINMENT = "containment"
+    """The source is contained in the target."""
+    DERIVE = "deriveReqt"
+    """The source requirement derives from the target requirement."""
+    REFINE = "refine"
+    """The source spells out the target."""
+    SATISFY = "satisfy"
+    """The source element satisfies the target requirement."""
+    VERIFY = "verify"
+    """The source shows whether the target requirement is met."""
+    TRACE = "trace"
+    """The source goes back to the target."""
+    ALLOCATE = "allocate"
+    """The source behaviour is done by the target block."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, order=True)
+class TraceLink:
+    """One directed link; it points from the later element to the one that it rests on.
+
+    Attributes:
+        source: Id of the element that states or makes the link.
+        target: Id of the element that it points at.
+        kind: The relation.
+    """
+
+    source: str
+    target: str
+    kind: LinkKind

@@ -1,0 +1,32 @@
+"""What the stakeholders ask for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.requirements.attributes import NeedKind, Priority, Status
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StakeholderNeed:
+    """One stakeholder requirement.
+
+    Attributes:
+        id: Its id, such as ``STK-006``.
+        kind: The part of the system that it speaks of.
+        text: The sentence, in EARS form.
+        rationale: Why it is asked for.
+        source: Where it comes from.
+        priority: How much it matters.
+        status: How far it has come.
+        owner: The role that answers for it.
+    """
+
+    id: str
+    kind: NeedKind
+    text: str
+    rationale: str
+    source: str
+    priority: Priority
+    status: Status
+    owner: str

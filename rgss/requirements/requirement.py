@@ -1,0 +1,43 @@
+"""What the system shall do or be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.requirements.attributes import Priority, RequirementGroup, Status, VerificationMethod
+from rgss.requirements.criterion import Criterion
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Requirement:
+    """One system requirement.
+
+    Attributes:
+        id: Its id, such as ``SYS-012``.
+        group: The subsystem that it speaks of.
+        text: The sentence, in EARS form.
+        rationale: Why it is asked for.
+        source: Where it comes from.
+        derived_from: Ids of the requirements that it derives from, its parents.
+        satisfied_by: Ids of the blocks and behaviours that satisfy it, its allocation.
+        verification: How it is verified; None while that is open.
+        criterion: The bound that decides whether it is met; None if there is none.
+        criterion_exemption: Why it is analysed without a criterion; empty unless it is.
+        priority: How much it matters.
+        status: How far it has come.
+        owner: The role that answers for it.
+    """
+
+    id: str
+    group: RequirementGroup
+    text: str
+    rationale: str
+    source: str
+    derived_from: tuple[str, ...]
+    satisfied_by: tuple[str, ...]
+    verification: VerificationMethod | None
+    criterion: Criterion | None
+    criterion_exemption: str
+    priority: Priority
+    status: Status
+    owner: str

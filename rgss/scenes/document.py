@@ -1,0 +1,152 @@
+"""The YAML form of scenes, robots and grippers."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, StringConstraints
+
+from rgss.documents import (
+    Dimensionless,
+    DocumentModel,
+    Identifier,
+    Kilograms,
+    Metres,
+    MetresPerSecondSquared,
+    NewtonMetres,
+    Newtons,
+    Radians,
+    RadiansPerSecond,
+    RadiansPerSecondSquared,
+    Text,
+)
+
+Colour = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}$")]
+Point = tuple[Metres, Metres, Metres]
+PointOnTop = tuple[Metres, Metres]
+
+
+class AssumptionEntry(DocumentModel):
+    """What was assumed, and why."""
+
+    about: Text
+    rationale: Text
+
+
+class CylinderEntry(DocumentModel):
+    """An upright cylinder."""
+
+    radius: Metres
+    height: Metres
+
+
+class BodyEntry(DocumentModel):
+    """A fixed body; exactly one of `box` and `cylinder`."""
+
+    id: Identifier
+    box: Point | None = None
+    cylinder: CylinderEntry | None = None
+    foot: Point
+    yaw: Radians = 0.0
+    friction: Dimensionless
+    colour: Colour
+
+
+class WorkpieceEntry(DocumentModel):
+    """The object to carry, standing on a body."""
+
+    id: Identifier
+    radius: Metres
+    height: Metres
+    mass: Kilograms
+    friction: Dimensionless
+    force_limit: Newtons
+    stands_on: Identifier
+    at: PointOnTop
+    colour: Colour
+
+
+class PlaceRegionEntry(DocumentModel):
+    """Where the object is to stand, on top of a body."""
+
+    stands_on: Identifier
+    at: PointOnTop
+    radius: Metres
+    largest_tilt: Radians
+
+
+class TaskEntry(DocumentModel):
+    """Heights and turns of the waypoints."""
+
+    approach_height: Metres
+    lift_height: Metres
+    departure_height: Metres
+    place_approach_height: Metres
+    place_clearance: Metres
+    largest_carry_tilt: Radians
+    grasp_yaw: Radians
+    place_yaw: Radians
+
+
+class RobotPlacementEntry(DocumentModel):
+    """Which robot, and where its base stands."""
+
+    description: Text
+    base: Point
+    yaw: Radians = 0.0
+
+
+class SceneDocument(DocumentModel):
+    """A scene file."""
+
+    scene: Identifier
+    gravity: MetresPerSecondSquared
+    robot: RobotPlacementEntry
+    bodies: Annotated[tuple[BodyEntry, ...], Field(min_length=1)]
+    workpiece: WorkpieceEntry
+    place_region: PlaceRegionEntry
+    task: TaskEntry
+    assumptions: tuple[AssumptionEntry, ...] = ()
+
+
+class JointEntry(DocumentModel):
+    """One joint's limits."""
+
+    name: Identifier
+    range: tuple[Radians, Radians]
+    speed: RadiansPerSecond
+    acceleration: RadiansPerSecondSquared
+    torque: NewtonMetres
+
+
+class RobotDocument(DocumentModel):
+    """A robot file."""
+
+    robot: Identifier
+    description: Text
+    flange: Identifier
+    joints: Annotated[tuple[JointEntry, ...], Field(min_length=6, max_length=6)]
+    tool_acceleration: MetresPerSecondSquared
+    home: tuple[Radians, Radians, Radians, Radians, Radians, Radians]
+    assumptions: tuple[AssumptionEntry, ...] = ()
+
+
+class FingerEntry(DocumentModel):
+    """A finger's box: radial, tangential, axial."""
+
+    thickness: Metres
+    width: Metres
+    length: Metres
+
+
+class GripperDocument(DocumentModel):
+    """A gripper file."""
+
+    gripper: Identifier
+    azimuths: Annotated[tuple[Radians, ...], Field(min_length=2)]
+    base: CylinderEntry
+    finger: FingerEntry
+    largest_opening: Metres
+    stroke: Metres
+    grasp_depth: Metres
+    assumptions: tuple[AssumptionEntry, ...] = ()

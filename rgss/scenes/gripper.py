@@ -1,0 +1,90 @@
+"""Parametric grippers: a base and prismatic fingers that close towards the axis."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rgss.scenes.pose import Pose
+from rgss.scenes.shapes import Box, Cylinder
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GripperGeometry:
+    """The shape of a gripper, in the flange frame (z out of the flange).
+
+    Each finger is a box that slides along its azimuth; its pad is the inner face. The opening
+    is the distance of the pads from the axis.
+
+    Attributes:
+        id: Its name.
+        azimuths_rad: Direction of each finger about z.
+        base: The body between flange and fingers, its top face on the flange.
+        finger: A finger: x radial (thickness), y tangential (width), z axial (length).
+        largest_opening_m: Pad distance from the axis when open.
+        stroke_m: Travel of each finger towards the axis.
+        grasp_depth_m: Distance along z from the flange to the grasp centre.
+    """
+
+    id: str
+    azimuths_rad: tuple[float, ...]
+    base: Cylinder
+    finger: Box
+    largest_opening_m: float
+    stroke_m: float
+    grasp_depth_m: float
+
+    @property
+    def fingers(self) -> int:
+        """Number of fingers."""
+        return len(self.azimuths_rad)
+
+    @property
+    def base_pose(self) -> Pose:
+        """Transform of the base's shape to the flange."""
+        return Pose(position_m=(0.0, 0.0, self.base.height_m / 2))
+
+    def finger_pose(self, finger: int, opening_m: float) -> Pose:
+        """Transform of a finger's shape to the flange at a pad distance from the axis.
+
+        Args:
+            finger: Index of the finger.
+            opening_m: Distance of its pad from the axis.
+        """
+        azimuth = self.azimuths_rad[finger]
+        radius = opening_m + self.finger.size_m[0] / 2
+        height = self.base.height_m + self.finger.size_m[2] / 2
+        return Pose.from_roll_pitch_yaw(
+            (radius * math.cos(azimuth), radius * math.sin(azimuth), height), (0.0, 0.0, azimuth)
+        )
+
+    @property
+    def grasp_centre(self) -> Pose:
+        """Transform of the grasp-centre frame to the flange."""
+        return Pose(position_m=(0.0, 0.0, self.grasp_depth_m))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Gripper:
+    """A gripper as a design variant has it.
+
+    Attributes:
+        geometry: Its shape.
+        base_mass_kg: Mass of the base with its actuators.
+        finger_mass_kg: Mass of one finger.
+        finger_velocity_m_s: Greatest finger speed.
+        finger_force_n: Force of one finger.
+        friction: Coefficient of the pads; a contact's coefficient is the product with the object's.
+    """
+
+    geometry: GripperGeometry
+    base_mass_kg: float
+    finger_mass_kg: float
+    finger_velocity_m_s: float
+    finger_force_n: float
+    friction: float
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass of the whole gripper."""
+        return self.base_mass_kg + self.geometry.fingers * self.finger_mass_kg

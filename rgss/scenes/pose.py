@@ -1,0 +1,78 @@
+"""Rigid transforms between named frames."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pose:
+    """A rigid transform: where a frame stands in another, in metres and a unit quaternion.
+
+    Attributes:
+        position_m: Origin of the frame in the outer frame.
+        quaternion_xyzw: Orientation of the frame in the outer frame, scalar last.
+    """
+
+    position_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    quaternion_xyzw: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+
+    @staticmethod
+    def from_roll_pitch_yaw(
+        position_m: tuple[float, float, float], roll_pitch_yaw_rad: tuple[float, float, float]
+    ) -> Pose:
+        """A pose from fixed-axis rotations about x, then y, then z, as in URDF."""
+        roll, pitch, yaw = (angle / 2 for angle in roll_pitch_yaw_rad)
+        cr, sr, cp, sp, cy, sy = (f(a) for a in (roll, pitch, yaw) for f in (math.cos, math.sin))
+        quaternion = (
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+            cr * cp * cy + sr * sp * sy,
+        )
+        return Pose(position_m=position_m, quaternion_xyzw=quaternion)
+
+    def rotate(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
+        """Express a direction of this frame in the outer frame."""
+        x, y, z, w = self.quaternion_xyzw
+        vx, vy, vz = vector
+        tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
+        return (
+            vx + w * tx + y * tz - z * ty,
+            vy + w * ty + z * tx - x * tz,
+            vz + w * tz + x * ty - y * tx,
+        )
+
+    def __matmul__(self, inner: Pose) -> Pose:
+        """Chain two transforms: ``transform_b_to_a @ transform_c_to_b`` is ``transform_c_to_a``."""
+        ox, oy, oz = self.rotate(inner.position_m)
+        px, py, pz = self.position_m
+        ax, ay, az, aw = self.quaternion_xyzw
+        bx, by, bz, bw = inner.quaternion_xyzw
+        return Pose(
+            position_m=(px + ox, py + oy, pz + oz),
+            quaternion_xyzw=(
+                aw * bx + ax * bw + ay * bz - az * by,
+                aw * by - ax * bz + ay * bw + az * bx,
+                aw * bz + ax * by - ay * bx + az * bw,
+                aw * bw - ax * bx - ay * by - az * bz,
+            ),
+        )
+
+    def inverse(self) -> Pose:
+        """The transform the other way round."""
+        x, y, z, w = self.quaternion_xyzw
+        turned = Pose(quaternion_xyzw=(-x, -y, -z, w))
+        px, py, pz = turned.rotate(self.position_m)
+        return Pose(position_m=(-px, -py, -pz), quaternion_xyzw=turned.quaternion_xyzw)
+
+    def raised(self, height_m: float) -> Pose:
+        """The same pose, higher along the outer frame's z."""
+        x, y, z = self.position_m
+        return Pose(position_m=(x, y, z + height_m), quaternion_xyzw=self.quaternion_xyzw)
+
+    @property
+    def tilt_rad(self) -> float:
+        """Angle between this frame's z axis and the outer frame's z axis."""
+        return math.acos(max(-1.0, min(1.0, self.rotate((0.0, 0.0, 1.0))[2])))

@@ -1,0 +1,51 @@
+"""The manipulator: its description file and the limits that a planner and a controller keep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.scenes.pose import Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Joint:
+    """One revolute joint of the arm and its limits.
+
+    Attributes:
+        name: Its name in the robot description.
+        lower_rad: Lower end of the range used for planning.
+        upper_rad: Upper end of the range used for planning.
+        speed_rad_s: Greatest speed.
+        acceleration_rad_s2: Greatest acceleration used for timing.
+        torque_n_m: Greatest torque.
+    """
+
+    name: str
+    lower_rad: float
+    upper_rad: float
+    speed_rad_s: float
+    acceleration_rad_s2: float
+    torque_n_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Robot:
+    """A six-joint arm.
+
+    Attributes:
+        id: Its name.
+        urdf: Text of its URDF, from the base to the flange, primitive collision shapes only.
+        flange: Name of the link that carries the gripper; z points out of the flange.
+        joints: The joints from base to flange.
+        base: Transform of the arm's base frame to the world.
+        tool_acceleration_m_s2: Greatest acceleration of the tool centre.
+        home_rad: A configuration near which inverse-kinematics branches are preferred.
+    """
+
+    id: str
+    urdf: str
+    flange: str
+    joints: tuple[Joint, ...]
+    base: Pose
+    tool_acceleration_m_s2: float
+    home_rad: tuple[float, ...]

@@ -1,0 +1,76 @@
+"""Reading a robot file and the URDF that it names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rgss.documents import load_document
+from rgss.errors import DocumentError
+from rgss.scenes.document import RobotDocument
+from rgss.scenes.findings import is_file, missing_file, not_positive
+from rgss.scenes.pose import Pose
+from rgss.scenes.robot import Joint, Robot
+from rgss.scenes.urdf_file import read_urdf
+
+
+def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
+    """Read a robot file and the URDF that it names.
+
+    Args:
+        path: The robot file.
+        base: Transform of the arm's base frame to the world.
+        label: The file's name in messages.
+
+    Raises:
+        DocumentError: The file or its URDF is wrong; with every problem in it.
+    """
+    loaded = load_document(path, RobotDocument, label=label)
+    entry, document = loaded.value, loaded.document
+    findings = [
+        document.finding("scene.range", f"joint {joint.name!r} has an empty range", ("joints", index, "range"))
+        for index, joint in enumerate(entry.joints)
+        if joint.range[0] >= joint.range[1]
+    ]
+    findings.extend(
+        not_positive(
+            document,
+            (
+                (("joints", index, key), value)
+                for index, joint in enumerate(entry.joints)
+                for key, value in (
+                    ("speed", joint.speed),
+                    ("acceleration", joint.acceleration),
+                    ("torque", joint.torque),
+                )
+            ),
+        )
+    )
+    findings.extend(not_positive(document, [(("tool_acceleration",), entry.tool_acceleration)]))
+    urdf_path = path.parent / entry.description
+    urdf = ""
+    if is_file(urdf_path):
+        urdf, problems = read_urdf(urdf_path, document, entry)
+        findings.extend(problems)
+    else:
+        findings.append(missing_file(document, entry.description, ("description",)))
+    if findings:
+        raise DocumentError(sorted(findings))
+    return Robot(
+        id=entry.robot,
+        urdf=urdf,
+        flange=entry.flange,
+        joints=tuple(
+            Joint(
+                name=joint.name,
+                lower_rad=joint.range[0],
+                upper_rad=joint.range[1],
+                speed_rad_s=joint.speed,
+                acceleration_rad_s2=joint.acceleration,
+                torque_n_m=joint.torque,
+            )
+            for joint in entry.joints
+        ),
+        base=base,
+        tool_acceleration_m_s2=entry.tool_acceleration,
+        home_rad=entry.home,
+    )

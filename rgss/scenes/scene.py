@@ -1,0 +1,137 @@
+"""The place where the task happens: fixed bodies, the workpiece, the place region, the robot."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rgss.scenes.pose import Pose
+from rgss.scenes.robot import Robot
+from rgss.scenes.shapes import Cylinder, Shape
+
+ColourRgba = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SceneBody:
+    """A fixed body of the scene.
+
+    Attributes:
+        id: Its name.
+        shape: Its solid.
+        pose: Transform of the shape's frame to the world.
+        friction: Its coefficient; a contact's coefficient is the product of both bodies'.
+        colour: Colour in pictures.
+    """
+
+    id: str
+    shape: Shape
+    pose: Pose
+    friction: float
+    colour: ColourRgba
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Workpiece:
+    """The object that is picked and placed.
+
+    Attributes:
+        id: Its name.
+        shape: Its solid, upright.
+        mass_kg: Its mass.
+        friction: Its coefficient.
+        force_limit_n: Contact force above which it counts as damaged.
+        pose: Transform of its shape's frame to the world at the start.
+        colour: Colour in pictures.
+    """
+
+    id: str
+    shape: Cylinder
+    mass_kg: float
+    friction: float
+    force_limit_n: float
+    pose: Pose
+    colour: ColourRgba
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlaceRegion:
+    """Where the workpiece is to stand at the end.
+
+    Attributes:
+        centre_m: Centre of the region on the surface that bears it, in the world.
+        radius_m: Greatest distance of the workpiece's axis from the centre.
+        largest_tilt_rad: Greatest tilt of the workpiece from upright.
+    """
+
+    centre_m: tuple[float, float, float]
+    radius_m: float
+    largest_tilt_rad: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Task:
+    """Predetermined waypoints of the pick-and-place task, all with the tool pointing down.
+
+    Attributes:
+        approach_height_m: Height of the grasp approach above the grasp.
+        lift_height_m: Height of the lift above the grasp.
+        departure_height_m: Height of the grasp departure above the grasp.
+        place_approach_height_m: Height of the place approach above the place.
+        place_clearance_m: Gap between workpiece and surface at which it is released.
+        largest_carry_tilt_rad: Greatest angle between the carried workpiece's axis and the vertical.
+        grasp_yaw_rad: Turn of the gripper about the vertical at the grasp.
+        place_yaw_rad: Turn of the gripper about the vertical at the place.
+    """
+
+    approach_height_m: float
+    lift_height_m: float
+    departure_height_m: float
+    place_approach_height_m: float
+    place_clearance_m: float
+    largest_carry_tilt_rad: float
+    grasp_yaw_rad: float
+    place_yaw_rad: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """Everything around the gripper.
+
+    Attributes:
+        id: Its name.
+        gravity_m_s2: Magnitude of gravity, along the world's -z.
+        robot: The arm.
+        bodies: The fixed bodies.
+        support: Id of the body on which the workpiece stands at the start.
+        place_support: Id of the body on which it is to stand at the end.
+        workpiece: What is picked and placed.
+        place: Where it is to stand.
+        task: The waypoints.
+    """
+
+    id: str
+    gravity_m_s2: float
+    robot: Robot
+    bodies: tuple[SceneBody, ...]
+    support: str
+    place_support: str
+    workpiece: Workpiece
+    place: PlaceRegion
+    task: Task
+
+    @property
+    def grasp(self) -> Pose:
+        """Transform of the grasp-centre frame to the world at the grasp: tool down on the workpiece's centre."""
+        return _tool_down(self.workpiece.pose.position_m, self.task.grasp_yaw_rad)
+
+    @property
+    def place_pose(self) -> Pose:
+        """Transform of the grasp-centre frame to the world at the place, the workpiece just above the surface."""
+        x, y, z = self.place.centre_m
+        height = self.workpiece.shape.half_height_m + self.task.place_clearance_m
+        return _tool_down((x, y, z + height), self.task.place_yaw_rad)
+
+
+def _tool_down(position_m: tuple[float, float, float], yaw_rad: float) -> Pose:
+    return Pose.from_roll_pitch_yaw(position_m, (math.pi, 0.0, yaw_rad))

@@ -1,0 +1,180 @@
+"""Reading a scene file and the robot file that it names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from rgss.documents import Document, load_document
+from rgss.errors import DocumentError
+from rgss.findings import Finding
+from rgss.scenes.document import BodyEntry, SceneDocument
+from rgss.scenes.findings import Location, is_file, missing_file, negative, not_positive
+from rgss.scenes.pose import Pose
+from rgss.scenes.robot import Robot
+from rgss.scenes.robot_file import load_robot
+from rgss.scenes.scene import ColourRgba, PlaceRegion, Scene, SceneBody, Task, Workpiece
+from rgss.scenes.shapes import Box, Cylinder, Shape
+
+
+def load_scene(path: Path, *, label: str | None = None) -> Scene:
+    """Read a scene with its robot.
+
+    Args:
+        path: The scene file; the robot file that it names is read relative to it.
+        label: The file's name in messages; the path by default.
+
+    Raises:
+        DocumentError: A file is wrong; with every problem in it and in the files that it names.
+    """
+    loaded = load_document(path, SceneDocument, label=label)
+    entry, document = loaded.value, loaded.document
+    findings = [
+        *_body_findings(entry, document),
+        *_workpiece_findings(entry, document),
+        *not_positive(document, _positive_values(entry)),
+        *negative(document, _values_from_zero(entry)),
+    ]
+    robot = _robot(path, entry, document, findings)
+    if findings or robot is None:
+        raise DocumentError(sorted(findings))
+    tops = {body.id: _top(body) for body in entry.bodies}
+    workpiece, place = entry.workpiece, entry.place_region
+    centre = (*workpiece.at, tops[workpiece.stands_on] + workpiece.height / 2)
+    return Scene(
+        id=entry.scene,
+        gravity_m_s2=entry.gravity,
+        robot=robot,
+        bodies=tuple(_body(body) for body in entry.bodies),
+        support=workpiece.stands_on,
+        place_support=place.stands_on,
+        workpiece=Workpiece(
+            id=workpiece.id,
+            shape=Cylinder(radius_m=workpiece.radius, height_m=workpiece.height),
+            mass_kg=workpiece.mass,
+            friction=workpiece.friction,
+            force_limit_n=workpiece.force_limit,
+            pose=Pose(position_m=centre),
+            colour=_colour(workpiece.colour),
+        ),
+        place=PlaceRegion(
+            centre_m=(*place.at, tops[place.stands_on]),
+            radius_m=place.radius,
+            largest_tilt_rad=place.largest_tilt,
+        ),
+        task=Task(
+            approach_height_m=entry.task.approach_height,
+            lift_height_m=entry.task.lift_height,
+            departure_height_m=entry.task.departure_height,
+            place_approach_height_m=entry.task.place_approach_height,
+            place_clearance_m=entry.task.place_clearance,
+            largest_carry_tilt_rad=entry.task.largest_carry_tilt,
+            grasp_yaw_rad=entry.task.grasp_yaw,
+            place_yaw_rad=entry.task.place_yaw,
+        ),
+    )
+
+
+def _robot(path: Path, entry: SceneDocument, document: Document, findings: list[Finding]) -> Robot | None:
+    """The robot that a scene names, or None with what is wrong added to the findings."""
+    placement = entry.robot
+    robot_path = path.parent / placement.description
+    if not is_file(robot_path):
+        findings.append(missing_file(document, placement.description, ("robot", "description")))
+        return None
+    base = Pose.from_roll_pitch_yaw(placement.base, (0.0, 0.0, placement.yaw))
+    label = (Path(document.label).parent / placement.description).as_posix()
+    try:
+        return load_robot(robot_path, base=base, label=label)
+    except DocumentError as error:
+        findings.extend(error.findings)
+        return None
+
+
+def _body_findings(entry: SceneDocument, document: Document) -> Iterable[Finding]:
+    seen: set[str] = set()
+    for index, body in enumerate(entry.bodies):
+        if body.id in seen:
+            yield document.finding(
+                "scene.duplicate-id", f"id {body.id!r} is taken by an earlier body", ("bodies", index, "id")
+            )
+        seen.add(body.id)
+        if (body.box is None) == (body.cylinder is None):
+            yield document.finding(
+                "scene.shape", f"body {body.id!r} needs exactly one of 'box' and 'cylinder'", ("bodies", index)
+            )
+
+
+def _workpiece_findings(entry: SceneDocument, document: Document) -> Iterable[Finding]:
+    bodies = list(dict.fromkeys(body.id for body in entry.bodies))
+    if entry.workpiece.id in bodies:
+        yield document.finding(
+            "scene.duplicate-id", f"id {entry.workpiece.id!r} is taken by a body", ("workpiece", "id")
+        )
+    for key, name in (("workpiece", entry.workpiece.stands_on), ("place_region", entry.place_region.stands_on)):
+        if name not in bodies:
+            yield document.finding(
+                "scene.unknown-body",
+                f"there is no body {name!r}",
+                (key, "stands_on"),
+                hint=f"known bodies: {', '.join(bodies)}",
+            )
+
+
+def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
+    for index, body in enumerate(entry.bodies):
+        if body.box is not None:
+            for axis, length in enumerate(body.box):
+                yield ("bodies", index, "box", axis), length
+        if body.cylinder is not None:
+            yield ("bodies", index, "cylinder", "radius"), body.cylinder.radius
+            yield ("bodies", index, "cylinder", "height"), body.cylinder.height
+    work, place, task = entry.workpiece, entry.place_region, entry.task
+    yield ("gravity",), entry.gravity
+    yield ("workpiece", "radius"), work.radius
+    yield ("workpiece", "height"), work.height
+    yield ("workpiece", "mass"), work.mass
+    yield ("workpiece", "force_limit"), work.force_limit
+    yield ("place_region", "radius"), place.radius
+    yield ("place_region", "largest_tilt"), place.largest_tilt
+    yield ("task", "approach_height"), task.approach_height
+    yield ("task", "lift_height"), task.lift_height
+    yield ("task", "departure_height"), task.departure_height
+    yield ("task", "place_approach_height"), task.place_approach_height
+    yield ("task", "largest_carry_tilt"), task.largest_carry_tilt
+
+
+def _values_from_zero(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
+    for index, body in enumerate(entry.bodies):
+        yield ("bodies", index, "friction"), body.friction
+    yield ("workpiece", "friction"), entry.workpiece.friction
+    yield ("task", "place_clearance"), entry.task.place_clearance
+
+
+def _top(body: BodyEntry) -> float:
+    return body.foot[2] + 2 * _shape(body).half_height_m
+
+
+def _shape(body: BodyEntry) -> Shape:
+    if body.box is not None:
+        return Box(size_m=body.box)
+    if body.cylinder is None:
+        raise AssertionError("checked before: a body has a box or a cylinder")
+    return Cylinder(radius_m=body.cylinder.radius, height_m=body.cylinder.height)
+
+
+def _body(body: BodyEntry) -> SceneBody:
+    shape = _shape(body)
+    x, y, z = body.foot
+    return SceneBody(
+        id=body.id,
+        shape=shape,
+        pose=Pose.from_roll_pitch_yaw((x, y, z + shape.half_height_m), (0.0, 0.0, body.yaw)),
+        friction=body.friction,
+        colour=_colour(body.colour),
+    )
+
+
+def _colour(text: str) -> ColourRgba:
+    red, green, blue = (int(text[start : start + 2], 16) / 255 for start in (1, 3, 5))
+    return (red, green, blue, 1.0)

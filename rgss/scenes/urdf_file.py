@@ -1,0 +1,140 @@
+"""Checking a robot's URDF before any engine is given it."""
+
+from __future__ import annotations
+
+import math
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from rgss.documents import Document
+from rgss.findings import Finding, shown
+from rgss.scenes.document import RobotDocument
+from rgss.scenes.findings import Location
+
+_LARGEST_BYTES = 1024 * 1024
+_DEEPEST_NESTING = 40
+
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
+_INERTIA = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+
+# How many numbers each attribute holds, by element. The engines read what is no number as zero.
+_NUMBERS: Mapping[str, Mapping[str, int]] = {
+    "origin": {"xyz": 3, "rpy": 3},
+    "axis": {"xyz": 3},
+    "limit": {"lower": 1, "upper": 1, "effort": 1, "velocity": 1},
+    "mass": {"value": 1},
+    "inertia": dict.fromkeys(_INERTIA, 1),
+    "box": {"size": 3},
+    "cylinder": {"radius": 1, "length": 1},
+    "sphere": {"radius": 1},
+}
+_COMPLETE = frozenset({"mass", "inertia", "box", "cylinder", "sphere"})
+_POSITIVE = frozenset({"mass", "box", "cylinder", "sphere"})
+
+
+def read_urdf(path: Path, document: Document, entry: RobotDocument) -> tuple[str, tuple[Finding, ...]]:
+    """Read a URDF and compare it with the robot file that names it.
+
+    Args:
+        path: The URDF; it is there.
+        document: The robot file, for positions.
+        entry: The robot file's content.
+
+    Returns:
+        Its text, and every problem found; the text is of use only when there is none.
+    """
+    try:
+        text = _read_text(path)
+        root = _parsed(text)
+    except _UrdfError as error:
+        message = f"{shown(entry.description)} {error.problem}"
+        return "", (document.finding("scene.urdf", message, ("description",), hint=error.hint),)
+    return text, tuple(
+        document.finding("scene.urdf", f"{shown(entry.description)} {problem}", location, hint=hint)
+        for problem, location, hint in _problems(root, entry)
+    )
+
+
+class _UrdfError(Exception):
+    """A URDF is of no use: what is wrong with it, to follow its name, and how to mend it."""
+
+    def __init__(self, problem: str, hint: str = "") -> None:
+        super().__init__(problem)
+        self.problem = problem
+        self.hint = hint
+
+
+def _read_text(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST_BYTES + 1)
+    except OSError as error:
+        raise _UrdfError(f"cannot be read: {error.strerror}") from None
+    if len(content) > _LARGEST_BYTES:
+        raise _UrdfError("is larger than 1 MiB", "a robot of primitive shapes needs a few KiB")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise _UrdfError("is not UTF-8", "save the file as UTF-8") from None
+
+
+def _parsed(text: str) -> ET.Element:
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise _UrdfError("declares a document type or an entity", "remove the declaration")
+    try:
+        root = ET.fromstring(text)  # noqa: S314 - entities and document types are refused above
+    except ET.ParseError as error:
+        raise _UrdfError(f"is not XML: {error}") from None
+    if root.tag != "robot":
+        raise _UrdfError(f"has the root element {shown(root.tag)}", "a URDF's root element is 'robot'")
+    level = [root]
+    for _ in range(_DEEPEST_NESTING):
+        level = [child for element in level for child in element]
+    if level:
+        raise _UrdfError(f"is nested more than {_DEEPEST_NESTING} deep", "a URDF nests a handful of elements")
+    return root
+
+
+def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Location, str]]:
+    # Children alone: a transmission, for one, names joints in elements of the same tag.
+    links = {link.get("name", ""): link for link in root.findall("link")}
+    joints = {joint.get("name", "") for joint in root.findall("joint")}
+    if entry.flange not in links:
+        yield f"has no link {entry.flange!r}", ("flange",), "name the link that carries the gripper"
+    for index, joint in enumerate(entry.joints):
+        if joint.name not in joints:
+            yield f"has no joint {joint.name!r}", ("joints", index, "name"), "name the joints as the URDF does"
+    carried = {child.get("link", "") for child in root.findall("joint/child")}
+    for name, link in links.items():
+        if name in carried and not (link.findall("inertial/mass") and link.findall("inertial/inertia")):
+            # One engine would take it for one kilogram in silence, another for none.
+            hint = "give it an <inertial> with both; a mere frame may weigh a gram"
+            yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint
+    yield from _number_problems(root)
+
+
+def _number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
+    for part in (*root.findall("link"), *root.findall("joint")):
+        for element in part.iter():
+            for attribute, count in _NUMBERS.get(element.tag, {}).items():
+                text = element.get(attribute)
+                if text is None and element.tag not in _COMPLETE:
+                    continue
+                positive = element.tag in _POSITIVE
+                if text is None or not _are_numbers(text, count, positive=positive):
+                    found = f"no {attribute}" if text is None else f"{attribute}={shown(text)}"
+                    wanted = "a number" if count == 1 else f"{count} numbers"
+                    yield (
+                        f"has {found} in <{element.tag}> of {shown(part.get('name', ''))}",
+                        ("description",),
+                        f"write {wanted}{' greater than zero' if positive else ''}",
+                    )
+
+
+def _are_numbers(text: str, count: int, *, positive: bool) -> bool:
+    words = text.split()
+    return len(words) == count and all(
+        _NUMBER.fullmatch(word) and math.isfinite(float(word)) and (float(word) > 0 or not positive) for word in words
+    )

@@ -1,0 +1,32 @@
+"""The task's waypoints as poses of the grasp centre in the world."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from rgss.scenes.pose import Pose
+from rgss.scenes.scene import Scene
+
+
+class Waypoint(str, Enum):
+    """Where the task stops, in the order in which it comes there."""
+
+    GRASP_APPROACH = "grasp_approach"
+    GRASP = "grasp"
+    LIFT = "lift"
+    GRASP_DEPARTURE = "grasp_departure"
+    PLACE_APPROACH = "place_approach"
+    PLACE = "place"
+
+
+def waypoint_poses(scene: Scene) -> dict[Waypoint, Pose]:
+    """Transforms of the grasp-centre frame to the world at each waypoint."""
+    task, grasp, place = scene.task, scene.grasp, scene.place_pose
+    return {
+        Waypoint.GRASP_APPROACH: grasp.raised(task.approach_height_m),
+        Waypoint.GRASP: grasp,
+        Waypoint.LIFT: grasp.raised(task.lift_height_m),
+        Waypoint.GRASP_DEPARTURE: grasp.raised(task.departure_height_m),
+        Waypoint.PLACE_APPROACH: place.raised(task.place_approach_height_m),
+        Waypoint.PLACE: place,
+    }

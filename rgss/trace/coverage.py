@@ -1,0 +1,134 @@
+"""Rules of coverage: nothing is asked for in vain, and nothing is built or measured unasked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.findings import Severity
+from rgss.requirements import LinkKind
+from rgss.trace.measure_trace import MeasureKind, MeasureTrace
+from rgss.trace.model import TraceModel
+from rgss.trace.rule import Breach, Rule
+
+
+def _orphans(model: TraceModel) -> Iterator[Breach]:
+    for requirement in model.requirements.system:
+        if not model.origins(requirement.id):
+            message = f"system requirement {requirement.id!r} derives from no stakeholder requirement"
+            yield Breach(subject=requirement.id, message=message, hint="name its parent under 'derived_from'")
+
+
+def _childless(model: TraceModel) -> Iterator[Breach]:
+    for need in model.requirements.stakeholder:
+        if not model.sources(need.id, LinkKind.DERIVE):
+            message = f"no system requirement derives from stakeholder requirement {need.id!r}"
+            yield Breach(subject=need.id, message=message, hint="name it under 'derived_from' of one that does")
+
+
+def _unmeasured(model: TraceModel) -> Iterator[Breach]:
+    effectiveness = {measure.id for measure in _of_kind(model, MeasureKind.MOE)}
+    for need in model.requirements.stakeholder:
+        if effectiveness.isdisjoint(model.sources(need.id, LinkKind.TRACE)):
+            message = f"no measure of effectiveness traces to stakeholder requirement {need.id!r}"
+            yield Breach(subject=need.id, message=message, hint="name it under 'traces' of one that does")
+
+
+def _aimless(model: TraceModel) -> Iterator[Breach]:
+    needs = {need.id for need in model.requirements.stakeholder}
+    for measure in _of_kind(model, MeasureKind.MOE):
+        if needs.isdisjoint(measure.traces):
+            message = f"measure of effectiveness {measure.id!r} traces to no stakeholder requirement"
+            yield Breach(subject=measure, message=message, hint="name one under 'traces'")
+
+
+def _without_performance(model: TraceModel) -> Iterator[Breach]:
+    contributed = {target for measure in _of_kind(model, MeasureKind.MOP) for target in measure.contributes_to}
+    for measure in _of_kind(model, MeasureKind.MOE):
+        if measure.id not in contributed and not measure.observed:
+            message = f"no measure of performance contributes to measure of effectiveness {measure.id!r}"
+            yield Breach(subject=measure, message=message, hint="compute it from one, or from the trials themselves")
+
+
+def _contributing_to_nothing(model: TraceModel) -> Iterator[Breach]:
+    for measure in _of_kind(model, MeasureKind.MOP):
+        if not measure.contributes_to:
+            message = f"measure of performance {measure.id!r} contributes to no measure of effectiveness"
+            yield Breach(subject=measure, message=message, hint="use it in one, or make it supplementary")
+
+
+def _unallocated(model: TraceModel) -> Iterator[Breach]:
+    for requirement in model.requirements.system:
+        if not requirement.satisfied_by:
+            message = f"system requirement {requirement.id!r} is satisfied by no block or behaviour"
+            yield Breach(subject=requirement.id, message=message, hint="name one under 'satisfied_by'")
+
+
+def _idle_elements(model: TraceModel) -> Iterator[Breach]:
+    for element in model.requirements.architecture.elements:
+        if not model.targets(element.id, LinkKind.SATISFY):
+            yield Breach(subject=element.id, message=f"{element.id!r} satisfies no system requirement")
+
+
+def _of_kind(model: TraceModel, kind: MeasureKind) -> Iterator[MeasureTrace]:
+    return (measure for measure in model.measures if measure.kind is kind)
+
+
+RULES: tuple[Rule, ...] = (
+    Rule(
+        id="trace.orphan",
+        severity=Severity.ERROR,
+        explanation="A system requirement derives from a stakeholder requirement; otherwise nobody asked for it.",
+        check=_orphans,
+    ),
+    Rule(
+        id="trace.childless",
+        severity=Severity.ERROR,
+        explanation="A system requirement derives from each stakeholder requirement; otherwise nobody answers it.",
+        check=_childless,
+    ),
+    Rule(
+        id="trace.no-moe",
+        severity=Severity.ERROR,
+        explanation=(
+            "A measure of effectiveness traces to each stakeholder requirement; otherwise the choice of a "
+            "design passes it over."
+        ),
+        check=_unmeasured,
+    ),
+    Rule(
+        id="trace.moe-without-need",
+        severity=Severity.ERROR,
+        explanation=(
+            "A measure of effectiveness traces to a stakeholder requirement; otherwise designs are "
+            "compared by what nobody asked for."
+        ),
+        check=_aimless,
+    ),
+    Rule(
+        id="trace.moe-without-mop",
+        severity=Severity.ERROR,
+        explanation=(
+            "A measure of effectiveness is computed from a measure of performance, or observed in the trials "
+            "themselves; otherwise it has no value."
+        ),
+        check=_without_performance,
+    ),
+    Rule(
+        id="trace.mop-without-moe",
+        severity=Severity.WARNING,
+        explanation="A measure of performance contributes to a measure of effectiveness; otherwise it decides nothing.",
+        check=_contributing_to_nothing,
+    ),
+    Rule(
+        id="trace.unallocated",
+        severity=Severity.ERROR,
+        explanation="A block or a behaviour satisfies each system requirement; otherwise nothing brings it about.",
+        check=_unallocated,
+    ),
+    Rule(
+        id="trace.idle-element",
+        severity=Severity.INFO,
+        explanation="A block or a behaviour that satisfies no requirement is allowed, and listed.",
+        check=_idle_elements,
+    ),
+)

@@ -1,0 +1,53 @@
+"""Numbers with and without units in the sentences of requirements."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rgss.errors import QuantityError
+from rgss.quantities import dimension
+
+_NUMBER = re.compile(
+    r"""(?<![\w.-])                                                  # not inside UR10, KG-2 or 4.3.1
+        (?P<number>[+-]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:[eE][+-]?\d{1,3})?)
+        (?![\d.,]*\d)
+        (?:\s?(?P<unit>[A-Za-zµμ°%$][A-Za-z0-9µμ°%$/^*·]*))?""",
+    re.VERBOSE,
+)
+_PROSE = frozenset({"a", "are", "as", "at", "has", "in"})
+"""Words that are also the names of units, and far more often are just words."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TextQuantity:
+    """A number in a sentence.
+
+    Attributes:
+        text: It as it is written, with its unit.
+        value: Its magnitude.
+        unit: Its unit; ``"1"`` for a pure number.
+    """
+
+    text: str
+    value: float
+    unit: str
+
+
+def quantities_in(sentence: str) -> Iterator[TextQuantity]:
+    """Find the numbers of a sentence that are written in digits, each with its unit if it has one."""
+    for match in _NUMBER.finditer(sentence):
+        number, unit = match["number"], match["unit"] or ""
+        if unit in _PROSE or not _is_unit(unit):
+            unit = ""
+        text = match[0] if unit else number
+        yield TextQuantity(text=text, value=float(number.replace(",", "")), unit=unit or "1")
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        dimension(text)
+    except QuantityError:
+        return False
+    return True

@@ -1,0 +1,36 @@
+"""Thresholds of the task's control: when a grasp is firm, an object dropped, a release complete."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ControlSettings:
+    """What the task program waits for and what it does not tolerate.
+
+    Attributes:
+        firm_grasp_s: Time for which every finger must hold above its threshold. Closing gives
+            a spike whose height depends on the step length, so one step is no evidence.
+        grasp_timeout_s: Time beyond the fingers' travel after which a grasp has failed.
+        lost_contact_s: Time without two fingers on the object after which it counts as dropped.
+        largest_slip_m: Displacement in the gripper beyond which the object counts as dropped.
+        largest_tracking_error_m: Distance of the tool from its commanded position beyond which
+            a move has failed.
+        settled_speed_m_s: Speed below which a released object counts as standing.
+        settled_s: Time for which it must stay below that speed.
+        settling_timeout_s: Longest wait for it.
+        displaced_m: Displacement before the grasp beyond which the object was knocked.
+        observation_rate_hz: Rate at which poses are observed; contacts are read at every step.
+    """
+
+    firm_grasp_s: float = 0.05
+    grasp_timeout_s: float = 0.5
+    lost_contact_s: float = 0.05
+    largest_slip_m: float = 0.02
+    largest_tracking_error_m: float = 0.002
+    settled_speed_m_s: float = 0.002
+    settled_s: float = 0.1
+    settling_timeout_s: float = 2.0
+    displaced_m: float = 0.005
+    observation_rate_hz: float = 60.0

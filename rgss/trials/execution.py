@@ -1,0 +1,198 @@
+"""The eight states of the task, run in contact physics."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from rgss.evidence import Failure, Metric, Phase
+from rgss.physics import World
+from rgss.scenes import Pose
+from rgss.trials.control import ControlSettings
+from rgss.trials.phase_result import PhaseResult
+from rgss.trials.reference import Reference
+from rgss.trials.watch import Watch
+
+CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
+_OPEN_TOLERANCE_M = 5.0e-4
+
+
+class Execution:
+    """One run of the task program in one world.
+
+    A phase depends on those before it and on nothing after it, so a trial that ends earlier,
+    because a planner found no path in time, has the same results for the phases that it shares.
+    """
+
+    def __init__(self, world: World, references: Mapping[Phase, Reference], control: ControlSettings) -> None:
+        """Prepare a run.
+
+        Args:
+            world: A fresh world.
+            references: Targets of the moves; the program ends before the first move that has none.
+            control: Thresholds.
+        """
+        self._world = world
+        self._references = references
+        self._control = control
+        self._step_s = world.settings.step_s
+        self._held_at: Pose | None = None
+        self._configuration: tuple[float, ...] = ()
+
+    def run(self) -> tuple[PhaseResult, ...]:
+        """Run the phases in order until one fails or has no move; return those that ran."""
+        results: list[PhaseResult] = []
+        first = self._references.get(Phase.MOVE_TO_GRASP)
+        if first is None:
+            return ()
+        self._configuration = tuple(first.positions_rad[0].tolist())
+        self._world.reset_arm(self._configuration)
+        for phase in Phase:
+            if phase is Phase.GRASP:
+                result = self._grasp()
+            elif phase is Phase.PLACE:
+                result = self._place()
+            elif phase in self._references:
+                result = self._move(phase, self._references[phase])
+            else:
+                break
+            results.append(result)
+            if result.failure is not None:
+                break
+        return tuple(results)
+
+    def _move(self, phase: Phase, reference: Reference) -> PhaseResult:
+        world = self._world
+        carried_at = self._held_at if phase in CARRYING else None
+        watch = Watch(world, self._control, carried_at=carried_at, resting_on=self._resting_on(phase))
+        positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
+        loads, tool = reference.load_m_s2.tolist(), reference.tool_m.tolist()
+        steps = 0
+        for index in range(reference.steps):
+            world.command_arm(positions[index], velocities[index])
+            world.step()
+            steps += 1
+            watch.after_step(index, loads[index], tool[index + 1])
+            if watch.failure is not None:
+                break
+        self._configuration = tuple(positions[-1])
+        watch.finish(tool[-1] if watch.failure is None else None)
+        metrics = watch.metrics()
+        metrics["peak_tool_speed_m_s"] = reference.peak_tool_speed_m_s
+        metrics["peak_tool_acceleration_m_s2"] = reference.peak_tool_acceleration_m_s2
+        if watch.failure is None:
+            self._judge_move(phase, watch, metrics)
+        return self._result(phase, watch, steps, metrics)
+
+    def _judge_move(self, phase: Phase, watch: Watch, metrics: dict[str, Metric]) -> None:
+        """After a move: the object must stand where it stood, or at the end in its place."""
+        if phase is Phase.MOVE_TO_GRASP:
+            start = self._world.scene.workpiece.pose
+            moved = math.dist(self._world.workpiece_pose().position_m, start.position_m)
+            metrics["workpiece_displacement_m"] = moved
+            if moved > self._control.displaced_m:
+                watch.fail(Failure.OBJECT_COLLISION, f"the object was pushed {moved * 1e3:.1f} mm before the grasp")
+        elif phase is Phase.MOVE_TO_GRASP_APPROACH:
+            self._judge_place(watch, metrics)
+
+    def _resting_on(self, phase: Phase) -> str:
+        scene = self._world.scene
+        if phase in (Phase.MOVE_TO_GRASP, Phase.GRASP, Phase.LIFT):
+            return scene.support
+        if phase in (Phase.PLACE, Phase.MOVE_TO_GRASP_APPROACH):
+            return scene.place_support
+        return ""
+
+    def _grasp(self) -> PhaseResult:
+        """Close until every finger holds above the force that Coulomb friction needs."""
+        world, gripper, control = self._world, self._world.gripper, self._control
+        scene = world.scene
+        watch = Watch(world, control, carried_at=None, resting_on=scene.support)
+        fingers = gripper.geometry.fingers
+        friction = gripper.friction * scene.workpiece.friction
+        needed_n = scene.workpiece.mass_kg * scene.gravity_m_s2 / (friction * fingers)
+        travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+        world.drive_fingers(gripper.finger_velocity_m_s, gripper.finger_force_n)
+        firm_s, steps = 0.0, 0
+        forces: tuple[float, ...] = (0.0,) * fingers
+        while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
+            self._hold_arm_and_step()
+            contacts = watch.after_step(steps, scene.gravity_m_s2, None)
+            steps += 1
+            forces = contacts.finger_forces_n
+            firm_s = firm_s + self._step_s if min(forces) > needed_n else 0.0
+            if steps * self._step_s > travel_s + control.grasp_timeout_s:
+                shown = ", ".join(f"{force:.2f}" for force in forces)
+                watch.fail(Failure.NO_FIRM_GRASP, f"fingers press with {shown} N, each needs {needed_n:.2f} N")
+        self._held_at = world.tool_pose().inverse() @ world.workpiece_pose()
+        metrics = watch.metrics()
+        metrics["finger_force_n"] = forces
+        metrics["finger_force_needed_n"] = needed_n
+        metrics["finger_travel_m"] = world.finger_travel_m()
+        return self._result(Phase.GRASP, watch, steps, metrics)
+
+    def _place(self) -> PhaseResult:
+        """Open to the initial position and wait until the object stands."""
+        world, gripper, control = self._world, self._world.gripper, self._control
+        watch = Watch(world, control, carried_at=None, resting_on=world.scene.place_support)
+        travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+        world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
+        steps = 0
+        contacts = world.contacts()
+        while max(world.finger_travel_m()) > _OPEN_TOLERANCE_M and watch.failure is None:
+            self._hold_arm_and_step()
+            contacts = watch.after_step(steps, 0.0, None)
+            steps += 1
+            if steps * self._step_s > travel_s + control.grasp_timeout_s:
+                open_m = max(world.finger_travel_m())
+                watch.fail(Failure.NOT_RELEASED, f"a finger is still {open_m * 1e3:.1f} mm from open")
+        opening_s = steps * self._step_s
+        world.hold_open()
+        still_s, waited_s = 0.0, 0.0
+        while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and watch.failure is None:
+            self._hold_arm_and_step()
+            contacts = watch.after_step(steps, 0.0, None)
+            steps += 1
+            waited_s += self._step_s
+            linear, angular = world.workpiece_speed()
+            edge = angular * world.scene.workpiece.shape.half_height_m
+            still_s = still_s + self._step_s if linear + edge < control.settled_speed_m_s else 0.0
+        if contacts.fingers_touching:
+            watch.fail(Failure.NOT_RELEASED, f"{contacts.fingers_touching} fingers still touch the object")
+        metrics = watch.metrics()
+        metrics["opening_s"] = opening_s
+        metrics["settling_s"] = waited_s - still_s
+        self._judge_place(watch, metrics)
+        return self._result(Phase.PLACE, watch, steps, metrics)
+
+    def _judge_place(self, watch: Watch, metrics: dict[str, Metric]) -> None:
+        scene, pose = self._world.scene, self._world.workpiece_pose()
+        x, y, z = pose.position_m
+        centre = scene.place.centre_m
+        error, tilt = math.dist((x, y), centre[:2]), pose.tilt_rad
+        metrics["place_error_m"] = error
+        metrics["place_tilt_rad"] = tilt
+        height_error = abs(z - centre[2] - scene.workpiece.shape.half_height_m)
+        if tilt > scene.place.largest_tilt_rad:
+            watch.fail(Failure.NOT_UPRIGHT, f"the object leans by {math.degrees(tilt):.1f} deg")
+        if error > scene.place.radius_m or height_error > scene.place.radius_m:
+            watch.fail(
+                Failure.NOT_IN_PLACE_REGION,
+                f"the object is {error * 1e3:.1f} mm from the place and {height_error * 1e3:.1f} mm off its height",
+            )
+
+    def _hold_arm_and_step(self) -> None:
+        self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
+        self._world.step()
+
+    def _result(self, phase: Phase, watch: Watch, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
+        pose = self._world.workpiece_pose()
+        metrics["workpiece_position_m"] = pose.position_m
+        metrics["workpiece_tilt_rad"] = pose.tilt_rad
+        return PhaseResult(
+            phase=phase,
+            failure=watch.failure,
+            detail=watch.detail,
+            duration_s=steps * self._step_s,
+            metrics=metrics,
+        )

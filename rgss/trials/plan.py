@@ -1,0 +1,224 @@
+"""The plan of a task: one configuration for each waypoint, one search for each of the five moves."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
+from rgss.kinematics import InverseKinematics, choose_branches, straight_line
+from rgss.motion import ClockKind, PlanningClock, PlanningProblem, PlanResult, path_length, plan, segment_states
+from rgss.scenes import Scene, Waypoint, waypoint_poses
+from rgss.trials.reference import Array
+from rgss.trials.settings import PlanningSettings
+from rgss.trials.workcell import Workcell
+
+_ENDS: Mapping[Phase, tuple[Waypoint, Waypoint]] = {
+    Phase.MOVE_TO_GRASP: (Waypoint.GRASP_APPROACH, Waypoint.GRASP),
+    Phase.LIFT: (Waypoint.GRASP, Waypoint.LIFT),
+    Phase.MOVE_TO_GRASP_DEPARTURE: (Waypoint.LIFT, Waypoint.GRASP_DEPARTURE),
+    Phase.MOVE_TO_PLACE_APPROACH: (Waypoint.GRASP_DEPARTURE, Waypoint.PLACE_APPROACH),
+    Phase.MOVE_TO_PLACE: (Waypoint.PLACE_APPROACH, Waypoint.PLACE),
+    Phase.MOVE_TO_GRASP_APPROACH: (Waypoint.PLACE, Waypoint.GRASP_APPROACH),
+}
+"""Where each move begins and ends."""
+
+_NO_BUDGET = 2**31 - 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedMove:
+    """The planning of one move.
+
+    Attributes:
+        phase: The move.
+        outcome: How it ended.
+        checks: Validity checks of the search.
+        simplification_checks: Validity checks of shortening the path.
+        search_time_s: Time of the search by the planning clock; what a limit is held against.
+        time_s: Planning time by the planning clock, simplification included where it counts.
+        path_rad: The path's configurations (n, 6); None if there is none.
+        path_length_m: Length of the tool's path; None if there is none.
+        detail: What stands in the way, if the problem itself is ill posed.
+    """
+
+    phase: Phase
+    outcome: PlanOutcome
+    checks: int
+    simplification_checks: int
+    search_time_s: float
+    time_s: float
+    path_rad: Array | None
+    path_length_m: float | None
+    detail: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaskPlan:
+    """The five planned moves and the straight lift.
+
+    Attributes:
+        moves: The planned moves; those after a problem that is ill posed are missing.
+        lift_rad: Configurations (n, 6) of the straight lift; None if there is none.
+        clock: The clock that the searches were counted by.
+    """
+
+    moves: Mapping[Phase, PlannedMove]
+    lift_rad: Array | None
+    clock: PlanningClock
+
+    def move_within(self, phase: Phase, limit_s: float) -> PlannedMove:
+        """A move's planning as it would have been under a limit.
+
+        A search is a prefix of the same search with a longer limit, so the limit is read off it.
+
+        Args:
+            phase: The move.
+            limit_s: The planning limit; at most the one that the search was run with.
+        """
+        move = self.moves[phase]
+        if move.outcome in (PlanOutcome.INVALID_START, PlanOutcome.INVALID_GOAL):
+            return move
+        counted = self.clock.kind is ClockKind.COUNTED
+        budget = self.clock.checks_within(limit_s) if counted else move.checks
+        in_time = move.checks <= budget if counted else move.search_time_s <= limit_s
+        if move.outcome is PlanOutcome.SOLVED and in_time:
+            return move
+        return replace(
+            move,
+            outcome=PlanOutcome.BUDGET_SPENT,
+            checks=budget,
+            simplification_checks=0,
+            search_time_s=limit_s,
+            time_s=limit_s,
+            path_rad=None,
+            path_length_m=None,
+        )
+
+
+def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSettings) -> TaskPlan:
+    """Plan every move of the task.
+
+    All planners are given the same configurations at the waypoints, and each move has its own
+    seed, so that planners are compared on the same problems.
+
+    Args:
+        cell: Scene, arm and collision models.
+        planner: RRT, TRRT or STRIDE.
+        seed: The trial's seed.
+        settings: Clock, limit, resolution.
+    """
+    scene, models = cell.scene, cell.planning
+    stops, lift = _configurations(cell)
+    moves: dict[Phase, PlannedMove] = {}
+    for phase in PLANNED_PHASES:
+        start, goal = (stops.get(waypoint) for waypoint in _ENDS[phase])
+        if start is None or goal is None:
+            outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL
+            name = _ENDS[phase][start is not None].value
+            moves[phase] = _ill_posed(phase, outcome, f"no collision-free configuration reaches {name}")
+            break
+        result = plan(
+            _problem(scene, start, goal, settings),
+            models[phase],
+            planner,
+            seed=_move_seed(seed, phase),
+            clock=settings.clock,
+            budget_checks=_budget(settings),
+            limit_s=settings.search_limit_s,
+            simplification_checks=settings.simplification_checks,
+        )
+        moves[phase] = _planned(phase, result, cell, settings)
+        if result.outcome is not PlanOutcome.SOLVED:
+            break
+    return TaskPlan(moves=moves, lift_rad=lift, clock=settings.clock)
+
+
+def _configurations(cell: Workcell) -> tuple[dict[Waypoint, Array], Array | None]:
+    """One configuration for each waypoint: collision-free in every move that meets there, least travel."""
+    models = cell.planning
+    inverse = InverseKinematics(cell.arm)
+    poses = waypoint_poses(cell.scene)
+    candidates: dict[Waypoint, list[Array]] = {}
+    for waypoint, pose in poses.items():
+        meeting = [models[phase] for phase, ends in _ENDS.items() if waypoint in ends]
+        candidates[waypoint] = [q for q in inverse.solve(pose) if all(model.is_valid(q) for model in meeting)]
+    order = list(poses)
+    legs = [(order.index(start), order.index(goal)) for start, goal in _ENDS.values()]
+    if not all(candidates.values()):
+        return {waypoint: found[0] for waypoint, found in candidates.items() if found}, None
+    chosen = choose_branches([candidates[waypoint] for waypoint in order], legs=legs, home=cell.scene.robot.home_rad)
+    if chosen is None:
+        return {}, None
+    stops = dict(zip(order, chosen, strict=True))
+    lift = straight_line(inverse, stops[Waypoint.GRASP], poses[Waypoint.LIFT])
+    if lift is None or not all(models[Phase.LIFT].is_valid(q) for q in lift):
+        del stops[Waypoint.LIFT]
+        return stops, None
+    stops[Waypoint.LIFT] = lift[-1]
+    return stops, lift
+
+
+def _problem(scene: Scene, start: Array, goal: Array, settings: PlanningSettings) -> PlanningProblem:
+    return PlanningProblem(
+        lower_rad=tuple(joint.lower_rad for joint in scene.robot.joints),
+        upper_rad=tuple(joint.upper_rad for joint in scene.robot.joints),
+        start=tuple(start.tolist()),
+        goal=tuple(goal.tolist()),
+        resolution_rad=settings.resolution_rad,
+    )
+
+
+def _budget(settings: PlanningSettings) -> int:
+    """Validity checks of a search; a search by the wall clock is bounded by its time alone."""
+    if settings.clock.kind is ClockKind.COUNTED:
+        return settings.clock.checks_within(settings.search_limit_s)
+    return _NO_BUDGET
+
+
+def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: PlanningSettings) -> PlannedMove:
+    path = None if result.path is None else result.path.points_rad
+    time_s = result.search_time_s
+    if settings.clock.kind is ClockKind.COUNTED:
+        time_s += settings.clock.time_s(result.simplification_checks)
+    return PlannedMove(
+        phase=phase,
+        outcome=result.outcome,
+        checks=result.checks,
+        simplification_checks=result.simplification_checks,
+        search_time_s=result.search_time_s,
+        time_s=time_s,
+        path_rad=path,
+        path_length_m=None if path is None else _tool_path_length(cell, path, settings.resolution_rad),
+    )
+
+
+def _tool_path_length(cell: Workcell, path: Array, resolution_rad: float) -> float:
+    """Length of the way of the tool along a joint path, which between its corners is no straight line."""
+    states = [path[:1]]
+    for start, end in pairwise(path):
+        states.append(segment_states(start, end, resolution_rad))
+    return path_length(cell.arm.tool_position(np.vstack(states)))
+
+
+def _ill_posed(phase: Phase, outcome: PlanOutcome, detail: str) -> PlannedMove:
+    return PlannedMove(
+        phase=phase,
+        outcome=outcome,
+        checks=0,
+        simplification_checks=0,
+        search_time_s=0.0,
+        time_s=0.0,
+        path_rad=None,
+        path_length_m=None,
+        detail=detail,
+    )
+
+
+def _move_seed(seed: int, phase: Phase) -> int:
+    """A seed of its own for each move: 31 bits of a hash, since the planner's seed is a C unsigned long."""
+    return int.from_bytes(hashlib.sha256(f"{seed}:{phase.value}".encode()).digest()[:4], "big") >> 1 or 1

@@ -1,0 +1,167 @@
+"""A trial's record, put together from its plan and its execution under the design's limit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from rgss.evidence import (
+    PLANNED_PHASES,
+    Failure,
+    Metric,
+    Phase,
+    PhaseOutcome,
+    PhaseRecord,
+    PlanningRecord,
+    PlanOutcome,
+    TrialRecord,
+)
+from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.spec import TrialSpec
+
+_PLANNING_FAILURES = {
+    PlanOutcome.BUDGET_SPENT: Failure.PLANNING_LIMIT,
+    PlanOutcome.INVALID_START: Failure.INVALID_START,
+    PlanOutcome.INVALID_GOAL: Failure.INVALID_GOAL,
+}
+_GREATEST = (
+    "peak_tool_speed_m_s",
+    "peak_tool_acceleration_m_s2",
+    "peak_finger_force_n",
+    "peak_joint_torque_ratio",
+    "tracking_error_m",
+    "slip_m",
+)
+
+
+def assemble_record(
+    spec: TrialSpec,
+    plan: TaskPlan,
+    timing_failures: Mapping[Phase, tuple[Failure, str]],
+    execution: Sequence[PhaseResult],
+) -> TrialRecord:
+    """Read a trial off the pieces that it shares with others.
+
+    Phases run in order until a move finds no path within the design's planning limit, cannot be
+    timed, or fails in the physics; what comes after is not run.
+
+    Args:
+        spec: The trial.
+        plan: The searches, which went on at least as long as the limit.
+        timing_failures: Moves that have a path but no trajectory, and why.
+        execution: The phases that physics ran, in order.
+    """
+    results = {result.phase: result for result in execution}
+    phases: list[PhaseRecord] = []
+    planning: list[PlanningRecord] = []
+    failure: Failure | None = None
+    failed_phase: Phase | None = None
+    detail = ""
+    for phase in Phase:
+        if failure is not None:
+            phases.append(PhaseRecord(phase=phase, outcome=PhaseOutcome.NOT_RUN, duration_s=None, metrics={}))
+            if phase in PLANNED_PHASES:
+                planning.append(_not_planned(phase))
+            continue
+        if phase in PLANNED_PHASES:
+            planned = plan.move_within(phase, spec.planning_limit_s)
+            planning.append(_planning_record(planned))
+            if planned.outcome is not PlanOutcome.SOLVED:
+                failure, failed_phase = _PLANNING_FAILURES[planned.outcome], phase
+                detail = planned.detail or _limit_detail(planned, spec)
+        if failure is None and phase in timing_failures:
+            failure, detail = timing_failures[phase]
+            failed_phase = phase
+        if failure is not None:
+            phases.append(PhaseRecord(phase=phase, outcome=PhaseOutcome.FAILED, duration_s=None, metrics={}))
+            continue
+        result = results[phase]
+        if result.failure is not None:
+            failure, failed_phase, detail = result.failure, phase, result.detail
+        phases.append(
+            PhaseRecord(
+                phase=phase,
+                outcome=PhaseOutcome.COMPLETED if result.failure is None else PhaseOutcome.FAILED,
+                duration_s=result.duration_s,
+                metrics=dict(result.metrics),
+            )
+        )
+    return TrialRecord(
+        variant=spec.variant,
+        seed=spec.seed,
+        fidelity=spec.fidelity,
+        success=failure is None,
+        failure=failure,
+        failed_phase=failed_phase,
+        failure_detail=detail,
+        phases=tuple(phases),
+        planning=tuple(planning),
+        metrics=_metrics(phases, planning, success=failure is None),
+    )
+
+
+def _planning_record(planned: PlannedMove) -> PlanningRecord:
+    return PlanningRecord(
+        subtask=planned.phase,
+        outcome=planned.outcome,
+        checks=planned.checks,
+        simplification_checks=planned.simplification_checks,
+        time_s=planned.time_s,
+        path_length_m=planned.path_length_m,
+    )
+
+
+def _not_planned(phase: Phase) -> PlanningRecord:
+    return PlanningRecord(
+        subtask=phase,
+        outcome=PlanOutcome.NOT_RUN,
+        checks=0,
+        simplification_checks=0,
+        time_s=None,
+        path_length_m=None,
+    )
+
+
+def _limit_detail(planned: PlannedMove, spec: TrialSpec) -> str:
+    return f"{spec.planner} found no path in {spec.planning_limit_s:g} s ({planned.checks} validity checks)"
+
+
+def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], *, success: bool) -> dict[str, Metric]:
+    durations = [phase.duration_s for phase in phases if phase.duration_s is not None]
+    motion_s = sum(durations)
+    times = [record.time_s for record in planning if record.time_s is not None]
+    by_phase = {record.phase: record for record in phases}
+    closing = by_phase[Phase.GRASP]
+    placing = by_phase[Phase.PLACE]
+    opening_s = placing.metrics.get("opening_s")
+    cycle_s: Metric = None
+    if closing.outcome is PhaseOutcome.COMPLETED and isinstance(opening_s, float) and closing.duration_s is not None:
+        cycle_s = closing.duration_s + opening_s
+    margins = [m for p in phases if isinstance(m := p.metrics.get("grip_margin_min"), float)]
+    metrics: dict[str, Metric] = {
+        "success": int(success),
+        "phases_completed": sum(phase.outcome is PhaseOutcome.COMPLETED for phase in phases),
+        "phases_total": len(phases),
+        "planning_time_s": tuple(record.time_s for record in planning),
+        "planning_checks": tuple(
+            None if record.outcome is PlanOutcome.NOT_RUN else record.checks for record in planning
+        ),
+        "path_length_m": tuple(record.path_length_m for record in planning),
+        "motion_time_s": motion_s,
+        "task_time_s": motion_s + sum(times) if success else None,
+        "grasp_cycle_time_s": cycle_s,
+        "grip_margin_min": min(margins, default=None),
+        "arm_scene_contacts": sum(
+            count for p in phases if isinstance(count := p.metrics.get("arm_scene_contacts"), int)
+        ),
+        "place_error_m": _last(phases, "place_error_m"),
+        "place_tilt_rad": _last(phases, "place_tilt_rad"),
+    }
+    for name in _GREATEST:
+        values = [v for p in phases if isinstance(v := p.metrics.get(name), float)]
+        metrics[name] = max(values, default=None)
+    return metrics
+
+
+def _last(phases: Sequence[PhaseRecord], name: str) -> Metric:
+    return next((p.metrics[name] for p in reversed(phases) if p.metrics.get(name) is not None), None)

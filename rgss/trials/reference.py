@@ -1,0 +1,87 @@
+"""A timed move as the targets of every physics step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class SampledTrajectory(Protocol):
+    """A joint trajectory that can be sampled."""
+
+    @property
+    def duration_s(self) -> float:
+        """Its length in time."""
+
+    def sample(self, times_s: Array) -> tuple[Array, Array, Array]:
+        """Joint positions, velocities and accelerations, each (n, 6), at times (n,)."""
+
+
+class ToolPositions(Protocol):
+    """What turns configurations into positions of the tool."""
+
+    def tool_position(self, configurations_rad: Array) -> Array:
+        """Positions (n, 3) of the grasp centre in the world for configurations (n, 6)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reference:
+    """Targets for each step of a move, and what the tool does along it.
+
+    Attributes:
+        positions_rad: Joint positions (n + 1, 6), the first at the start.
+        velocities_rad_s: Mean joint velocities (n, 6) over each step.
+        tool_m: Tool positions (n + 1, 3) in the world.
+        load_m_s2: Magnitude (n,) of tool acceleration minus gravity over each step: the load
+            that a grasp carries for each kilogram.
+        peak_tool_speed_m_s: Greatest tool speed.
+        peak_tool_acceleration_m_s2: Greatest tool acceleration.
+    """
+
+    positions_rad: Array
+    velocities_rad_s: Array
+    tool_m: Array
+    load_m_s2: Array
+    peak_tool_speed_m_s: float
+    peak_tool_acceleration_m_s2: float
+
+    @property
+    def steps(self) -> int:
+        """Number of physics steps."""
+        return len(self.velocities_rad_s)
+
+
+def reference_of(
+    trajectory: SampledTrajectory, tool: ToolPositions, *, step_s: float, gravity_m_s2: float
+) -> Reference:
+    """Sample a trajectory at the physics rate.
+
+    Args:
+        trajectory: The timed move.
+        tool: Kinematics of the tool.
+        step_s: Length of a physics step.
+        gravity_m_s2: Magnitude of gravity.
+    """
+    steps = max(1, math.ceil(trajectory.duration_s / step_s - 1e-9))
+    times = np.minimum(np.arange(steps + 1) * step_s, trajectory.duration_s)
+    positions, _, _ = trajectory.sample(times)
+    velocities = np.diff(positions, axis=0) / step_s
+    tool_m = np.asarray(tool.tool_position(positions))
+    tool_velocity = np.diff(tool_m, axis=0) / step_s
+    ends = np.zeros((1, 3))
+    acceleration = np.diff(np.vstack([ends, tool_velocity, ends]), axis=0)[:-1] / step_s
+    load = np.linalg.norm(acceleration + np.array([0.0, 0.0, gravity_m_s2]), axis=1)
+    return Reference(
+        positions_rad=positions,
+        velocities_rad_s=velocities,
+        tool_m=tool_m,
+        load_m_s2=load,
+        peak_tool_speed_m_s=float(np.linalg.norm(tool_velocity, axis=1).max()),
+        peak_tool_acceleration_m_s2=float(np.linalg.norm(acceleration, axis=1).max()),
+    )

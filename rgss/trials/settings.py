@@ -1,0 +1,38 @@
+"""How trials are planned and simulated: everything that is neither the scene nor the design."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from rgss.motion import PlanningClock
+from rgss.physics import PhysicsSettings
+from rgss.trials.control import ControlSettings
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanningSettings:
+    """How the moves are planned.
+
+    Attributes:
+        clock: What a planner's time is counted by.
+        search_limit_s: How long a shared search goes on: at least the greatest planning limit
+            of any design, which are all read off it.
+        resolution_rad: Greatest joint step between two checked states of a path.
+        simplification_checks: Validity checks that may be spent on shortening a path.
+        clearance_m: Distance that planned paths keep from everything; what runs keeps a quarter of it.
+    """
+
+    clock: PlanningClock
+    search_limit_s: float
+    resolution_rad: float = 0.01
+    simplification_checks: int = 1500
+    clearance_m: float = 0.008
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialSettings:
+    """Planning, physics and control of a trial."""
+
+    planning: PlanningSettings
+    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+    control: ControlSettings = field(default_factory=ControlSettings)

@@ -1,0 +1,83 @@
+"""The timing of a task: a trajectory for each move under the joints' limits and the tool speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rgss.evidence import Failure, Phase
+from rgss.motion import JointPath, MotionLimits, TimingOutcome, Trajectory, time_move
+from rgss.trials.plan import TaskPlan
+from rgss.trials.reference import Array
+from rgss.trials.settings import PlanningSettings
+from rgss.trials.workcell import Workcell
+
+_FAILURES = {
+    TimingOutcome.IN_COLLISION: (
+        Failure.TRAJECTORY_IN_COLLISION,
+        "the timed motion would touch something that the path did not",
+    ),
+    TimingOutcome.INFEASIBLE: (
+        Failure.TRAJECTORY_INFEASIBLE,
+        "no motion along the path keeps the limits of joints and tool",
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaskTiming:
+    """The timed moves.
+
+    Attributes:
+        trajectories: The trajectory of each move that has one.
+        failures: Why the others that have a path have none.
+    """
+
+    trajectories: Mapping[Phase, Trajectory]
+    failures: Mapping[Phase, tuple[Failure, str]]
+
+
+def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings: PlanningSettings) -> TaskTiming:
+    """Time every move of a plan; the trajectory that runs is itself checked for collisions.
+
+    Args:
+        cell: Scene, arm and collision models.
+        plan: The paths.
+        tool_speed_m_s: Greatest speed of the tool.
+        settings: Resolution of the check.
+    """
+    joints = cell.scene.robot.joints
+    limits = MotionLimits(
+        speed_rad_s=tuple(joint.speed_rad_s for joint in joints),
+        acceleration_rad_s2=tuple(joint.acceleration_rad_s2 for joint in joints),
+        tool_speed_m_s=tool_speed_m_s,
+        tool_acceleration_m_s2=cell.scene.robot.tool_acceleration_m_s2,
+    )
+    trajectories: dict[Phase, Trajectory] = {}
+    failures: dict[Phase, tuple[Failure, str]] = {}
+    for phase, path in _paths(plan).items():
+        if path is None:
+            failures[phase] = (
+                Failure.UNREACHABLE_WAYPOINT,
+                "the arm cannot follow the straight line of the lift without collision",
+            )
+            continue
+        result = time_move(
+            JointPath(path), cell.running[phase], cell.arm, limits, resolution_rad=settings.resolution_rad
+        )
+        if result.trajectory is not None:
+            trajectories[phase] = result.trajectory
+        else:
+            failures[phase] = _FAILURES[result.outcome]
+    return TaskTiming(trajectories=trajectories, failures=failures)
+
+
+def _paths(plan: TaskPlan) -> dict[Phase, Array | None]:
+    """The paths to be timed: those found, and the lift; a lift that is impossible is None."""
+    paths: dict[Phase, Array | None] = {}
+    for phase in Phase:
+        if phase is Phase.LIFT:
+            paths[phase] = plan.lift_rad
+        elif phase in plan.moves and (path := plan.moves[phase].path_rad) is not None:
+            paths[phase] = path
+    return paths

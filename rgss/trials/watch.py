@@ -1,0 +1,133 @@
+"""What is observed during a phase, step by step."""
+
+from __future__ import annotations
+
+import math
+
+from rgss.evidence import Failure, Metric
+from rgss.physics import Contacts, World
+from rgss.scenes import Pose
+from rgss.trials.control import ControlSettings
+
+
+class Watch:
+    """Accumulates the observations of one phase and names what goes wrong.
+
+    Attributes:
+        failure: The first thing that went wrong; None so far.
+        detail: The numbers that show it.
+    """
+
+    def __init__(self, world: World, control: ControlSettings, *, carried_at: Pose | None, resting_on: str) -> None:
+        """Begin to watch.
+
+        Args:
+            world: The world that is stepped.
+            control: Thresholds.
+            carried_at: Transform of the object to the grasp centre when it was grasped; None
+                when it is not carried.
+            resting_on: The body that the object may touch in this phase; empty for none.
+        """
+        self.failure: Failure | None = None
+        self.detail = ""
+        self._world = world
+        self._control = control
+        self._carried_at = carried_at
+        self._resting_on = resting_on
+        self._friction = world.gripper.friction * world.scene.workpiece.friction
+        self._mass_kg = world.scene.workpiece.mass_kg
+        self._step_s = world.settings.step_s
+        self._every = max(1, round(world.settings.rate_hz / control.observation_rate_hz))
+        self._lost_s = 0.0
+        self._touches = 0
+        self._peak_force_n = 0.0
+        self._slip_m = 0.0
+        self._margin = math.inf
+        self._tracking_m = 0.0
+        self._torque_ratio = 0.0
+
+    def after_step(self, index: int, load_m_s2: float, commanded_tool_m: tuple[float, float, float] | None) -> Contacts:
+        """Observe the world after a step.
+
+        Args:
+            index: Number of the step within the phase.
+            load_m_s2: Tool acceleration minus gravity, in magnitude.
+            commanded_tool_m: Where the tool should be; None where it is not followed.
+        """
+        contacts = self._world.contacts()
+        self._watch_touching(contacts)
+        if self._carried_at is not None:
+            self._watch_grip(contacts, load_m_s2)
+        if index % self._every == 0:
+            self._observe_poses(commanded_tool_m)
+        return contacts
+
+    def finish(self, commanded_tool_m: tuple[float, float, float] | None) -> None:
+        """Observe the poses at the end of the phase."""
+        self._observe_poses(commanded_tool_m)
+
+    def fail(self, failure: Failure, detail: str) -> None:
+        """Note what went wrong, unless something did before."""
+        if self.failure is None:
+            self.failure, self.detail = failure, detail
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit."""
+        carried = self._carried_at is not None
+        return {
+            "arm_scene_contacts": self._touches,
+            "peak_finger_force_n": self._peak_force_n,
+            "peak_joint_torque_ratio": self._torque_ratio,
+            "tracking_error_m": self._tracking_m,
+            "slip_m": self._slip_m if carried else None,
+            "grip_margin_min": self._margin if carried and math.isfinite(self._margin) else None,
+        }
+
+    def _watch_touching(self, contacts: Contacts) -> None:
+        if contacts.robot_bodies:
+            self._touches += 1
+            link, body = contacts.robot_bodies[0]
+            self.fail(Failure.ARM_COLLISION, f"{link} touched {body}")
+        if contacts.other_force_n > 0.0:
+            self.fail(Failure.OBJECT_COLLISION, f"the arm pressed the object with {contacts.other_force_n:.2f} N")
+        for body in contacts.workpiece_bodies:
+            if body != self._resting_on:
+                self.fail(Failure.OBJECT_COLLISION, f"the object touched {body}")
+        force = max(contacts.finger_forces_n)
+        if force > self._peak_force_n:
+            self._peak_force_n = force
+        limit = self._world.scene.workpiece.force_limit_n
+        if force > limit:
+            self.fail(Failure.OBJECT_DAMAGED, f"a finger pressed with {force:.2f} N, the object bears {limit:g} N")
+
+    def _watch_grip(self, contacts: Contacts, load_m_s2: float) -> None:
+        needed = self._mass_kg * load_m_s2
+        margin = self._friction * contacts.finger_force_sum_n / needed
+        self._margin = min(self._margin, margin)
+        if contacts.fingers_touching >= 2:
+            self._lost_s = 0.0
+            return
+        self._lost_s += self._step_s
+        if self._lost_s >= self._control.lost_contact_s:
+            self.fail(
+                Failure.OBJECT_DROPPED,
+                f"{contacts.fingers_touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms",
+            )
+
+    def _observe_poses(self, commanded_tool_m: tuple[float, float, float] | None) -> None:
+        _, _, torques = self._world.arm_state()
+        for joint, torque in zip(self._world.scene.robot.joints, torques, strict=True):
+            ratio = abs(torque) / joint.torque_n_m
+            self._torque_ratio = max(self._torque_ratio, ratio)
+        tool = self._world.tool_pose()
+        if commanded_tool_m is not None:
+            error = math.dist(tool.position_m, commanded_tool_m)
+            self._tracking_m = max(self._tracking_m, error)
+            if error > self._control.largest_tracking_error_m:
+                self.fail(Failure.TRACKING_ERROR, f"the tool was {error * 1e3:.2f} mm from where it should be")
+        if self._carried_at is not None:
+            held = tool.inverse() @ self._world.workpiece_pose()
+            slip = math.dist(held.position_m, self._carried_at.position_m)
+            self._slip_m = max(self._slip_m, slip)
+            if slip > self._control.largest_slip_m:
+                self.fail(Failure.OBJECT_DROPPED, f"the object slipped {slip * 1e3:.1f} mm in the gripper")

@@ -1,0 +1,178 @@
+"""Compatibility rules: what they exclude, and the mistakes in them."""
+
+import pytest
+
+RULES = "rules:\n  - id: r\n    rationale: Because.\n"
+
+EXCLUSIONS = {
+    "exclude a combination": ("    exclude: {d1: 0.1 kg, d2: 3}\n", {3, 4}),
+    "exclude any of several values": ("    exclude: {d2: [2, 3], d3: PRM}\n", {2, 4, 6, 8}),
+    "exclude a component": ("    exclude: {component.gripper: large}\n", {5, 6, 7, 8}),
+    "require where": ("    when: {d2: 3}\n    require: {d3: PRM}\n", {3, 7}),
+    "require everywhere": ("    require: {d3: [PRM], component.planner: prm}\n", {1, 3, 5, 7}),
+    "require a component": ("    when: {d3: RRT}\n    require: {component.gripper: [large]}\n", {1, 3}),
+    "limit a product": (
+        "    limit: {product_of: [design.d2, design.d4], at_most: component.gripper.force}\n",
+        {1, 2, 3, 4},
+    ),
+    "limit where": (
+        "    when: {d2: 3}\n    limit: {product_of: [design.d2, design.d4], at_most: component.gripper.force}\n",
+        {3, 4},
+    ),
+    "limit that nothing exceeds": ("    limit: {product_of: [design.d4], at_most: component.gripper.force}\n", set()),
+}
+
+MISTAKES = {
+    "says nothing": (
+        "",
+        (
+            "error: rule 'r' does not say one thing "
+            "(write 'exclude', or 'require' or 'limit' with or without 'when') [design.rule]"
+        ),
+    ),
+    "says two things": (
+        "    require: {d2: 2}\n    exclude: {d2: 3}\n",
+        (
+            "error: rule 'r' does not say one thing "
+            "(write 'exclude', or 'require' or 'limit' with or without 'when') [design.rule]"
+        ),
+    ),
+    "exclude with when": (
+        "    when: {d2: 2}\n    exclude: {d2: 3}\n",
+        (
+            "error: rule 'r' does not say one thing "
+            "(write 'exclude', or 'require' or 'limit' with or without 'when') [design.rule]"
+        ),
+    ),
+    "names nothing": (
+        "    exclude: ¦{}\n",
+        "error: exclude names nothing (name a parameter, or remove 'exclude') [design.rule]",
+    ),
+    "unknown parameter": (
+        "    exclude: {¦d22: 3}\n",
+        "error: unknown design parameter 'd22' (did you mean 'd2'?) [design.unknown-parameter]",
+    ),
+    "wrong unit": (
+        "    exclude: {d1: [0.1 kg, ¦3 N]}\n",
+        "error: d1: unit 'N' does not measure what 'kg' measures (give it in kg or a multiple of it) [design.value]",
+    ),
+    "unknown planner": (
+        "    exclude: {d3: ¦RRS}\n",
+        "error: d3: no planner component is named 'RRS' (did you mean 'RRT'?) [design.unknown-name]",
+    ),
+    "value that never is": (
+        "    exclude: {d1: ¦0.3 kg}\n",
+        "error: d1 is never 0.3 kg (its values: 0.1 kg, 0.2 kg) [design.never-holds]",
+    ),
+    "unknown role": (
+        "    exclude: {¦component.griper: large}\n",
+        "error: unknown role 'griper' (did you mean 'gripper'?) [design.unknown-role]",
+    ),
+    "unknown component": (
+        "    require: {component.gripper: [large, ¦huge]}\n",
+        (
+            "error: no gripper component has the id 'huge' (known gripper components: large, small) "
+            "[design.unknown-component]"
+        ),
+    ),
+    "unknown number": (
+        "    limit: {product_of: [design.d4], at_most: ¦component.gripper.forse}\n",
+        (
+            "error: the design has no number 'component.gripper.forse' (did you mean 'component.gripper.force'?) "
+            "[design.unknown-source]"
+        ),
+    ),
+    "name as a number": (
+        "    limit: {product_of: [design.d4, ¦design.d3], at_most: component.gripper.force}\n",
+        "error: the design has no number 'design.d3' (did you mean 'design.d4'?) [design.unknown-source]",
+    ),
+    "units that differ": (
+        "    limit: ¦{product_of: [design.d1, design.d4], at_most: component.gripper.force}\n",
+        (
+            "error: a product in kg·N is compared with component.gripper.force in N "
+            "(compare what has one unit) [design.unit]"
+        ),
+    ),
+    "limit without factors": (
+        "    limit: {product_of: ¦[], at_most: component.gripper.force}\n",
+        "error: product_of: at least 1 entry is expected",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", EXCLUSIONS)
+def test_a_rule_excludes_what_it_says_and_ids_stay(project, case):
+    text, excluded = EXCLUSIONS[case]
+    project.space_text += RULES + text
+    space = project.load()
+    assert {variant.id for variant in space.expand()} == set(range(1, 9)) - excluded
+    assert {combination.id for combination in space.excluded()} == excluded
+    assert all(combination.rules == ("r",) for combination in space.excluded())
+
+
+def test_every_rule_against_a_combination_is_named(project):
+    project.space_text += RULES + "    exclude: {d2: 3}\n  - {id: s, rationale: So., exclude: {d3: PRM}}\n"
+    excluded = {combination.id: (combination.rules, combination.levels) for combination in project.load().excluded()}
+    assert excluded[4] == (("r", "s"), {"mass": "low", "fingers": "three", "planner": "prm"})
+    assert excluded[3][0] == ("r",)
+    assert excluded[2][0] == ("s",)
+
+
+@pytest.mark.parametrize("case", MISTAKES)
+def test_a_mistake_in_a_rule_is_found_at_its_place(project, case):
+    text, expected = MISTAKES[case]
+    project.space_text += (RULES if "¦" in text else RULES.replace("- id", "- ¦id")) + text
+    if case == "limit without factors":
+        assert expected in _first_of(project)
+        return
+    assert project.findings() == [f"{project.marks()[0]}: {expected}"]
+
+
+def _first_of(project):
+    with pytest.raises(Exception, match="product_of") as caught:
+        project.load()
+    return str(caught.value)
+
+
+def test_duplicate_rules_are_found(project):
+    project.space_text += RULES + "    exclude: {d2: 3}\n  - {id: ¦r, rationale: So., exclude: {d3: PRM}}\n"
+    assert project.findings() == [
+        f"{project.marks()[0]}: error: id 'r' stands already in line 25 (give each its own id) [design.duplicate-id]"
+    ]
+
+
+def test_rules_that_exclude_everything_are_found(project):
+    project.space_text += "¦" + RULES + "    exclude: {d2: [2, 3]}\n"
+    (finding,) = project.findings()
+    line, column = 24, 1
+    assert finding == (
+        f"space.yaml:{line}:{column}: error: the rules exclude every combination "
+        "(loosen a rule, or add levels) [design.nothing-left]"
+    )
+
+
+def test_a_combination_without_a_component_may_be_excluded(project):
+    project.change("matches: {d1: 100 g}", "matches: {d1: 100 g, d2: 2}")
+    project.space_text += RULES + "    exclude: {d1: 0.1 kg, d2: 3}\n"
+    assert [variant.id for variant in project.load().expand()] == [1, 2, 5, 6, 7, 8]
+
+
+def test_a_broken_rule_does_not_make_its_combinations_look_broken(project):
+    project.change("matches: {d1: 100 g}", "matches: {d1: 100 g, d2: 2}")
+    project.space_text += RULES + "    exclude: {d1: 0.1 kg, ¦dd2: 3}\n"
+    (finding,) = project.findings()
+    assert "unknown design parameter 'dd2'" in finding
+
+
+def test_conditions_on_roles_that_no_component_fills_do_not_hold(project):
+    project.change("matches: {d1: 100 g}", "matches: {d1: 100 g, d2: 2}")
+    project.space_text += RULES + "    exclude: {component.gripper: small}\n"
+    (finding,) = project.findings()
+    assert "no gripper in the catalogue matches d1 = 0.1 kg, d2 = 3" in finding
+
+
+def test_limits_hold_where_a_role_has_no_component(project):
+    project.change("matches: {d1: 100 g}", "matches: {d1: 100 g, d2: 2}")
+    project.space_text += RULES + "    limit: {product_of: [design.d4], at_most: component.gripper.force}\n"
+    (finding,) = project.findings()
+    assert "no gripper in the catalogue matches" in finding

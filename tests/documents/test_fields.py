@@ -1,0 +1,107 @@
+"""Each field type: its unit, what it refuses, and its JSON Schema."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from pydantic import TypeAdapter, ValidationError
+
+from rgss import documents
+
+QUANTITIES = {
+    "Metres": ("120 mm", 0.12),
+    "Kilograms": ("300 g", 0.3),
+    "Seconds": ("2 min", 120.0),
+    "Newtons": ("1.5 kN", 1500.0),
+    "NewtonMetres": ("330 N*m", 330.0),
+    "Radians": ("180 deg", math.pi),
+    "RadiansPerSecond": ("90 deg/s", math.pi / 2),
+    "RadiansPerSecondSquared": ("90 deg/s^2", math.pi / 2),
+    "MetresPerSecond": ("500 mm/s", 0.5),
+    "MetresPerSecondSquared": ("9.81 m/s²", 9.81),
+    "Hertz": ("0.24 kHz", 240.0),
+    "Dollars": ("2.5 kUSD", 2500.0),
+    "Dimensionless": ("95 %", 0.95),
+}
+
+
+def adapter(name):
+    return TypeAdapter(getattr(documents, name))
+
+
+def refusal(name, value):
+    with pytest.raises(ValidationError) as caught:
+        adapter(name).validate_python(value)
+    (problem,) = caught.value.errors()
+    return problem
+
+
+def test_every_field_is_tested():
+    others = {"Document", "DocumentModel", "LoadedDocument", "Identifier", "QuantityText", "Text", "UnitText"}
+    functions = {name for name in documents.__all__ if name.islower()}
+
+    assert set(documents.__all__) - others - functions == set(QUANTITIES)
+
+
+@pytest.mark.parametrize(("name", "text", "value"), [(name, *case) for name, case in QUANTITIES.items()])
+def test_quantity(name, text, value):
+    assert adapter(name).validate_python(text) == value
+
+
+@pytest.mark.parametrize("name", sorted(set(QUANTITIES) - {"Dimensionless"}))
+@pytest.mark.parametrize("value", [5, 0.5, "5", "5 lx", "many", "1e999 m"])
+def test_quantity_needs_its_unit(name, value):
+    assert refusal(name, value)["type"] == "quantity"
+
+
+@pytest.mark.parametrize("name", sorted(QUANTITIES))
+@pytest.mark.parametrize("value", [True, None, [1], {"a": 1}])
+def test_quantity_of_another_kind(name, value):
+    problem = refusal(name, value)
+
+    assert problem["msg"] == "a quantity is expected"
+    assert problem["ctx"]["hint"].startswith("write a number")
+
+
+@pytest.mark.parametrize(("value", "number"), [(0.25, 0.25), (3, 3.0), (1e-7, 1e-7), (1e22, 1e22), ("0.25", 0.25)])
+def test_dimensionless_takes_numbers(value, number):
+    assert adapter("Dimensionless").validate_python(value) == number
+
+
+@pytest.mark.parametrize("value", ["1 m", "5 rad", "1e999", "x"])
+def test_dimensionless_takes_no_unit(value):
+    assert refusal("Dimensionless", value)["type"] == "quantity"
+
+
+@pytest.mark.parametrize("unit", ["1", "kg", "m/s", "USD", "%", "1/s", "kg*m**2"])
+def test_unit(unit):
+    assert adapter("UnitText").validate_python(unit) == unit
+
+
+@pytest.mark.parametrize("unit", ["furlongs-ish", "m**", "12", "m/0", "EUR"])
+def test_unknown_unit(unit):
+    assert refusal("UnitText", unit)["type"] == "quantity"
+
+
+@pytest.mark.parametrize("text", ["d1", "STK-006", "finger_mass.kg", "A" * 80])
+def test_identifier(text):
+    assert adapter("Identifier").validate_python(text) == text
+
+
+@pytest.mark.parametrize("text", ["", "1a", "-a", "a b", "é", "a\n", "A" * 81])
+def test_no_identifier(text):
+    assert refusal("Identifier", text)["type"].startswith("string_")
+
+
+def test_text_is_stripped():
+    assert adapter("Text").validate_python("  words\n") == "words"
+
+
+@pytest.mark.parametrize("name", [*QUANTITIES, "Identifier", "QuantityText", "Text", "UnitText"])
+def test_json_schema(name):
+    schema = adapter(name).json_schema()
+
+    assert schema.get("type") == "string" or name == "Dimensionless"
+    if name in QUANTITIES and name != "Dimensionless":
+        assert schema["description"].startswith("A quantity in ")

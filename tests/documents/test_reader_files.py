@@ -1,0 +1,106 @@
+"""Files that cannot be read at all, and files made to hurt."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from rgss.documents import read_document
+from rgss.errors import DocumentError
+
+
+def only_finding(path, **arguments):
+    with pytest.raises(DocumentError) as caught:
+        read_document(path, **arguments)
+    (finding,) = caught.value.findings
+    return finding
+
+
+def test_missing_file(tmp_path):
+    finding = only_finding(tmp_path / "none.yaml", label="scenes/none.yaml")
+
+    assert str(finding) == "scenes/none.yaml:1:1: error: no such file (check the name and --project) [document.missing]"
+
+
+def test_file_where_a_folder_is_expected(write):
+    finding = only_finding(write("a: 1\n") / "inner.yaml")
+
+    assert (finding.rule, finding.message) == ("document.unreadable", "cannot be read: Not a directory")
+
+
+def test_directory(tmp_path):
+    finding = only_finding(tmp_path)
+
+    assert (finding.rule, finding.message) == ("document.unreadable", "cannot be read: not a file")
+
+
+def test_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+
+    assert only_finding(tmp_path / "pipe").message == "cannot be read: not a file"
+
+
+def test_endless_device():
+    assert only_finding(Path("/dev/zero")).message == "cannot be read: not a file"
+
+
+def test_name_with_a_null_character():
+    finding = only_finding(Path("a\0b.yaml"), label="robot")
+
+    assert (finding.rule, finding.message) == ("document.missing", "not the name of a file")
+
+
+def test_name_that_is_too_long(tmp_path):
+    assert only_finding(tmp_path / ("n" * 5000)).message == "cannot be read: File name too long"
+
+
+@pytest.mark.parametrize(
+    ("content", "line", "column"),
+    [
+        (b"\xff\xfea\x00", 1, 1),
+        (b"a: 1\nb: \xe9t\xe9\n", 2, 4),
+        (b"\xef\xbb\xbfa: \xc3\xa9\xc3", 1, 5),
+        (b"a: \xed\xa0\x80\n", 1, 4),
+        (b"a: \xc0\x80\n", 1, 4),
+    ],
+)
+def test_not_utf_8(write, content, line, column):
+    finding = only_finding(write(content))
+
+    assert (finding.rule, finding.message, finding.hint) == (
+        "document.encoding",
+        "is not UTF-8",
+        "save the file as UTF-8",
+    )
+    assert (finding.line, finding.column) == (line, column)
+
+
+def test_ten_megabytes_of_nested_lists(write):
+    path = write(b"[" * 10_000_000)
+
+    began = time.perf_counter()
+    finding = only_finding(path)
+
+    assert (finding.rule, finding.message) == ("document.size", "is too large: at most 8 MiB are read")
+    assert time.perf_counter() - began < 1.0
+
+
+@pytest.mark.parametrize("opening", [b"[", b"- ", b"{a: ", b"? ", b"{"])
+def test_as_many_nested_as_the_size_allows(write, opening):
+    path = write(opening * (8 * 1024 * 1024 // len(opening)))
+
+    began = time.perf_counter()
+    with pytest.raises(DocumentError) as caught:
+        read_document(path)
+
+    assert caught.value.findings[-1].rule == "document.nesting"
+    assert time.perf_counter() - began < 2.0
+
+
+def test_largest_size_is_read(write):
+    path = write(b"a: " + b"x" * (8 * 1024 * 1024 - 3))
+
+    assert len(read_document(path).data["a"]) == 8 * 1024 * 1024 - 3

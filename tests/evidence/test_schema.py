@@ -1,0 +1,91 @@
+"""Making and checking the file of a store where processes meet or break off."""
+
+import sqlite3
+
+import pytest
+
+from rgss.errors import EvidenceError
+from rgss.evidence import EvidenceStore, schema
+
+
+class BusyConnection:
+    """Answers that the file is locked, as SQLite does at once when two processes switch its mode."""
+
+    def __init__(self, refusals, message="database is locked"):
+        self.refusals = refusals
+        self.message = message
+        self.calls = 0
+
+    def execute(self, statement):
+        assert statement == "PRAGMA journal_mode = WAL"
+        self.calls += 1
+        if self.calls <= self.refusals:
+            raise sqlite3.OperationalError(self.message)
+
+
+@pytest.fixture(autouse=True)
+def short_waits(monkeypatch):
+    monkeypatch.setattr(schema, "_PAUSE_S", 0.001)
+    monkeypatch.setattr(schema, "BUSY_TIMEOUT_S", 0.01)
+
+
+def test_switching_to_write_ahead_logging_waits_for_its_turn():
+    connection = BusyConnection(refusals=3)
+    schema._log_ahead(connection)
+    assert connection.calls == 4
+
+
+def test_switching_gives_up_in_the_end():
+    with pytest.raises(sqlite3.OperationalError, match="database is locked"):
+        schema._log_ahead(BusyConnection(refusals=1000))
+
+
+def test_switching_does_not_wait_for_what_will_not_pass():
+    connection = BusyConnection(refusals=1000, message="attempt to write a readonly database")
+    with pytest.raises(sqlite3.OperationalError, match="readonly"):
+        schema._log_ahead(connection)
+    assert connection.calls == 1
+
+
+def test_a_store_that_another_process_made_meanwhile_is_used(tmp_path, monkeypatch, record, provenance):
+    path = tmp_path / "evidence.sqlite"
+    with EvidenceStore.open(path) as store:
+        store.put("a" * 64, record(), provenance)
+    is_empty, answers = schema._is_empty, [True]
+    monkeypatch.setattr(schema, "_is_empty", lambda connection: answers.pop() if answers else is_empty(connection))
+    with EvidenceStore.open(path) as store:
+        assert store.get("a" * 64).record == record()
+
+
+def test_a_store_that_could_not_be_made_is_left_empty(tmp_path, monkeypatch):
+    path = tmp_path / "evidence.sqlite"
+    with monkeypatch.context() as patch:
+        patch.setattr(schema, "_TABLE", "CREATE TABLE trials (key TEXT, key TEXT)")
+        with pytest.raises(EvidenceError, match=r"cannot be used: duplicate column name: key \(move the file away"):
+            EvidenceStore.open(path)
+    with EvidenceStore.open(path) as store:
+        assert len(store) == 0
+
+
+def test_damage_that_only_a_check_of_the_pages_shows_is_refused(tmp_path):
+    path = tmp_path / "evidence.sqlite"
+    EvidenceStore.open(path).close()
+    connection = sqlite3.connect(path, isolation_level=None)
+    (original,) = connection.execute("SELECT sql FROM sqlite_master WHERE type = 'table'").fetchone()
+    _rewrite_schema(connection, original.replace(" NOT NULL", ""))
+    connection.close()
+    connection = sqlite3.connect(path, isolation_level=None)
+    connection.execute("INSERT INTO trials (key) VALUES ('k')")
+    _rewrite_schema(connection, original)
+    connection.close()
+    with pytest.raises(EvidenceError) as caught:
+        EvidenceStore.open(path, label="evidence.sqlite")
+    assert str(caught.value) == (
+        "evidence.sqlite is damaged: NULL value in trials.content_digest (move the file away and run the sweep again)"
+    )
+
+
+def _rewrite_schema(connection, text):
+    connection.execute("PRAGMA writable_schema = ON")
+    connection.execute("UPDATE sqlite_master SET sql = ? WHERE type = 'table'", (text,))
+    connection.execute("PRAGMA writable_schema = OFF")

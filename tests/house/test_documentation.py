@@ -1,0 +1,81 @@
+"""What README.md and docs/ name is there: commands, options, targets of make, files."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("**/*.md"))]
+FOLDERS = ["rgss", "tests", "docs", "requirements", "designs", "scenes", "studies", "benchmarks", ".ci"]
+
+_FENCED = re.compile(r"^```[a-z]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+_SPAN = re.compile(r"`([^`\n]+)`")
+_COMMAND = re.compile(r"(?:^|[\s/])rgss ([a-z][a-z-]*)(?![a-z-]*[=.:])([^|;&#\n`]*)")
+_LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+_RUN = "import sys; sys.argv[0] = 'rgss'; from rgss.cli.main import main; sys.exit(main())"
+
+
+def code_of(page: Path) -> list[str]:
+    """The lines of fenced blocks, and the code spans outside of them."""
+    text = page.read_text(encoding="utf-8")
+    blocks = [line for block in _FENCED.findall(text) for line in block.splitlines()]
+    return blocks + _SPAN.findall(_FENCED.sub("", text))
+
+
+def named_commands() -> dict[str, set[str]]:
+    """Each verb of the command line that a page names, with the options that it is given."""
+    named: dict[str, set[str]] = {}
+    for page in PAGES:
+        for code in code_of(page):
+            for verb, rest in _COMMAND.findall(code):
+                named.setdefault(verb, set()).update(re.findall(r"(?<![\w-])--[a-z][a-z-]*", rest))
+    return named
+
+
+def test_the_main_job_is_in_the_first_screen_of_the_readme():
+    first_screen = "\n".join(PAGES[0].read_text(encoding="utf-8").splitlines()[:40])
+
+    assert "make study" in first_screen
+    assert "make test" in first_screen
+
+
+def test_commands_and_their_options_exist():
+    missing = []
+    for verb, options in sorted(named_commands().items()):
+        run = subprocess.run([sys.executable, "-c", _RUN, verb, "--help"], capture_output=True, text=True, check=False)
+        known = set(re.findall(r"--[a-z][a-z-]*", run.stdout)) if run.returncode == 0 else set()
+        missing += [f"rgss {verb} {option}".strip() for option in sorted(options or {""}) if option not in {*known, ""}]
+        missing += [f"rgss {verb}"] if run.returncode else []
+
+    assert missing == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_targets_of_make_exist(page):
+    targets = set(re.findall(r"^([a-z]+):", (REPOSITORY / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    named = {target for code in code_of(page) for target in re.findall(r"^(?:\$ )?make ([a-z]+)\b", code)}
+
+    assert sorted(named - targets) == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_files_exist(page):
+    links = [(page.parent, target) for target in _LINK.findall(page.read_text(encoding="utf-8")) if "://" not in target]
+    folders = "|".join(map(re.escape, FOLDERS))
+    paths = [
+        (REPOSITORY, path)
+        for code in code_of(page)
+        for path in re.findall(rf"(?<![\w./-])(?:{folders})/[\w./*-]*(?![\w<{{])", code)
+    ]
+    missing = [
+        target
+        for base, target in [*links, *paths]
+        if not (any(base.glob(target)) if "*" in target else (base / target).exists())
+    ]
+
+    assert missing == []

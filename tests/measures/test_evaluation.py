@@ -1,0 +1,142 @@
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import pytest
+
+from rgss.errors import DefinitionError
+from rgss.measures import Estimate, MeasureSet, design_values, evaluate, trial_values
+
+Loader = Callable[..., MeasureSet]
+Writer = Callable[..., str]
+
+FIXED: Mapping[str, float | str] = {"design.d2": 3.0, "design.d7": 0.5, "design.d8": "RRT"}
+MEAN = "{statistic: mean, over: all}"
+
+
+def estimates(measures: MeasureSet, *trials: Mapping[str, Any], **more: Any) -> dict[str, Estimate]:
+    return evaluate(measures, **{"fixed": FIXED, "trials": trials, "seed": 1, "variant": 1, **more})
+
+
+def test_a_measure_of_the_design_is_computed_once(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "m * g", "kN"))
+    assert estimates(measures) == {"x": Estimate(value=0.03, unit="kN", low=0.03, high=0.03, n=0)}
+
+
+def test_the_order_is_that_of_the_file(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("z", "y"), entry("y", "a"), entry("a", "m"))
+    assert list(estimates(measures)) == ["z", "y", "a"]
+
+
+def test_only_known_values_of_the_trials_that_count_are_estimated(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(
+        entry("every", "time", "min", estimate=MEAN),
+        entry("good", "time", "s", estimate="{statistic: mean, over: successful}"),
+    )
+    result = estimates(
+        measures,
+        {"task_time_s": 60.0, "success": 1},
+        {"task_time_s": 180, "success": 0},
+        {"task_time_s": None, "success": 1},
+        {"task_time_s": math.nan, "success": 1},
+        {"success": True},
+        {"task_time_s": 240.0},
+    )
+    assert (result["every"].value, result["every"].n) == (pytest.approx(480 / 60 / 3), 3)
+    assert result["good"] == Estimate(value=60.0, unit="s", low=None, high=None, n=1)
+
+
+def test_no_trial_gives_no_value(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(
+        entry("duration", "time", "s", estimate=MEAN),
+        entry("share_of", "share", "1", estimate="{statistic: proportion, over: all}"),
+    )
+    assert estimates(measures) == {"duration": Estimate.unknown("s"), "share_of": Estimate.unknown("1")}
+
+
+def test_a_proportion_counts_complete_trials(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "share", "1", estimate="{statistic: proportion, over: all}"))
+    result = estimates(measures, {"share": 1}, {"share": 0.875}, {"share": None}, {"share": 1.0}, {"share": 0})
+    assert (result["x"].value, result["x"].n) == (0.5, 4)
+
+
+@pytest.mark.parametrize(("summary", "expected"), [("sum", 15.0), ("mean", 3.0), ("max", 5.0)])
+def test_a_row_is_summarised_but_used_as_a_row(
+    load_entries: Loader, entry: Writer, summary: str, expected: float
+) -> None:
+    measures = load_entries(
+        entry("x", "row", "m", estimate=MEAN, summary=summary), entry("square", "norm(x)", "m", estimate=MEAN)
+    )
+    result = estimates(measures, {"path_length_m": (1.0, 2.0, 3.0, 4.0, 5.0)})
+    assert result["x"].value == expected
+    assert result["square"].value == math.sqrt(55)
+
+
+def test_an_unknown_entry_makes_the_summary_unknown(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "row", "m", estimate=MEAN, summary="max"))
+    assert estimates(measures, {"path_length_m": [1.0, 2.0, 3.0, 4.0, None]})["x"].n == 0
+    assert estimates(measures, {"path_length_m": None})["x"].n == 0
+
+
+def test_the_values_of_one_trial_can_be_had(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "row / v", "ms", estimate=MEAN, summary="sum"))
+    design = design_values(measures, fixed=FIXED, variant=1)
+    assert design == {"g": 10.0, "m": 3.0, "v": 0.5}
+    values = trial_values(measures, design=design, trial={"path_length_m": (1, 2, 3, 4, None)})
+    assert values["x"] == (2.0, 4.0, 6.0, 8.0, None)
+    assert values["time"] is None
+
+
+def test_the_result_depends_on_seed_and_variant_alone(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "time", "s", estimate=MEAN))
+    trials = [{"task_time_s": value} for value in (1.0, 5.0, 2.5, 9.0, 3.3, 4.1, 7.2)]
+    first = estimates(measures, *trials)
+    assert estimates(measures, *trials) == first
+    assert estimates(measures, *trials, seed=2)["x"].low != first["x"].low
+    assert estimates(measures, *trials, variant=2)["x"].low != first["x"].low
+
+
+def test_missing_values_of_the_design_are_named_together(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "m"))
+    with pytest.raises(DefinitionError, match=r"variant 7 has no value for design\.d2, design\.d7 \(give it in"):
+        estimates(measures, fixed={}, variant=7)
+
+
+@pytest.mark.parametrize("value", ["heavy", math.inf])
+def test_a_value_of_the_design_must_be_a_number(load_entries: Loader, entry: Writer, value: float | str) -> None:
+    measures = load_entries(entry("x", "m"))
+    with pytest.raises(DefinitionError, match=r"design\.d2 of variant 1 is .*; the measures' input 'm' needs a number"):
+        estimates(measures, fixed={**FIXED, "design.d2": value})
+
+
+def test_a_design_for_which_a_measure_is_not_defined_is_an_error(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "m / (v - v)", "kg*s/m"))
+    message = r"measure 'x' is not defined for variant 1: m / \(v - v\) \(look for a division by zero"
+    with pytest.raises(DefinitionError, match=message):
+        estimates(measures)
+
+
+def test_a_trial_for_which_a_measure_is_not_defined_has_no_value(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("x", "1 / time", "1/s", estimate=MEAN))
+    result = estimates(measures, {"task_time_s": 0.0}, {"task_time_s": 4.0})
+    assert (result["x"].value, result["x"].n) == (0.25, 1)
+
+
+@pytest.mark.parametrize(
+    ("metric", "value", "message"),
+    [
+        ("path_length_m", (1.0, 2.0), r"trial\.path_length_m has 2 entries; input 'row' declares 5"),
+        ("path_length_m", 1.0, r"trial\.path_length_m is one number; input 'row' declares 5"),
+        ("path_length_m", (1, 2, 3, 4, "5"), r"trial\.path_length_m is '5'; input 'row' needs a number"),
+        ("task_time_s", (1.0, 2.0), r"trial\.task_time_s has 2 entries; input 'time' declares one number"),
+        ("task_time_s", "long", r"trial\.task_time_s is 'long'; input 'time' needs a number"),
+    ],
+)
+def test_a_metric_of_another_shape_is_an_error(
+    load_entries: Loader, entry: Writer, metric: str, value: object, message: str
+) -> None:
+    measures = load_entries(entry("x", "m"))
+    with pytest.raises(DefinitionError, match=message):
+        estimates(measures, {metric: value})

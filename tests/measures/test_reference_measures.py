@@ -1,0 +1,234 @@
+"""The project's own measures against the published equations, computed by hand."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+
+from rgss.measures import Estimate, MeasureKind, MeasureSet, evaluate
+from rgss.quantities import dimension
+
+# Component values of the tests' own, so that the catalogue may change; the arm's are published.
+COMPONENTS: Mapping[str, float] = {
+    "component.manipulator.payload": 10.0,
+    "component.manipulator.wrist_torque": 56.0,
+    "component.manipulator.wrist_offset": 0.1157,
+    "component.manipulator.flange_offset": 0.0922,
+    "component.manipulator.cost": 30_000.0,
+    "component.gripper.cost": 5_000.0,
+    "component.finger_actuator.cost": 400.0,
+    "component.finger_actuator.mass": 0.05,
+    "component.planner.cost": 700.0,
+}
+# Rows 1 and 65 of the published design table, d1 to d9.
+ROWS: Mapping[int, tuple[float | str, ...]] = {
+    1: (3, 0.3, 0.4, 0.04, 10, 0.7, 0.5, "RRT", 4),
+    65: (2, 0.2, 0.2, 0.04, 10, 0.7, 1, "RRT", 6),
+}
+TRIAL: Mapping[str, Any] = {
+    "success": 1,
+    "planning_time_s": (0.5, 0.25, 1.0, 0.75, 0.5),
+    "path_length_m": (0.2, 0.3, 1.0, 0.25, 1.25),
+    "phases_completed": 8,
+    "phases_total": 8,
+    "task_time_s": 15.5,
+    "motion_time_s": 12.5,
+    "grasp_cycle_time_s": 1.1,
+    "peak_tool_speed_m_s": 0.49,
+    "peak_tool_acceleration_m_s2": 1.1,
+    "slip_m": 0.0015,
+    "grip_margin_min": 1.6,
+    "peak_finger_force_n": 9.5,
+    "place_error_m": 0.004,
+    "peak_joint_torque_ratio": 0.6,
+}
+
+
+def fixed(variant: int, **changes: float) -> dict[str, float | str]:
+    design = {f"design.d{index}": value for index, value in enumerate(ROWS[variant], start=1)}
+    return {**design, **COMPONENTS, "component.gripper.actuators": float(ROWS[variant][0]), **changes}
+
+
+def values(reference: MeasureSet, variant: int, *trials: Mapping[str, Any], **changes: float) -> dict[str, Estimate]:
+    return evaluate(reference, fixed=fixed(variant, **changes), trials=trials or (TRIAL,), seed=1, variant=variant)
+
+
+@pytest.mark.verifies("SYS-036")
+@pytest.mark.parametrize(
+    ("variant", "expected"),
+    [
+        (
+            1,
+            {
+                "P_max_m": 10.0,  # 4.6: the torque bound is 56 / (9.81 · √(0.1157² + 0.2372²)) = 21.6 kg
+                "M_g": 0.4 + 3 * 0.3 + 3 * 0.05,  # 4.7
+                "P_max_g": 0.7 * 30 / (1.5 * (9.81 + 1.2)),  # 4.8 with three fingers of 10 N
+                "P_max": 1.27157,  # 4.1: the gripper binds
+                "C_m": 30_000.0,
+                "C_g": 5_000.0 + 3 * 400.0,
+                "C_al": 700.0,
+                "C_total": 36_900.0,  # 4.2
+                "v_m": 0.5,  # 4.9
+                "v_m_peak": 0.49,
+                "t_gc": 1.2,  # 4.10
+                "t_gc_simulated": 1.1,  # 4.12
+                "f_f_peak": 9.5,  # 4.13
+                "t_sp": 0.6,  # 4.11, the mean of five
+                "t_p": 3.0,  # 4.4
+                "L": 3.0,
+                "t_e": 3.0 + 1.2 + 3.0 / 0.5,  # 4.3
+                "t_m": 7.2,
+                "S": 1.0,  # 4.5
+                "S_mean": 1.0,
+                "F_max": 30.0,
+                "t_e_simulated": 15.5,
+                "t_m_simulated": 12.5,
+                "a_tool_peak": 1.1,
+                "joint_torque_ratio": 0.6,
+                "grip_margin": 1.6,
+                "slip": 1.5,
+                "place_error": 4.0,
+            },
+        ),
+        (
+            65,
+            {
+                "P_max_m": 10.0,
+                "M_g": 0.2 + 2 * 0.2 + 2 * 0.05,
+                "P_max_g": 0.7 * 20 / (1.5 * (9.81 + 1.2)),
+                "P_max": 0.84771,
+                "C_m": 30_000.0,
+                "C_g": 5_000.0 + 2 * 400.0,
+                "C_al": 700.0,
+                "C_total": 36_500.0,
+                "v_m": 1.0,
+                "t_gc": 1.2,
+                "t_p": 3.0,
+                "L": 3.0,
+                "t_e": 3.0 + 1.2 + 3.0 / 1.0,
+                "t_m": 4.2,
+                "S": 1.0,
+                "F_max": 20.0,
+            },
+        ),
+    ],
+)
+def test_the_equations_by_hand(reference: MeasureSet, variant: int, expected: Mapping[str, float]) -> None:
+    result = values(reference, variant)
+    assert {name: result[name].value for name in expected} == pytest.approx(expected, rel=1e-5)
+    if variant == 1:
+        assert list(result) == [measure.id for measure in reference.measures]
+        assert {*result} == {*expected}
+
+
+def test_the_published_payload_of_ten_newtons_at_rest(reference: MeasureSet) -> None:
+    at_rest = MeasureSet(
+        **{
+            **{name: getattr(reference, name) for name in MeasureSet.__slots__},
+            "constants": tuple(constant for constant in reference.constants if constant.id != "a_m"),
+            "inputs": (*reference.inputs, _input_like(reference, "a_m", "design.a_m")),
+        }
+    )
+    design = {**fixed(1), "design.d1": 1.0, "design.a_m": 0.0}
+    result = evaluate(at_rest, fixed=design, trials=(), seed=1, variant=1)
+    assert result["P_max_g"].value == pytest.approx(0.476, abs=5e-4)
+
+
+def _input_like(reference: MeasureSet, name: str, source: str) -> Any:
+    symbol = reference.inputs[0]
+    return type(symbol)(id=name, source=source, unit="m/s^2", length=None, definition="")
+
+
+def test_the_manipulator_binds_where_the_gripper_is_strong(reference: MeasureSet) -> None:
+    result = values(reference, 1, **{"design.d5": 200.0})
+    assert result["P_max"].value == pytest.approx(10.0 - 1.45)
+
+
+def test_the_torque_bound_binds_where_the_wrist_is_weak(reference: MeasureSet) -> None:
+    result = values(reference, 1, **{"component.manipulator.wrist_torque": 20.0})
+    assert result["P_max_m"].value == pytest.approx(20.0 / (9.81 * (0.1157**2 + (0.0922 + 0.145) ** 2) ** 0.5))
+
+
+def test_a_failed_trial_counts_in_success_and_not_in_time(reference: MeasureSet) -> None:
+    failed = {
+        "success": 0,
+        "phases_completed": 2,
+        "phases_total": 8,
+        "planning_time_s": (0.5, 0.5, 4.0, None, None),
+        "path_length_m": (0.2, 0.3, None, None, None),
+    }
+    result = values(reference, 1, TRIAL, failed, TRIAL)
+    assert (result["S"].value, result["S"].n) == (pytest.approx(2 / 3), 3)
+    assert result["S_mean"].value == pytest.approx((1 + 0.25 + 1) / 3)
+    assert (result["t_e"].value, result["t_e"].n) == (pytest.approx(10.2), 2)
+    assert (result["t_p"].value, result["t_p"].n) == (pytest.approx(3.0), 2)
+
+
+def test_a_task_that_does_not_start_scores_nothing(reference: MeasureSet) -> None:
+    result = values(reference, 1, {"success": 0, "phases_completed": 0, "phases_total": 8})
+    assert (result["S"].value, result["S_mean"].value) == (0.0, 0.0)
+    assert result["t_e"] == Estimate.unknown("s")
+
+
+def test_the_measures_of_effectiveness_trace_as_published(reference: MeasureSet) -> None:
+    assert {measure.id: (measure.unit, measure.traces) for measure in reference.of_kind(MeasureKind.EFFECTIVENESS)} == {
+        "P_max": ("kg", ("STK-006", "STK-010", "STK-011", "STK-012")),
+        "C_total": ("USD", ("STK-021", "STK-095")),
+        "t_e": ("s", ("STK-095",)),
+        "t_p": ("s", ("STK-006", "STK-011", "STK-012")),
+        "S": ("1", ("STK-097",)),
+    }
+
+
+def test_the_measures_of_performance_contribute_as_published(reference: MeasureSet) -> None:
+    assert {measure.id: measure.contributes_to for measure in reference.of_kind(MeasureKind.PERFORMANCE)} == {
+        "P_max_m": ("P_max",),
+        "v_m": ("t_e",),
+        "C_m": ("C_total",),
+        "P_max_g": ("P_max",),
+        "M_g": ("P_max",),
+        "t_gc": ("t_e",),
+        "C_g": ("C_total",),
+        "t_sp": ("t_p",),
+        "L": ("t_e",),
+        "C_al": ("C_total",),
+    }
+
+
+@pytest.mark.verifies("SYS-036")
+def test_every_published_equation_is_realised(reference: MeasureSet) -> None:
+    assert [equation.id for equation in reference.equations] == [f"4.{number}" for number in range(1, 14)]
+    assert {measure.equation for measure in reference.measures} >= {equation.id for equation in reference.equations}
+
+
+def test_double_counting_can_be_found(reference: MeasureSet) -> None:
+    assert "t_p" in reference.dependencies("t_e")
+    assert "t_p" not in reference.dependencies("t_m")
+
+
+def test_measures_lead_back_to_design_parameters(reference: MeasureSet) -> None:
+    assert reference.sources("t_gc") == ("design.d4",)
+    assert reference.sources("P_max_g") == ("design.d1", "design.d5", "design.d6")
+    assert {"design.d4", "design.d7", "trial.path_length_m"} <= {*reference.sources("t_e")}
+
+
+def test_assumptions_are_found_from_a_measure(reference: MeasureSet) -> None:
+    found = {assumption.id for assumption in reference.assumptions_of("P_max")}
+    assert {"finger-force", "carrying-acceleration", "manipulator-payload", "object-offset"} <= found
+    assert "planning-clock" not in found
+
+
+def test_every_unit_is_known(reference: MeasureSet) -> None:
+    for symbol in (*reference.constants, *reference.inputs, *reference.measures):
+        dimension(symbol.unit)
+
+
+def test_a_sweep_is_evaluated_in_well_under_a_second(reference: MeasureSet) -> None:
+    trials = [{**TRIAL, "task_time_s": 15.0 + replicate} for replicate in range(3)]
+    start = time.perf_counter()
+    for variant in range(72):
+        evaluate(reference, fixed=fixed(1), trials=trials, seed=1, variant=variant)
+    assert time.perf_counter() - start < 2.0

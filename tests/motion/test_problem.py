@@ -1,0 +1,85 @@
+"""What is wrong with a planning problem or with limits is said in one line."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rgss.errors import MotionError
+from rgss.evidence.outcomes import PlanOutcome
+from rgss.motion import JointPath, MotionLimits, PlanningProblem, PlanResult, outcome_within
+
+
+def problem(**changes):
+    values = {"lower_rad": (-1.0, -1.0), "upper_rad": (1.0, 1.0), "start": (0.0, 0.0), "goal": (0.5, 0.5)}
+    return PlanningProblem(**({"resolution_rad": 0.1} | values | changes))
+
+
+def test_arrays_become_plain_numbers():
+    made = problem(start=np.array([0.25, 0.5]))
+    assert made.start == (0.25, 0.5)
+    assert made == problem(start=(0.25, 0.5))
+
+
+def test_numbers_of_joints_that_differ():
+    with pytest.raises(MotionError) as caught:
+        problem(goal=(0.5, 0.5, 0.5))
+    assert caught.value.message == "a planning problem needs ranges, start and goal of the same number of joints"
+    assert caught.value.hint == "found 2, 2, 2, 3"
+
+
+def test_no_joints_at_all():
+    with pytest.raises(MotionError, match="the same number of joints"):
+        problem(lower_rad=(), upper_rad=(), start=(), goal=())
+
+
+def test_a_range_that_is_empty():
+    with pytest.raises(MotionError) as caught:
+        problem(lower_rad=(-1.0, 1.0))
+    assert caught.value.message == "a joint's planning range is empty"
+    assert caught.value.hint == "let its lower end be below its upper end"
+
+
+@pytest.mark.parametrize("resolution", [0.0, -0.1, math.inf, math.nan])
+def test_a_resolution_that_is_none(resolution):
+    with pytest.raises(MotionError) as caught:
+        problem(resolution_rad=resolution)
+    assert caught.value.message == f"a path cannot be checked every {resolution:g} rad"
+    assert caught.value.hint == "give a distance above zero"
+
+
+def test_limits_of_different_numbers_of_joints():
+    with pytest.raises(MotionError) as caught:
+        MotionLimits(speed_rad_s=(1.0, 1.0), acceleration_rad_s2=(1.0,), tool_speed_m_s=1.0)
+    assert caught.value.message == "there are 2 joint speeds but 1 accelerations"
+    assert caught.value.hint == "give one of each for every joint"
+
+
+@pytest.mark.parametrize(
+    "changes", [{"speed_rad_s": (0.0,)}, {"acceleration_rad_s2": (-2.0,)}, {"tool_speed_m_s": 0.0}]
+)
+def test_a_limit_that_nothing_can_keep(changes):
+    limits = MotionLimits(speed_rad_s=(1.0,), acceleration_rad_s2=(1.0,), tool_speed_m_s=1.0)
+    with pytest.raises(MotionError, match="a motion cannot keep a limit of") as caught:
+        replace(limits, **changes)
+    assert caught.value.hint == "let every limit be above zero"
+
+
+def test_a_smaller_budget_than_the_checks_at_the_solution_is_spent():
+    solved = PlanResult(
+        outcome=PlanOutcome.SOLVED,
+        path=JointPath(np.zeros((2, 6))),
+        checks=120,
+        simplification_checks=10,
+        search_time_s=0.12,
+    )
+    assert outcome_within(solved, 121) is PlanOutcome.SOLVED
+    assert outcome_within(solved, 120) is PlanOutcome.SOLVED
+    assert outcome_within(solved, 119) is PlanOutcome.BUDGET_SPENT
+    spent = replace(solved, outcome=PlanOutcome.BUDGET_SPENT, path=None)
+    assert outcome_within(spent, 100) is PlanOutcome.BUDGET_SPENT
+    invalid = replace(solved, outcome=PlanOutcome.INVALID_GOAL, path=None, checks=0)
+    assert outcome_within(invalid, 0) is PlanOutcome.INVALID_GOAL

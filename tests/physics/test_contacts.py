@@ -1,0 +1,170 @@
+"""Who touches whom, by name, and what it costs to ask."""
+
+import time
+from dataclasses import replace
+
+import pytest
+
+from rgss.physics import Contacts, PhysicsSettings, World
+from rgss.scenes import Pose
+
+ELSEWHERE = Pose(position_m=(-1.8, 1.8, 0.05))
+
+
+def test_sums_and_counts_follow_from_the_forces():
+    contacts = Contacts(
+        finger_forces_n=(1.5, 0.0, 2.5),
+        other_force_n=0.0,
+        friction_n=(0.0, 0.0, 1.0),
+        robot_bodies=(),
+        workpiece_bodies=(),
+    )
+    assert contacts.finger_force_sum_n == 4.0
+    assert contacts.fingers_touching == 2
+
+
+@pytest.mark.engine
+def test_the_cup_on_its_support_is_reported(cell):
+    with cell.world() as world:
+        world.reset_arm(cell.scene.robot.home_rad)
+        for _ in range(10):
+            world.step()
+        contacts = world.contacts()
+    assert contacts.workpiece_bodies == (cell.scene.support,)
+    assert contacts.robot_bodies == ()
+    assert contacts.finger_forces_n == (0.0,) * cell.gripper.geometry.fingers
+    assert contacts.other_force_n == 0.0
+    assert contacts.friction_n == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.engine
+def test_the_pedestal_that_bears_the_arm_is_not_reported(cell):
+    base = cell.scene.robot.base
+    (pedestal,) = (body for body in cell.scene.bodies if body.id == "pedestal")
+    assert pedestal.pose.position_m[2] + pedestal.shape.half_height_m == pytest.approx(base.position_m[2])
+    # Not even where the base is let into the pedestal.
+    for depth_m in (0.0, 0.005):
+        robot = replace(cell.scene.robot, base=base.raised(-depth_m))
+        with cell.world(robot=robot) as world:
+            for configuration in (cell.scene.robot.home_rad, tuple(cell.grasp_rad.tolist())):
+                world.reset_arm(configuration)
+                world.step()
+                assert world.contacts().robot_bodies == ()
+
+
+@pytest.mark.engine
+def test_a_link_in_the_pedestal_is_reported(three_fingers):
+    robot = three_fingers.scene.robot
+    sunk = replace(robot, base=robot.base.raised(-0.1))
+    with three_fingers.world(robot=sunk) as world:
+        world.reset_arm(robot.home_rad)
+        world.step()
+        assert ("shoulder_link", "pedestal") in world.contacts().robot_bodies
+
+
+@pytest.mark.engine
+def test_fingers_pressed_into_the_counter_are_reported_by_name(cell):
+    # The fingertips reach 30 mm below the grasp centre, which is 50 mm above the counter.
+    above, into = (cell.near(cell.scene.grasp.raised(height)) for height in (0.0, -0.03))
+    with cell.world(**cell.with_workpiece(pose=ELSEWHERE)) as world:
+        world.reset_arm(above.tolist())
+        cell.hold(world, 10, above)
+        assert world.contacts().robot_bodies == ()
+        cell.follow(world, cell.path(above, into, 0.5))
+        contacts = world.contacts()
+    fingers = {f"finger_{finger + 1}" for finger in range(cell.gripper.geometry.fingers)}
+    assert set(contacts.robot_bodies) == {(finger, cell.scene.support) for finger in fingers}
+    assert contacts.finger_forces_n == (0.0,) * cell.gripper.geometry.fingers
+
+
+@pytest.mark.engine
+def test_what_has_parted_is_not_reported(cell):
+    """The engine lists a pair for a while after it parted, with a distance and no force."""
+    touching, parted = (cell.near(cell.scene.grasp.raised(height)) for height in (-0.02001, -0.0197))
+    with cell.world(**cell.with_workpiece(pose=ELSEWHERE)) as world:
+        world.reset_arm(touching.tolist())
+        cell.hold(world, 2, touching)
+        assert len(world.contacts().robot_bodies) == cell.gripper.geometry.fingers
+        cell.follow(world, cell.path(touching, parted, 0.05))
+        points = world._engine.getContactPoints(world._robot, physicsClientId=world._client)
+        assert min(point[8] for point in points) == pytest.approx(0.0003, abs=1e-4)
+        assert world.contacts().robot_bodies == ()
+
+
+@pytest.mark.engine
+def test_a_pair_is_reported_once(three_fingers):
+    """A finger's face meets the counter in up to four points."""
+    cell = three_fingers
+    into = cell.near(cell.scene.grasp.raised(-0.022))
+    with cell.world(**cell.with_workpiece(pose=ELSEWHERE)) as world:
+        world.reset_arm(into.tolist())
+        world.step()
+        contacts = world.contacts()
+    assert len(contacts.robot_bodies) == len(set(contacts.robot_bodies)) == 3
+    assert len(contacts.workpiece_bodies) == len(set(contacts.workpiece_bodies))
+
+
+@pytest.mark.engine
+def test_the_grippers_base_on_the_cup_is_another_force(cell):
+    # The base ends 60 mm above the grasp centre, the cup 50 mm above its own.
+    above, onto = (cell.near(cell.scene.grasp.raised(height)) for height in (0.0, -0.0105))
+    with cell.world() as world:
+        world.reset_arm(above.tolist())
+        cell.follow(world, cell.path(above, onto, 0.5))
+        contacts = world.contacts()
+    assert contacts.other_force_n > 1.0
+    assert contacts.fingers_touching == 0
+    assert contacts.robot_bodies == ()
+
+
+@pytest.mark.engine
+def test_a_cup_in_the_air_touches_nothing(three_fingers):
+    with three_fingers.world(**three_fingers.with_workpiece(pose=ELSEWHERE.raised(0.5))) as world:
+        world.reset_arm(three_fingers.scene.robot.home_rad)
+        world.step()
+        contacts = world.contacts()
+    assert contacts.workpiece_bodies == ()
+    assert contacts.robot_bodies == ()
+
+
+class RobotFirst(World):
+    """A world whose robot is made before the workpiece, so that contacts name them in the other order."""
+
+    def _add_workpiece(self) -> int:
+        self._robot = super()._add_robot()
+        return super()._add_workpiece()
+
+    def _add_robot(self) -> int:
+        return self._robot
+
+
+@pytest.mark.engine
+def test_friction_acts_on_the_cup_whichever_body_the_engine_names_first(cell):
+    weight = cell.scene.workpiece.mass_kg * cell.scene.gravity_m_s2
+    named_first = set()
+    for kind in (World, RobotFirst):
+        with kind(cell.scene, cell.gripper, PhysicsSettings()) as world:
+            cell.lift(world)
+            point = world._engine.getContactPoints(physicsClientId=world._client)[0]
+            named_first.add("robot" if point[1] == world._robot else "workpiece")
+            assert world.contacts().friction_n[2] == pytest.approx(weight, rel=0.01)
+    assert named_first == {"robot", "workpiece"}
+
+
+@pytest.mark.engine
+def test_asking_at_every_step_costs_little(cell):
+    with cell.world() as world:
+        cell.lift(world)
+
+        def seconds(contacts: bool) -> float:
+            begin = time.perf_counter()
+            for _ in range(100):
+                world.step()
+                if contacts:
+                    world.contacts()
+            return time.perf_counter() - begin
+
+        # Taken in turns and the least of each, so that what else the machine does cannot decide it.
+        turns = [(seconds(False), seconds(True)) for _ in range(10)]
+    bare, asking = (min(times) for times in zip(*turns, strict=True))
+    assert asking / bare < 1.4

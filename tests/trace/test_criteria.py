@@ -1,0 +1,102 @@
+"""Each rule of verification: the smallest project that breaks it, and what is said about it."""
+
+from __future__ import annotations
+
+import pytest
+
+
+@pytest.mark.verifies("SYS-030")
+def test_no_method(project):
+    project.edit("system.yaml", "    verification: analysis\n", "")
+    assert project.findings() == [
+        (
+            "requirements/system.yaml:2:9: error: system requirement 'SYS-1' has no verification method (give "
+            "'verification' one of inspection, analysis, demonstration, test) [trace.no-method]"
+        )
+    ]
+
+
+CRITERION = '    criterion: {measure: P, comparison: ">=", threshold: "800 g"}\n'
+
+
+def test_no_criterion(project):
+    project.edit("system.yaml", CRITERION, "")
+    assert project.findings() == [
+        (
+            "requirements/system.yaml:12:19: error: system requirement 'SYS-1' is verified by analysis, but has no "
+            "criterion (give it a 'criterion', or say under 'criterion_exemption' why it has none) [trace.no-criterion]"
+        )
+    ]
+
+
+def test_an_exemption_from_the_criterion(project):
+    project.edit("system.yaml", CRITERION, "    criterion_exemption: The drawing shows it.\n")
+    assert project.findings() == []
+
+
+@pytest.mark.parametrize("method", ["inspection", "demonstration", "test"])
+def test_only_analysis_needs_a_criterion(project, method):
+    project.edit("system.yaml", CRITERION, "").edit("system.yaml", "analysis", method)
+    assert project.findings() == []
+
+
+def test_unknown_measure(project):
+    project.edit("system.yaml", "measure: P,", "measure: Q,")
+    assert project.findings() == [
+        (
+            "requirements/system.yaml:13:26: error: criterion of 'SYS-1' bounds 'Q', which is no measure "
+            "(known measures: P, P_g) [trace.unknown-measure]"
+        )
+    ]
+
+
+def test_unit_of_another_dimension(project):
+    project.change("P", unit="s")
+    assert project.findings() == [
+        (
+            "requirements/system.yaml:13:58: error: criterion of 'SYS-1' has the unit 'g', but 'P' is measured in 's' "
+            "(give the threshold in s or a unit that converts to it) [trace.criterion-unit]"
+        )
+    ]
+
+
+def test_a_bare_number_is_no_mass(project):
+    project.edit("system.yaml", '"800 g"', "0.8").edit("system.yaml", "0.8 kg.", "a cup.")
+    assert [finding.rsplit(" ", 1)[1] for finding in project.findings()] == ["[trace.criterion-unit]"]
+
+
+def test_contradicting_number(project):
+    project.edit("system.yaml", "0.8 kg", "0.9 kg at 2 m/s")
+    assert project.findings() == [
+        (
+            "requirements/system.yaml:4:11: error: text of 'SYS-1' says '0.9 kg', but its criterion says 'P >= 800 g' "
+            "(make them agree) [trace.contradicting-number]"
+        )
+    ]
+
+
+@pytest.mark.parametrize("text", ["0.8 kg", "800 g", "0.80 kg within 3 s", "a cup of 0.2 kg filled to 0.8 kg", "a cup"])
+def test_numbers_that_do_not_contradict(project, text):
+    assert project.edit("system.yaml", "0.8 kg", text).findings() == []
+
+
+@pytest.mark.parametrize(
+    ("text", "threshold", "agrees"),
+    [
+        ("a score of at least 0.9", "0.9", True),
+        ("a score of at least 90 %", "0.9", True),
+        ("a score of at least 0.8", "0.9", False),
+        ("a score of at least 0.8", '"80 %"', True),
+        ("a score within 60 s", "0.9", True),
+        ("0.9 in a row", "0.9", True),
+    ],
+)
+def test_pure_numbers_agree_with_pure_thresholds(project, text, threshold, agrees):
+    project.change("P", unit="1").edit("system.yaml", '"800 g"', threshold).edit("system.yaml", "0.8 kg", text)
+    expected = [] if agrees else ["[trace.contradicting-number]"]
+    assert [finding.rsplit(" ", 1)[1] for finding in project.findings()] == expected
+
+
+def test_a_unit_with_an_offset_zero_agrees_with_none(project):
+    project.change("P", unit="K").edit("system.yaml", '"800 g"', '"293 K"').edit("system.yaml", "0.8 kg", "20 degC")
+    assert [finding.rsplit(" ", 1)[1] for finding in project.findings()] == ["[trace.contradicting-number]"]

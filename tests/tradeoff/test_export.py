@@ -1,0 +1,92 @@
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from rgss.tradeoff import decide, decision_to_json
+
+
+def test_of_a_choice(payload_and_time):
+    document = json.loads(json.dumps(decision_to_json(decide(payload_and_time)), allow_nan=False))
+    certificate = document.pop("certificate")
+    assert document == {
+        "status": "optimal",
+        "chosen": 1,
+        "runner_up": 3,
+        "ties": [1],
+        "ranking": [{"variant": 1, "value": 0.5}, {"variant": 3, "value": 0.4375}],
+        "infeasible": [
+            {"variant": 2, "requirements": ["R-1"], "value": 0.8},
+            {"variant": 4, "requirements": ["R-2"], "value": 0.7625},
+            {"variant": 5, "requirements": ["R-1", "R-2"], "value": 0.075},
+        ],
+        "excluded_better": [
+            {"variant": 2, "requirements": ["R-1"], "value": 0.8},
+            {"variant": 4, "requirements": ["R-2"], "value": 0.7625},
+        ],
+        "deciding_requirements": [
+            {"requirement": "R-1", "excluded": 1},
+            {"requirement": "R-2", "excluded": 1},
+        ],
+        "contributions": {
+            "chosen": [
+                {"measure": "P", "quantity": 1.0, "value": 0.5, "weight": 0.25, "contribution": 0.125},
+                {"measure": "t", "quantity": 40.0, "value": 0.5, "weight": 0.75, "contribution": 0.375},
+            ],
+            "runner_up": [
+                {"measure": "P", "quantity": 2.0, "value": 1.0, "weight": 0.25, "contribution": 0.25},
+                {"measure": "t", "quantity": 50.0, "value": 0.25, "weight": 0.75, "contribution": 0.1875},
+            ],
+        },
+        "conflicts": None,
+    }
+    residuals = certificate.pop("residuals")
+    assert certificate.pop("objective") == pytest.approx(0.5, abs=1e-9)
+    assert certificate == {
+        "enumeration_agrees": True,
+        "status": "optimal",
+        "solver": "HIGHS",
+        "alternatives": 5,
+        "considered": 5,
+        "solver_choice": 1,
+        "objective_recomputed": 0.5,
+        "gap": 0.0,
+    }
+    assert residuals[2] == {"name": "R-2: cost <= 100 kg", "residual": 0.0, "margin": 0.0}
+
+
+def test_of_no_choice(build_problem):
+    problem = build_problem({3: {"a": 0.4}, 7: {"a": None}}, thresholds=[("R", "a", ">=", 0.5)])
+    document = json.loads(json.dumps(decision_to_json(decide(problem)), allow_nan=False))
+    assert document == {
+        "status": "infeasible",
+        "chosen": None,
+        "runner_up": None,
+        "ties": [],
+        "ranking": [],
+        "infeasible": [
+            {"variant": 3, "requirements": ["R"], "value": 0.4},
+            {"variant": 7, "requirements": ["R"], "value": None},
+        ],
+        "excluded_better": [],
+        "deciding_requirements": [],
+        "contributions": {"chosen": [], "runner_up": []},
+        "conflicts": {
+            "excluded_by": [{"requirement": "R", "excluded": 2}],
+            "minimal_conflict": ["R"],
+            "nearest": {"variant": 3, "requirements": ["R"]},
+        },
+        "certificate": {
+            "enumeration_agrees": True,
+            "status": "infeasible",
+            "solver": "HIGHS",
+            "alternatives": 2,
+            "considered": 2,
+            "solver_choice": None,
+            "objective": None,
+            "objective_recomputed": None,
+            "gap": None,
+            "residuals": [],
+        },
+    }

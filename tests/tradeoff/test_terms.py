@@ -1,0 +1,89 @@
+"""Each term compiled alone: its CVXPY expression is evaluated at every selection."""
+
+from __future__ import annotations
+
+import cvxpy
+import numpy as np
+import pytest
+
+from rgss.tradeoff import Alternative, Comparison, Threshold, ValueFunction
+from rgss.tradeoff.terms import ChooseOne, EvidenceConstraint, Selection, ThresholdConstraint, WeightedValue
+
+
+@pytest.fixture
+def select():
+    def build(quantities):
+        return Selection(
+            alternatives=tuple(
+                Alternative(variant=variant, measures={"m": quantity}) for variant, quantity in enumerate(quantities)
+            ),
+            variable=cvxpy.Variable(len(quantities), boolean=True),
+        )
+
+    return build
+
+
+def at_every_selection(selection, compiled, attribute):
+    found = []
+    for unit in np.eye(len(selection.alternatives)):
+        selection.variable.value = unit
+        found.append(getattr(compiled, attribute)())
+    return [float(np.asarray(entry)) for entry in found]
+
+
+def values_of(selection, expression):
+    found = []
+    for unit in np.eye(len(selection.alternatives)):
+        selection.variable.value = unit
+        found.append(float(expression.value))
+    return found
+
+
+def test_weighted_value(select):
+    selection = select([20.0, 30.0, 60.0, None])
+    term = WeightedValue(function=ValueFunction(measure="m", worst=60.0, best=20.0), weight=0.5)
+    assert values_of(selection, term.compile(selection)) == [0.5, 0.375, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("comparison", list(Comparison))
+@pytest.mark.parametrize("unit", [1e-15, 1e-6, 1.0, 1e6, 1e15, 1e300])
+def test_no_violation_is_below_the_tolerance_of_the_solver_in_any_unit(select, comparison, unit):
+    quantities = [unit * factor for factor in (0.0, 1.0, 1.0 - 1e-9, 1.0 + 1e-9, 1e3, -1e3)]
+    threshold = Threshold(requirement="R", measure="m", comparison=comparison, value=unit, unit="1")
+    selection = select([*quantities, None])
+    constraint = ThresholdConstraint(threshold=threshold).compile(selection)
+    violations = at_every_selection(selection, constraint, "violation")
+    expected = [0.0 if threshold.is_met_by(quantity) else 1.0 for quantity in [*quantities, None]]
+    assert violations == expected
+
+
+def test_margins_that_overflow(select):
+    threshold = Threshold(requirement="R", measure="m", comparison=Comparison.AT_LEAST, value=1e308, unit="1")
+    selection = select([-1e308, 1.7e308, 1e308])
+    constraint = ThresholdConstraint(threshold=threshold).compile(selection)
+    assert at_every_selection(selection, constraint, "violation") == [1.0, 0.0, 0.0]
+
+
+def test_threshold_that_all_meet(select):
+    threshold = Threshold(requirement="R", measure="m", comparison=Comparison.AT_MOST, value=5.0, unit="s")
+    selection = select([5.0, 4.0, -100.0])
+    term = ThresholdConstraint(threshold=threshold)
+    assert at_every_selection(selection, term.compile(selection), "violation") == [0.0, 0.0, 0.0]
+    assert term.name == "R: m <= 5 s"
+
+
+def test_evidence(select):
+    selection = select([1.0, None, 0.0])
+    term = EvidenceConstraint(measure="m")
+    assert at_every_selection(selection, term.compile(selection), "violation") == [0.0, 1.0, 0.0]
+    assert term.name == "evidence:m"
+
+
+def test_choose_one(select):
+    selection = select([1.0, 2.0])
+    term = ChooseOne()
+    constraint = term.compile(selection)
+    for value, violation in (([1.0, 0.0], 0.0), ([0.0, 1.0], 0.0), ([0.0, 0.0], 1.0), ([1.0, 1.0], 1.0)):
+        selection.variable.value = np.array(value)
+        assert float(np.asarray(constraint.violation())) == violation
+    assert term.name == "choose exactly one"
