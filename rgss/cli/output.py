@@ -35,7 +35,11 @@ def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: 
 
 def number(value: float | None, digits: int = 4) -> str:
     """A number for people; a dash for what is not known."""
-    return "–" if value is None else f"{value:.{digits}g}"
+    if value is None:
+        return "–"
+    if abs(value) >= 10.0**digits:
+        return f"{value:,.0f}"
+    return f"{value:.{digits}g}"
 
 
 def _safe(text: str) -> str:

@@ -84,9 +84,12 @@ def proportion_estimate(successes: int, trials: int) -> Estimate:
     return Estimate(value=share, unit="1", low=low, high=high, n=trials)
 
 
-def interval_seed(study_seed: int, variant: int, measure: str) -> int:
-    """The seed of one interval's resampling, the same on every machine and in any order."""
-    digest = hashlib.sha256(f"{study_seed}/{variant}/{measure}".encode()).digest()
+def interval_seed(study_seed: int, measure: str) -> int:
+    """The seed of one interval's resampling, the same on every machine and in any order.
+
+    It is the same for every variant, so that variants with the same evidence have the same interval.
+    """
+    digest = hashlib.sha256(f"{study_seed}/{measure}".encode()).digest()
     return int.from_bytes(digest[:16], "big")
 
 

@@ -37,7 +37,7 @@ def evaluate(
         trials: The metrics of each trial, in SI; an absent key is an unknown value. A trial
             succeeded if its metric ``success`` is 1.
         seed: The study's master seed, for the resampling of intervals.
-        variant: The variant's id, for the same.
+        variant: The variant's id, for messages.
 
     Returns:
         The estimate of each measure by its id, in the order of the file, in the measure's unit.
@@ -61,7 +61,7 @@ def evaluate(
             complete = sum(value >= COMPLETE for value in known)
             estimates[measure.id] = proportion_estimate(complete, len(known))
         else:
-            seed_here = interval_seed(seed, variant, measure.id)
+            seed_here = interval_seed(seed, measure.id)
             estimates[measure.id] = mean_estimate(known, measure.unit, seed=seed_here)
     return estimates
 
