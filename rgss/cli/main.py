@@ -8,10 +8,11 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NoReturn
 
 from rgss.errors import DocumentError, MotionError, RgssError, SimulationError
 
-VERBS = ("check", "variants", "run", "sweep", "measure", "trade")
+VERBS = ("check", "variants", "run", "sweep", "replay", "measure", "trade")
 CLEAN, FINDINGS, BAD_INPUT, RUN_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 
@@ -24,9 +25,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         0 clean, 1 findings or an unmet bar, 2 bad input, 3 a run failed, 130 interrupted.
     """
-    options = _parser().parse_args(arguments)
     try:
-        return int(options.handler(options))
+        options = _parser().parse_args(arguments)
+        status = int(options.handler(options))
+        if sys.stdout is not None:
+            # Here, where a failure can still be told, and not when the interpreter ends.
+            sys.stdout.flush()
+        return status
     except DocumentError as error:
         for finding in error.findings:
             _complain(str(finding))
@@ -42,12 +47,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         # The reader of our output has gone, which is its right; nothing more can be said to it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()
         return CLEAN
+    except OSError as error:
+        _discard_output()
+        _complain(f"rgss: {error}")
+        return RUN_FAILED
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser that says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        _complain(f"{self.prog}: {' '.join(message.split())} (see '{self.prog} --help')")
+        self.exit(BAD_INPUT)
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="rgss",
         description="Choose a robot design by evidence: requirements, simulated trials, a certified trade-off.",
         epilog="Exit status: 0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.",
@@ -78,6 +95,11 @@ def _version() -> str:
         return version("rgss")
     except PackageNotFoundError:
         return "(not installed)"
+
+
+def _discard_output() -> None:
+    """Let what is still to be written go nowhere, so that it does not fail again at the end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _complain(text: str) -> None:

@@ -4,35 +4,32 @@ from __future__ import annotations
 
 import argparse
 
+from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+
 HELP = "estimate the measures of every variant from evidence, and judge the requirements"
 EXAMPLE = "rgss measure --json > measures.json"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
-    parser.add_argument("--replicates", type=int, metavar="N", help="trials of each variant (default: the study's)")
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
     parser.add_argument("--variant", type=int, metavar="ID", help="only this variant, with every measure")
 
 
 def run(options: argparse.Namespace) -> int:
     """Show the measures; what has no evidence is shown as not known."""
     from rgss.cli.output import number, print_json, print_table
-    from rgss.cli.sweep_verb import _shown_path
-    from rgss.errors import DefinitionError
+    from rgss.cli.sweep_verb import shown_path
     from rgss.evidence import EvidenceStore
     from rgss.measures import MeasureKind
     from rgss.studies.measuring import measure_variants
-    from rgss.studies.project import find_project, load_project
 
-    project = load_project(find_project(options.project), options.study)
-    if options.replicates is not None:
-        if options.replicates < 1:
-            raise DefinitionError("--replicates must be at least 1", hint="leave it away for the study's number")
-        project = project.with_replicates(options.replicates)
+    project = chosen_project(options)
     if options.variant is not None:
         project.designs.variant(options.variant)
-    with EvidenceStore.open(project.evidence, create=False, label=_shown_path(project.evidence)) as store:
+    with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         measured = measure_variants(project, store)
     if options.variant is not None:
         measured = tuple(entry for entry in measured if entry.variant.id == options.variant)

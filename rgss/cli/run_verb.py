@@ -5,6 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from rgss.cli.options import add_fidelity, chosen_project
+from rgss.cli.picture_options import add_pictures, made_pictures, ordered_pictures, traced_trial
+
 HELP = "run one trial and show it phase by phase"
 EXAMPLE = "rgss run 65 --seed 3"
 
@@ -13,7 +16,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     parser.add_argument("variant", type=int, metavar="ID", help="the variant's id")
     parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    add_fidelity(parser)
     parser.add_argument("--seed", type=int, metavar="N", help="the trial's seed (default: the study's first)")
+    add_pictures(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -23,21 +28,25 @@ def run(options: argparse.Namespace) -> int:
     from rgss.errors import DefinitionError
     from rgss.evidence import record_digest
     from rgss.studies.expansion import trial_specs
-    from rgss.studies.project import find_project, load_project
     from rgss.trials.run import run_trial
 
-    project = load_project(find_project(options.project), options.study)
+    order = ordered_pictures(options)
+    project = chosen_project(options)
     seed = project.study.seed if options.seed is None else options.seed
     if not 0 <= seed < 2**31:
         raise DefinitionError(f"seed {seed} is out of range", hint="give a seed from 0 to 2147483647")
     variant = project.designs.variant(options.variant)
     (spec,) = trial_specs(project, variants=[variant], seeds=[seed])
-    record = run_trial(spec)
+    record, trace = (run_trial(spec), None) if order is None else traced_trial(spec)
     digest = record_digest(record)
     if options.json:
         print_json(_as_json(record, digest))
     else:
         _show(record, digest)
+    if order is not None:
+        lines = made_pictures(order, spec, record, trace)
+        if not options.json:
+            print(*lines, sep="\n")
     return CLEAN if record.success else FINDINGS
 
 
@@ -93,15 +102,14 @@ def _show(record: Any, digest: str) -> None:
                 number(None if phase.metrics.get("slip_m") is None else phase.metrics["slip_m"] * 1e3, 2),
             ]
         )
-    print(f"Variant {record.variant}, seed {record.seed}")
+    print(f"Variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity")
     titles = ["", "phase", "outcome", "time [s]", "checks", "planning [s]", "path [m]", "grip margin", "slip [mm]"]
     print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))
     metrics = record.metrics
     if record.success:
-        print(
-            f"Success in {number(metrics['task_time_s'])} s (planning included): the object stands "
-            f"{number(1e3 * metrics['place_error_m'], 3)} mm from the place."
-        )
+        stands = metrics["place_error_m"]
+        where = "" if stands is None else f": the object stands {number(1e3 * stands, 3)} mm from the place"
+        print(f"Success in {number(metrics['task_time_s'])} s (planning included){where}.")
     else:
         print(f"Failed at {record.failed_phase.value}: {record.failure.value}: {record.failure_detail}")
     print(f"digest {digest}")

@@ -9,14 +9,17 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+
 HELP = "run every trial of a study that has no evidence yet"
 EXAMPLE = "rgss sweep --replicates 10 --jobs 2"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
-    parser.add_argument("--replicates", type=int, metavar="N", help="trials of each variant (default: the study's)")
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
     parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
     parser.add_argument("--only", metavar="IDS", help="only these variants, such as 1,5,60-72")
 
@@ -27,14 +30,9 @@ def run(options: argparse.Namespace) -> int:
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.studies.expansion import trial_specs
-    from rgss.studies.project import find_project, load_project
     from rgss.studies.sweep import FinishedTrial, sweep
 
-    project = load_project(find_project(options.project), options.study)
-    if options.replicates is not None:
-        if options.replicates < 1:
-            raise DefinitionError("--replicates must be at least 1", hint="leave it away for the study's number")
-        project = project.with_replicates(options.replicates)
+    project = chosen_project(options)
     jobs = options.jobs if options.jobs is not None else (os.cpu_count() or 1)
     if jobs < 1:
         raise DefinitionError("--jobs must be at least 1", hint="leave it away for one process a core")
@@ -45,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     specs = trial_specs(project, variants=variants)
     tally: Counter[str] = Counter()
     failures: Counter[str] = Counter()
-    store_label = _shown_path(project.evidence)
+    store_label = shown_path(project.evidence)
     with EvidenceStore.open(project.evidence, label=store_label) as store, _progress(len(specs)) as advance:
 
         def on_finished(trial: FinishedTrial) -> None:
@@ -104,7 +102,8 @@ def parse_ids(text: str, known: list[int]) -> set[int]:
     return chosen
 
 
-def _shown_path(path: Path) -> str:
+def shown_path(path: Path) -> str:
+    """A path relative to the current folder where it lies below it."""
     try:
         return str(path.resolve().relative_to(Path.cwd()))
     except ValueError:

@@ -5,34 +5,31 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+
 HELP = "decide which variant is best, and say why"
 EXAMPLE = "rgss trade --json > decision.json"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
-    parser.add_argument("--replicates", type=int, metavar="N", help="trials of each variant (default: the study's)")
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
-    from rgss.cli.sweep_verb import _shown_path
-    from rgss.errors import DefinitionError
+    from rgss.cli.sweep_verb import shown_path
     from rgss.evidence import EvidenceStore
     from rgss.studies.choosing import choose, double_counting
     from rgss.studies.measuring import measure_variants
-    from rgss.studies.project import find_project, load_project
     from rgss.tradeoff import decision_to_json
 
-    project = load_project(find_project(options.project), options.study)
-    if options.replicates is not None:
-        if options.replicates < 1:
-            raise DefinitionError("--replicates must be at least 1", hint="leave it away for the study's number")
-        project = project.with_replicates(options.replicates)
-    label = _shown_path(project.evidence)
+    project = chosen_project(options)
+    label = shown_path(project.evidence)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured = measure_variants(project, store)
     decision = choose(project, measured)

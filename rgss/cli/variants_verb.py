@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import argparse
 
+from rgss.cli.options import add_study, chosen_project
+
 HELP = "list every design variant with its parameters"
 EXAMPLE = "rgss variants --format csv > variants.csv"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    add_study(parser)
     parser.add_argument("--format", choices=("table", "csv", "json"), default="table", help="how to list them")
 
 
@@ -20,9 +22,8 @@ def run(options: argparse.Namespace) -> int:
 
     from rgss.cli.output import print_json, print_table
     from rgss.designs import variants_csv
-    from rgss.studies.project import find_project, load_project
 
-    variants = load_project(find_project(options.project), options.study).designs.expand()
+    variants = chosen_project(options).designs.expand()
     if options.json or options.format == "json":
         print_json([{"id": variant.id, "parameters": dict(variant.columns())} for variant in variants])
     elif options.format == "csv":

@@ -49,24 +49,35 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
     try:
         value = model.model_validate_json(json.dumps(document.data))
     except ValidationError as error:
-        findings = {_finding(document, model, problem) for problem in _own_problems(error)}
+        findings = {_finding(document, model, problem) for problem in _own_problems(error, model)}
         raise DocumentError(sorted(findings)) from error
     return LoadedDocument(value=value, document=document)
 
 
-def _own_problems(error: ValidationError) -> list[Any]:
+def _own_problems(error: ValidationError, model: type[BaseModel]) -> list[Any]:
     """The problems without those that only follow from another.
 
-    A tuple whose entries are wrong is also called too short, because no valid entry is in it.
+    A tuple whose entries are wrong is also called too short, because no valid entry is in it; a key that
+    is misspelt is unknown, and then the right one is missing.
     """
     problems: list[Any] = list(error.errors(include_url=False))
     locations = [problem["loc"] for problem in problems]
-    return [
-        problem
+    misspelt = {
+        (*problem["loc"][:-1], near)
         for problem in problems
-        if problem["type"] != "too_short"
-        or not any(len(loc) > len(problem["loc"]) and loc[: len(problem["loc"])] == problem["loc"] for loc in locations)
-    ]
+        if problem["type"] == "extra_forbidden"
+        for near in _near_keys(problem["loc"], model)
+    }
+
+    def is_own(problem: Any) -> bool:
+        place = problem["loc"]
+        if problem["type"] == "missing":
+            return place not in misspelt
+        return problem["type"] != "too_short" or not any(
+            len(other) > len(place) and other[: len(place)] == place for other in locations
+        )
+
+    return [problem for problem in problems if is_own(problem)]
 
 
 def _finding(document: Document, model: type[BaseModel], problem: Mapping[str, Any]) -> Finding:
@@ -92,9 +103,14 @@ def _finding(document: Document, model: type[BaseModel], problem: Mapping[str, A
 def _unknown_key(document: Document, model: type[BaseModel], location: tuple[str | int, ...]) -> Finding:
     key = str(location[-1])
     names = _siblings(location, model)
-    near = difflib.get_close_matches(key, names, n=1)
+    near = _near_keys(location, model)
     hint = f"did you mean {near[0]!r}?" if near else f"known keys: {', '.join(names)}" if names else ""
     return document.finding("document.unknown-key", f"unknown key {shown(key)}", location, hint=hint, at_key=True)
+
+
+def _near_keys(location: tuple[str | int, ...], model: type[BaseModel]) -> list[str]:
+    """The key that an unknown key is most like; none where it is like no other."""
+    return difflib.get_close_matches(str(location[-1]), _siblings(location, model), n=1)
 
 
 _WORDS: Mapping[str, str] = {

@@ -1,1 +1,95 @@
-"""Grasp analysis from contacts."""
+"""Grasp analysis from contacts: contact kinematics, the grasp map, closure, and quality."""
+
+from rgss.grasping.closure import ClosureVerdict, equilibrium, force_closure, form_closure, wrench_resistance
+from rgss.grasping.contact import ContactKind, ContactPoint
+from rgss.grasping.grasp import Grasp
+from rgss.grasping.grasp_map import (
+    PrimitiveWrenches,
+    grasp_map,
+    grasp_matrix,
+    in_friction_cone,
+    net_wrench,
+    partial_wrench_basis,
+    primitive_wrenches,
+)
+from rgss.grasping.kinematics import (
+    BodyMotion,
+    ContactMotion,
+    Curvature,
+    gap_between,
+    is_potential_contact,
+    recorded_motion,
+    relative_motion,
+)
+from rgss.grasping.polygon import GraspPolygon, grasp_polygon
+from rgss.grasping.quality import q_diff_m, q_gii, q_gpri, q_msv, q_smw_n, q_voe
+from rgss.grasping.rigid_body import (
+    configuration_distance_m,
+    twist_inner_product,
+    velocity_norm_m_s,
+    wrench_inner_product,
+    wrench_norm_n,
+)
+from rgss.grasping.screws import Twist, Wrench, reciprocal_product
+from rgss.grasping.status import (
+    ContactState,
+    ContactStatus,
+    ContactTolerances,
+    Sliding,
+    Tendency,
+    contact_normal_wrench,
+    contact_status,
+    twist_tendency,
+)
+from rgss.grasping.summary import GraspQuality, analyse_grasp
+
+__all__ = [
+    "BodyMotion",
+    "ClosureVerdict",
+    "ContactKind",
+    "ContactMotion",
+    "ContactPoint",
+    "ContactState",
+    "ContactStatus",
+    "ContactTolerances",
+    "Curvature",
+    "Grasp",
+    "GraspPolygon",
+    "GraspQuality",
+    "PrimitiveWrenches",
+    "Sliding",
+    "Tendency",
+    "Twist",
+    "Wrench",
+    "analyse_grasp",
+    "configuration_distance_m",
+    "contact_normal_wrench",
+    "contact_status",
+    "equilibrium",
+    "force_closure",
+    "form_closure",
+    "gap_between",
+    "grasp_map",
+    "grasp_matrix",
+    "grasp_polygon",
+    "in_friction_cone",
+    "is_potential_contact",
+    "net_wrench",
+    "partial_wrench_basis",
+    "primitive_wrenches",
+    "q_diff_m",
+    "q_gii",
+    "q_gpri",
+    "q_msv",
+    "q_smw_n",
+    "q_voe",
+    "reciprocal_product",
+    "recorded_motion",
+    "relative_motion",
+    "twist_inner_product",
+    "twist_tendency",
+    "velocity_norm_m_s",
+    "wrench_inner_product",
+    "wrench_norm_n",
+    "wrench_resistance",
+]

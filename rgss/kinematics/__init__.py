@@ -4,7 +4,19 @@ from rgss.kinematics.arm import Arm
 from rgss.kinematics.branches import choose_branches
 from rgss.kinematics.cartesian import straight_line
 from rgss.kinematics.collision import CollisionModel
+from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.kinematics.inverse import InverseKinematics
 from rgss.kinematics.situation import Situation
 
-__all__ = ["Arm", "CollisionModel", "InverseKinematics", "Situation", "choose_branches", "straight_line"]
+__all__ = [
+    "Arm",
+    "ArmDynamics",
+    "CollisionModel",
+    "InverseKinematics",
+    "Load",
+    "Situation",
+    "choose_branches",
+    "gripper_loads",
+    "straight_line",
+    "workpiece_load",
+]

@@ -1,7 +1,8 @@
 """Headless rigid-body physics: world, actuation, contacts."""
 
-from rgss.physics.contacts import Contacts
+from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.settings import PhysicsSettings
+from rgss.physics.torque_arm import TorqueArm
 from rgss.physics.world import World
 
-__all__ = ["Contacts", "PhysicsSettings", "World"]
+__all__ = ["Contacts", "FingerContact", "PhysicsSettings", "TorqueArm", "World"]

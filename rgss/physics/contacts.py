@@ -32,3 +32,24 @@ class Contacts:
     def fingers_touching(self) -> int:
         """Number of fingers that press on the workpiece."""
         return sum(force > 0.0 for force in self.finger_forces_n)
+
+
+@dataclass(frozen=True, slots=True)
+class FingerContact:
+    """One point at which a finger presses on the workpiece, in the world.
+
+    Attributes:
+        finger: Index of the finger.
+        position_m: The point on the workpiece.
+        normal: Unit normal into the workpiece.
+        gap_m: Distance of the surfaces along the normal, negative where they penetrate.
+        normal_force_n: Force along the normal.
+        friction_n: Friction force on the workpiece.
+    """
+
+    finger: int
+    position_m: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    gap_m: float
+    normal_force_n: float
+    friction_n: tuple[float, float, float]

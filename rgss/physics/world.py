@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import Any
 
 from rgss.errors import SimulationError
-from rgss.physics.contacts import Contacts
+from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Box, Gripper, Pose, Scene, Shape
@@ -219,6 +219,29 @@ class World:
             robot_bodies=tuple(dict.fromkeys(robot_bodies)),
             workpiece_bodies=tuple(dict.fromkeys(workpiece_bodies)),
         )
+
+    def finger_contacts(self) -> tuple[FingerContact, ...]:
+        """The points at which fingers press on the workpiece after the last step."""
+        found = []
+        for point in self._engine.getContactPoints(physicsClientId=self._client):
+            bodies = (point[1], point[2])
+            if self._workpiece not in bodies or self._robot not in bodies or point[9] <= 0.0:
+                continue
+            workpiece_is_a = bodies[0] == self._workpiece
+            finger = self._finger_of_link.get(point[4] if workpiece_is_a else point[3])
+            if finger is None:
+                continue
+            # The engine's normal points from body B to body A, its friction acts on A.
+            sign = 1.0 if workpiece_is_a else -1.0
+            normal = tuple(sign * value for value in point[7])
+            friction = tuple(
+                sign * (point[10] * first + point[12] * second)
+                for first, second in zip(point[11], point[13], strict=True)
+            )
+            found.append(
+                FingerContact(finger, tuple(point[5 if workpiece_is_a else 6]), normal, point[8], point[9], friction)
+            )
+        return tuple(found)
 
     def _renew_contacts_after_rotation(self) -> None:
         _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=self._client)

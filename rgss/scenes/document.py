@@ -126,6 +126,7 @@ class RobotDocument(DocumentModel):
     description: Text
     flange: Identifier
     joints: Annotated[tuple[JointEntry, ...], Field(min_length=6, max_length=6)]
+    payload: Kilograms
     tool_acceleration: MetresPerSecondSquared
     home: tuple[Radians, Radians, Radians, Radians, Radians, Radians]
     assumptions: tuple[AssumptionEntry, ...] = ()

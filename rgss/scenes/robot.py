@@ -38,6 +38,7 @@ class Robot:
         flange: Name of the link that carries the gripper; z points out of the flange.
         joints: The joints from base to flange.
         base: Transform of the arm's base frame to the world.
+        payload_kg: Rated payload.
         tool_acceleration_m_s2: Greatest acceleration of the tool centre.
         home_rad: A configuration near which inverse-kinematics branches are preferred.
     """
@@ -47,5 +48,6 @@ class Robot:
     flange: str
     joints: tuple[Joint, ...]
     base: Pose
+    payload_kg: float
     tool_acceleration_m_s2: float
     home_rad: tuple[float, ...]

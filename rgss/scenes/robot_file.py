@@ -45,7 +45,9 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
             ),
         )
     )
-    findings.extend(not_positive(document, [(("tool_acceleration",), entry.tool_acceleration)]))
+    findings.extend(
+        not_positive(document, [(("payload",), entry.payload), (("tool_acceleration",), entry.tool_acceleration)])
+    )
     urdf_path = path.parent / entry.description
     urdf = ""
     if is_file(urdf_path):
@@ -71,6 +73,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
             for joint in entry.joints
         ),
         base=base,
+        payload_kg=entry.payload,
         tool_acceleration_m_s2=entry.tool_acceleration,
         home_rad=entry.home,
     )

@@ -18,6 +18,9 @@ from rgss.documents import (
     Text,
 )
 
+MOST_REPLICATES = 10_000
+"""Trials of each variant that a study may have."""
+
 
 class PlanningEntry(DocumentModel):
     """How moves are planned."""
@@ -66,7 +69,7 @@ class StudyDocument(DocumentModel):
     catalogue: Text
     scene: Text
     seed: Annotated[int, Field(ge=0, le=2**31 - 1)]
-    replicates: Annotated[int, Field(ge=1, le=10_000)]
+    replicates: Annotated[int, Field(ge=1, le=MOST_REPLICATES)]
     fidelity: Literal["kinematic", "dynamic", "contact"] = "contact"
     planning: PlanningEntry
     physics: PhysicsEntry

@@ -11,12 +11,21 @@ from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Gripper, GripperGeometry
 from rgss.studies.project import Project
+from rgss.studies.task_parameters import (
+    BASE_MASS,
+    FINGER_ACTUATOR,
+    FINGER_FORCE,
+    FINGER_MASS,
+    FINGER_VELOCITY,
+    FINGERS,
+    FRICTION,
+    GRIPPER,
+    PLANNER,
+    PLANNING_LIMIT,
+    TOOL_SPEED,
+)
 from rgss.trials.settings import PlanningSettings, TrialSettings
 from rgss.trials.spec import TrialSpec
-
-FINGERS, FINGER_MASS, BASE_MASS, FINGER_VELOCITY, FINGER_FORCE, FRICTION, TOOL_SPEED, PLANNER, PLANNING_LIMIT = (
-    f"d{number}" for number in range(1, 10)
-)
 
 
 def trial_specs(
@@ -75,7 +84,7 @@ def _spec(project: Project, variant: DesignVariant, seed: int, settings: TrialSe
 
 
 def _gripper(project: Project, variant: DesignVariant) -> Gripper:
-    component = variant.components["gripper"]
+    component = variant.components[GRIPPER]
     geometry = _geometry(project, component)
     fingers = _number(variant, FINGERS)
     if geometry.fingers != fingers:
@@ -83,7 +92,7 @@ def _gripper(project: Project, variant: DesignVariant) -> Gripper:
             f"component {component.id!r} is for {fingers:g} fingers but {component.geometry} has {geometry.fingers}",
             hint="match the component to the number of azimuths in its file",
         )
-    actuator = variant.components["finger_actuator"].mass_kg or 0.0
+    actuator = variant.components[FINGER_ACTUATOR].mass_kg or 0.0
     return Gripper(
         geometry=geometry,
         base_mass_kg=_number(variant, BASE_MASS) + geometry.fingers * actuator,

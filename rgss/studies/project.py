@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -10,18 +10,25 @@ from typing import TypeVar
 from rgss.designs import DesignSpace, load_catalogue, load_design_space
 from rgss.documents import read_document
 from rgss.errors import DefinitionError, DocumentError
+from rgss.evidence import Fidelity
 from rgss.findings import Finding, Severity
 from rgss.measures import MeasureKind as Kind
 from rgss.measures import MeasureSet, load_measures
+from rgss.quantities import same_dimension
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes import GripperGeometry, Scene, load_gripper, load_scene
-from rgss.studies.study import Study, read_study
+from rgss.studies.consequences import without_consequences
+from rgss.studies.measure_sources import source_findings
+from rgss.studies.study import Study, named_file, read_study
+from rgss.studies.task_parameters import GRIPPER, task_findings
 from rgss.trace import MeasureKind, MeasureTrace, check_trace
 
 FOLDERS = ("requirements", "designs", "scenes", "studies")
 DEFAULT_STUDY = "studies/pick_place.yaml"
 MEASURES = "requirements/measures.yaml"
 EVIDENCE = ".rgss/evidence.sqlite"
+
+_UNDECIDABLE = ("trace.unknown-measure", "trace.criterion-unit")
 
 Loaded = TypeVar("Loaded")
 
@@ -59,6 +66,17 @@ class Project:
         """What traceability finds wrong, without a simulation."""
         return check_trace(self.requirements, self.measure_traces)
 
+    def with_fidelity(self, fidelity: str) -> Project:
+        """The same project with another fidelity.
+
+        Raises:
+            DefinitionError: There is no such fidelity.
+        """
+        known = [choice.value for choice in Fidelity]
+        if fidelity not in known:
+            raise DefinitionError(f"there is no fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
+        return replace(self, study=replace(self.study, fidelity=Fidelity(fidelity)))
+
     def with_replicates(self, replicates: int) -> Project:
         """The same project with another number of replicates."""
         return replace(self, study=replace(self.study, replicates=replicates))
@@ -71,18 +89,25 @@ def find_project(folder: Path | None) -> Path:
         DefinitionError: There is none.
     """
     if folder is not None:
-        missing = [name for name in FOLDERS if not (folder / name).is_dir()]
+        missing = [name for name in FOLDERS if not _is_folder(folder / name)]
         if missing:
             raise DefinitionError(
-                f"{folder} is not a project: it has no folder {missing[0]}/",
+                f"{str(folder)!r} is not a project: it has no folder {missing[0]}/",
                 hint=f"a project has {', '.join(f'{name}/' for name in FOLDERS)}",
             )
         return folder
     here = Path.cwd()
     for candidate in (here, *here.parents):
-        if all((candidate / name).is_dir() for name in FOLDERS):
+        if all(_is_folder(candidate / name) for name in FOLDERS):
             return candidate
     raise DefinitionError("no project here or above", hint="go into a project or name it with --project DIR")
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError:  # a name that is too long, a folder that may not be searched
+        return False
 
 
 def load_project(folder: Path, study: str | None = None) -> Project:
@@ -99,6 +124,15 @@ def load_project(folder: Path, study: str | None = None) -> Project:
     return _Reader(folder).read(study if study is not None else DEFAULT_STUDY)
 
 
+def _undecidable(project: Project) -> tuple[Finding, ...]:
+    """Criteria that no evidence can decide, because their measure is not there or has another dimension."""
+    units = {measure.id: measure.unit for measure in project.measures.measures}
+    criteria = [item.criterion for item in project.requirements.system if item.criterion is not None]
+    if all(one.measure in units and same_dimension(one.unit, units[one.measure]) for one in criteria):
+        return ()
+    return tuple(finding for finding in project.check() if finding.rule in _UNDECIDABLE)
+
+
 class _Reader:
     """Reads file by file and goes on after a problem, so that the user sees all of them."""
 
@@ -111,23 +145,30 @@ class _Reader:
         requirements = self._try(lambda: load_requirements(folder / "requirements"))
         measures = self._try(lambda: load_measures(folder / MEASURES, label=MEASURES))
         path, label = self._study_file(study_name)
-        study = self._try(lambda: read_study(path, measures, label=label))
-        if study is None:
-            raise DocumentError(sorted(self._findings))
-        catalogue = self._try(lambda: load_catalogue(folder / study.catalogue, label=study.catalogue))
-        designs: DesignSpace | None = None
-        if catalogue is not None:
-            designs = self._try(
-                lambda: load_design_space(folder / study.design_space, catalogue, label=study.design_space)
-            )
-        scene = self._try(lambda: load_scene(folder / study.scene, label=study.scene))
+        study = self._try(lambda: read_study(path, measures, project=folder, label=label))
+        # What the study names is read even if something else in the study is wrong.
+        named = self._named_files(path, label)
+        designs = self._designs(named)
+        scene = (
+            self._try(lambda: load_scene(folder / named["scene"], label=named["scene"])) if "scene" in named else None
+        )
         grippers = self._grippers(designs) if designs is not None else {}
-        if requirements is None or measures is None or designs is None or scene is None or self._findings:
-            raise DocumentError(sorted(set(self._findings)))
-        self._check_sources(measures, designs)
-        if self._findings:
-            raise DocumentError(sorted(set(self._findings)))
-        return Project(
+        if designs is not None:
+            document = read_document(folder / named["design_space"], label=named["design_space"])
+            self._findings.extend(task_findings(designs, document, grippers))
+            if measures is not None:
+                document = read_document(folder / MEASURES, label=MEASURES)
+                self._findings.extend(source_findings(measures.inputs, designs.source_units(), document))
+        if (
+            requirements is None
+            or measures is None
+            or study is None
+            or designs is None
+            or scene is None
+            or self._findings
+        ):
+            raise DocumentError(without_consequences(self._findings))
+        project = Project(
             folder=folder,
             requirements=requirements,
             measures=measures,
@@ -137,6 +178,10 @@ class _Reader:
             study=study,
             measure_traces=self._measure_traces(measures),
         )
+        undecidable = _undecidable(project)
+        if undecidable:
+            raise DocumentError(undecidable)
+        return project
 
     def _try(self, load: Callable[[], Loaded]) -> Loaded | None:
         try:
@@ -147,41 +192,46 @@ class _Reader:
 
     def _study_file(self, name: str) -> tuple[Path, str]:
         path = self._folder / name
-        if not path.is_file() and Path(name).is_file():
-            path = Path(name)
         try:
+            if not path.is_file() and Path(name).is_file():
+                path = Path(name)
             label = path.resolve().relative_to(self._folder.resolve()).as_posix()
-        except ValueError:
+        except (OSError, ValueError):  # a name that no file can have, a study outside the project
             label = name
         return path, label
+
+    def _named_files(self, path: Path, label: str) -> dict[str, str]:
+        """The files that a study names, by key; without those that are not there or lie outside the project."""
+        try:
+            data = read_document(path, label=label).data
+        except DocumentError:
+            return {}
+        return {
+            key: name
+            for key in ("design_space", "catalogue", "scene")
+            if isinstance(data, dict) and isinstance(name := data.get(key), str)
+            if named_file(self._folder, name) is not None
+        }
+
+    def _designs(self, named: Mapping[str, str]) -> DesignSpace | None:
+        if "catalogue" not in named:
+            return None
+        catalogue = self._try(lambda: load_catalogue(self._folder / named["catalogue"], label=named["catalogue"]))
+        if catalogue is None or "design_space" not in named:
+            return None
+        space = named["design_space"]
+        return self._try(lambda: load_design_space(self._folder / space, catalogue, label=space))
 
     def _grippers(self, designs: DesignSpace) -> dict[str, GripperGeometry]:
         """The shape of every gripper that a variant uses, by the name of its file."""
         shapes: dict[str, GripperGeometry] = {}
-        for component in designs.catalogue.of_role("gripper"):
+        for component in designs.catalogue.of_role(GRIPPER):
             name = component.geometry
             if name and name not in shapes:
                 shape = self._try(lambda name=name: load_gripper(self._folder / name, label=name))  # type: ignore[misc]
                 if shape is not None:
                     shapes[name] = shape
         return shapes
-
-    def _check_sources(self, measures: MeasureSet, designs: DesignSpace) -> None:
-        """Every value that a measure takes from the design must be one that the designs have."""
-        known = designs.source_units()
-        document = read_document(self._folder / MEASURES, label=MEASURES)
-        for index, symbol in enumerate(measures.inputs):
-            if symbol.source.startswith("trial."):
-                continue
-            if symbol.source not in known:
-                self._findings.append(
-                    document.finding(
-                        "measure.unknown-source",
-                        f"{symbol.id}: the designs have no {symbol.source!r}",
-                        ("inputs", index, "source"),
-                        hint=f"sources: {', '.join(known)}",
-                    )
-                )
 
     def _measure_traces(self, measures: MeasureSet) -> tuple[MeasureTrace, ...]:
         document = read_document(self._folder / MEASURES, label=MEASURES)

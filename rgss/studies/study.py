@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from rgss.documents import Document, load_document
-from rgss.errors import DocumentError, QuantityError
+from rgss.errors import DocumentError, QuantityError, TradeoffError
 from rgss.evidence import Fidelity
-from rgss.findings import Finding
+from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
 from rgss.quantities import parse_quantity
 from rgss.studies.document import StudyDocument, ValueEntry
+from rgss.tradeoff import ValueFunction, Weighting
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,13 +90,14 @@ class Study:
         return tuple(range(self.seed, self.seed + self.replicates))
 
 
-def read_study(path: Path, measures: MeasureSet | None, *, label: str) -> Study:
+def read_study(path: Path, measures: MeasureSet | None, *, project: Path, label: str) -> Study:
     """Read a study.
 
     Args:
         path: The file.
         measures: The project's measures, which the file names; None if they could not be read,
             and then what it says of them is not looked at.
+        project: The project's folder, which the files that it names are relative to.
         label: The file's name in messages.
 
     Raises:
@@ -105,7 +107,7 @@ def read_study(path: Path, measures: MeasureSet | None, *, label: str) -> Study:
     entry, document = loaded.value, loaded.document
     findings = list(
         _file_findings(
-            document, {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}, path
+            document, {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}, project
         )
     )
     for key, value in (
@@ -124,6 +126,7 @@ def read_study(path: Path, measures: MeasureSet | None, *, label: str) -> Study:
         for index, valued in enumerate(entry.trade_off.values):
             values.extend(_anchors(document, index, valued, units, findings))
     findings.extend(_repeated(document, entry.trade_off.values))
+    findings.extend(_weight_findings(document, entry.trade_off.values))
     if findings:
         raise DocumentError(sorted(findings))
     planning = entry.planning
@@ -149,23 +152,35 @@ def read_study(path: Path, measures: MeasureSet | None, *, label: str) -> Study:
     )
 
 
-def _file_findings(document: Document, named: Mapping[str, str], path: Path) -> list[Finding]:
-    """A study names files relative to the project, which is the folder above its own."""
-    project = path.resolve().parent.parent
+def named_file(project: Path, name: str) -> Path | None:
+    """The file of a name that is relative to a project; None if it is not there or lies outside.
+
+    Args:
+        project: The project's folder.
+        name: The name, as a user wrote it.
+    """
+    try:
+        target = (project / name).resolve()
+        inside = target.is_relative_to(project.resolve())
+        return target if inside and target.is_file() else None
+    except (OSError, ValueError):  # a name that is too long, one with a null character
+        return None
+
+
+def _file_findings(document: Document, named: Mapping[str, str], project: Path) -> list[Finding]:
     findings = []
     for key, name in named.items():
-        target = (project / name).resolve()
-        if not target.is_relative_to(project):
+        if PurePath(name).is_absolute() or ".." in PurePath(name).parts:
             findings.append(
                 document.finding(
-                    "study.outside", f"{name!r} lies outside the project", (key,), hint="name a file in it"
+                    "study.outside", f"{shown(name)} lies outside the project", (key,), hint="name a file in it"
                 )
             )
-        elif not target.is_file():
+        elif named_file(project, name) is None:
             findings.append(
                 document.finding(
                     "study.missing-file",
-                    f"there is no file {name!r}",
+                    f"there is no file {shown(name)}",
                     (key,),
                     hint="file names are relative to the project",
                 )
@@ -194,6 +209,10 @@ def _anchors(
     worst, best = ends
     if worst is None or best is None:
         return []
+    try:
+        ValueFunction(measure=entry.measure, worst=worst, best=best)
+    except TradeoffError as error:
+        findings.append(document.finding("study.value", error.message, (*where, "best"), hint=error.hint))
     return [ValueAnchors(measure=entry.measure, weight=entry.weight, worst=worst, best=best)]
 
 
@@ -226,6 +245,20 @@ def _repeated(document: Document, entries: tuple[ValueEntry, ...]) -> list[Findi
             )
         seen.add(entry.measure)
     return findings
+
+
+def _weight_findings(document: Document, entries: tuple[ValueEntry, ...]) -> list[Finding]:
+    """What is wrong with the weights; those of a measure that is valued twice are not summed."""
+    weights = {entry.measure: entry.weight for entry in entries}
+    if len(weights) < len(entries):
+        return []
+    try:
+        Weighting(weights=weights)
+    except TradeoffError as error:
+        index = next((index for index, entry in enumerate(entries) if not entry.weight >= 0.0), None)
+        at = ("trade_off", "values") if index is None else ("trade_off", "values", index, "weight")
+        return [document.finding("study.weights", error.message, at, hint=error.hint)]
+    return []
 
 
 def _not_positive(document: Document, location: tuple[str, str]) -> Finding:

@@ -7,6 +7,7 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 from rgss.errors import SimulationError
@@ -39,6 +40,9 @@ class Batch:
 
 
 Result = tuple[str, TrialRecord, Provenance]
+
+_LONGEST_SEARCHES = {"STRIDE": 0, "TRRT": 1}
+"""The planners whose searches take longest, in their order."""
 
 
 def key_of(spec: TrialSpec) -> str:
@@ -88,8 +92,8 @@ def batches_of(specs: Sequence[TrialSpec]) -> list[Batch]:
     for spec in specs:
         groups.setdefault(digests_of(spec, versions()).plan, []).append(spec)
     batches = [Batch(specs=tuple(group)) for group in groups.values()]
-    # A long batch at the end would leave the other processes idle; TRRT has the long searches.
-    return sorted(batches, key=lambda batch: batch.specs[0].planner != "TRRT")
+    # A long batch at the end would leave the other processes idle.
+    return sorted(batches, key=lambda batch: _LONGEST_SEARCHES.get(batch.specs[0].planner, 2))
 
 
 def _results(batches: Sequence[Batch], jobs: int) -> Iterator[list[Result]]:
@@ -99,12 +103,11 @@ def _results(batches: Sequence[Batch], jobs: int) -> Iterator[list[Result]]:
         return
     # Engines keep state that must not be forked, so each worker is a fresh interpreter.
     context = multiprocessing.get_context("spawn")
-    executor = ProcessPoolExecutor(
-        max_workers=min(jobs, len(batches)), mp_context=context, initializer=_ignore_interrupts
-    )
+    executor = ProcessPoolExecutor(max_workers=min(jobs, len(batches)), mp_context=context)
     pending: set[Future[list[Result]]] = set()
     try:
-        pending = {executor.submit(_run_all, batch) for batch in batches}
+        with _interrupts_held_back():
+            pending = {executor.submit(_run_all, batch) for batch in batches}
         while pending:
             done, pending = wait(pending, return_when=FIRST_COMPLETED)
             for future in done:
@@ -133,6 +136,15 @@ def _run(batch: Batch) -> Iterator[Result]:
         yield key_of(spec), record, Provenance(inputs=digests.as_mapping(), versions=versions())
 
 
-def _ignore_interrupts() -> None:
-    """Ctrl-C reaches the whole process group; only the parent answers it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+@contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Start processes that never see Ctrl-C; in this one it takes effect at the end of the block.
+
+    Ctrl-C reaches the whole process group, and only the parent answers it. What is blocked here
+    stays blocked in the processes that are started here, from their first instruction on.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -13,6 +13,13 @@ class ControlSettings:
         firm_grasp_s: Time for which every finger must hold above its threshold. Closing gives
             a spike whose height depends on the step length, so one step is no evidence.
         grasp_timeout_s: Time beyond the fingers' travel after which a grasp has failed.
+        force_window_s: Time over which the fingers' forces are averaged before they are held
+            against the load, as a force sensor's filter does.
+        holding_share: Share of the design's finger force with which an object is first held.
+        tighten_below: Grip margin (friction available over friction needed) below which the
+            fingers are commanded to close further.
+        tightening_share: Share of the design's finger force that each such command adds, up to
+            the whole.
         lost_contact_s: Time without two fingers on the object after which it counts as dropped.
         largest_slip_m: Displacement in the gripper beyond which the object counts as dropped.
         largest_tracking_error_m: Distance of the tool from its commanded position beyond which
@@ -26,6 +33,10 @@ class ControlSettings:
 
     firm_grasp_s: float = 0.05
     grasp_timeout_s: float = 0.5
+    force_window_s: float = 0.02
+    holding_share: float = 0.7
+    tighten_below: float = 1.5
+    tightening_share: float = 0.1
     lost_contact_s: float = 0.05
     largest_slip_m: float = 0.02
     largest_tracking_error_m: float = 0.002

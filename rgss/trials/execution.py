@@ -1,69 +1,73 @@
-"""The eight states of the task, run in contact physics."""
+"""The highest fidelity: arm, hand, object and scene in contact."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from rgss.evidence import Failure, Metric, Phase
-from rgss.physics import World
+from rgss.physics import Contacts, World
 from rgss.scenes import Pose
 from rgss.trials.control import ControlSettings
+from rgss.trials.grasp_record import grasp_metrics
+from rgss.trials.observer import StepObserver
 from rgss.trials.phase_result import PhaseResult
+from rgss.trials.program import run_program
 from rgss.trials.reference import Reference
 from rgss.trials.watch import Watch
 
 CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
+_ANALYSED = (Phase.LIFT, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 _OPEN_TOLERANCE_M = 5.0e-4
 
 
 class Execution:
-    """One run of the task program in one world.
+    """The plant of the highest fidelity: one run of the task program in one world with contact."""
 
-    A phase depends on those before it and on nothing after it, so a trial that ends earlier,
-    because a planner found no path in time, has the same results for the phases that it shares.
-    """
-
-    def __init__(self, world: World, references: Mapping[Phase, Reference], control: ControlSettings) -> None:
+    def __init__(
+        self,
+        world: World,
+        references: Mapping[Phase, Reference],
+        control: ControlSettings,
+        *,
+        observer: StepObserver | None = None,
+        checkpoint: Callable[[], None] | None = None,
+    ) -> None:
         """Prepare a run.
 
         Args:
             world: A fresh world.
             references: Targets of the moves; the program ends before the first move that has none.
             control: Thresholds.
+            observer: Looks on after every step.
+            checkpoint: Called after every step; it may wait, or end the task by raising.
         """
         self._world = world
         self._references = references
         self._control = control
+        self._observer = observer
+        self._checkpoint = checkpoint
         self._step_s = world.settings.step_s
         self._held_at: Pose | None = None
+        self._grip_n = control.holding_share * world.gripper.finger_force_n
+        self._since_tightening_s = 0.0
+        self._tightenings = 0
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
         """Run the phases in order until one fails or has no move; return those that ran."""
-        results: list[PhaseResult] = []
-        first = self._references.get(Phase.MOVE_TO_GRASP)
-        if first is None:
-            return ()
-        self._configuration = tuple(first.positions_rad[0].tolist())
-        self._world.reset_arm(self._configuration)
-        for phase in Phase:
-            if phase is Phase.GRASP:
-                result = self._grasp()
-            elif phase is Phase.PLACE:
-                result = self._place()
-            elif phase in self._references:
-                result = self._move(phase, self._references[phase])
-            else:
-                break
-            results.append(result)
-            if result.failure is not None:
-                break
-        return tuple(results)
+        return run_program(self, self._references)
 
-    def _move(self, phase: Phase, reference: Reference) -> PhaseResult:
+    def start(self, configuration_rad: Sequence[float]) -> None:
+        """Stand at rest at a configuration, the hand open."""
+        self._configuration = tuple(configuration_rad)
+        self._world.reset_arm(self._configuration)
+
+    def move(self, phase: Phase, reference: Reference) -> PhaseResult:
+        """Follow a timed motion, with what is held."""
         world = self._world
         carried_at = self._held_at if phase in CARRYING else None
+        self._tightenings = 0
         watch = Watch(world, self._control, carried_at=carried_at, resting_on=self._resting_on(phase))
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
         loads, tool = reference.load_m_s2.tolist(), reference.tool_m.tolist()
@@ -72,7 +76,9 @@ class Execution:
             world.command_arm(positions[index], velocities[index])
             world.step()
             steps += 1
-            watch.after_step(index, loads[index], tool[index + 1])
+            self._observe(phase, watch, index, loads[index], tool[index + 1])
+            if carried_at is not None:
+                self._keep_grip(watch)
             if watch.failure is not None:
                 break
         self._configuration = tuple(positions[-1])
@@ -80,6 +86,10 @@ class Execution:
         metrics = watch.metrics()
         metrics["peak_tool_speed_m_s"] = reference.peak_tool_speed_m_s
         metrics["peak_tool_acceleration_m_s2"] = reference.peak_tool_acceleration_m_s2
+        if carried_at is not None:
+            metrics["tightenings"] = self._tightenings
+        if phase in _ANALYSED and watch.failure is None:
+            metrics.update(grasp_metrics(world))
         if watch.failure is None:
             self._judge_move(phase, watch, metrics)
         return self._result(phase, watch, steps, metrics)
@@ -103,7 +113,7 @@ class Execution:
             return scene.place_support
         return ""
 
-    def _grasp(self) -> PhaseResult:
+    def grasp(self) -> PhaseResult:
         """Close until every finger holds above the force that Coulomb friction needs."""
         world, gripper, control = self._world, self._world.gripper, self._control
         scene = world.scene
@@ -112,15 +122,20 @@ class Execution:
         friction = gripper.friction * scene.workpiece.friction
         needed_n = scene.workpiece.mass_kg * scene.gravity_m_s2 / (friction * fingers)
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
-        world.drive_fingers(gripper.finger_velocity_m_s, gripper.finger_force_n)
-        firm_s, steps = 0.0, 0
+        world.drive_fingers(gripper.finger_velocity_m_s, self._grip_n)
+        self._tightenings = 0
+        firm_s, touching_s, steps = 0.0, 0.0, 0
         forces: tuple[float, ...] = (0.0,) * fingers
         while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = watch.after_step(steps, scene.gravity_m_s2, None)
+            contacts = self._observe(Phase.GRASP, watch, steps, scene.gravity_m_s2, None)
             steps += 1
             forces = contacts.finger_forces_n
             firm_s = firm_s + self._step_s if min(forces) > needed_n else 0.0
+            touching_s = touching_s + self._step_s if min(forces) > 0.0 else 0.0
+            if firm_s == 0.0 and touching_s > control.firm_grasp_s:
+                touching_s = 0.0
+                self._tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 shown = ", ".join(f"{force:.2f}" for force in forces)
                 watch.fail(Failure.NO_FIRM_GRASP, f"fingers press with {shown} N, each needs {needed_n:.2f} N")
@@ -128,10 +143,13 @@ class Execution:
         metrics = watch.metrics()
         metrics["finger_force_n"] = forces
         metrics["finger_force_needed_n"] = needed_n
+        metrics["tightenings"] = self._tightenings
         metrics["finger_travel_m"] = world.finger_travel_m()
+        if watch.failure is None:
+            metrics.update(grasp_metrics(world))
         return self._result(Phase.GRASP, watch, steps, metrics)
 
-    def _place(self) -> PhaseResult:
+    def place(self) -> PhaseResult:
         """Open to the initial position and wait until the object stands."""
         world, gripper, control = self._world, self._world.gripper, self._control
         watch = Watch(world, control, carried_at=None, resting_on=world.scene.place_support)
@@ -141,7 +159,7 @@ class Execution:
         contacts = world.contacts()
         while max(world.finger_travel_m()) > _OPEN_TOLERANCE_M and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = watch.after_step(steps, 0.0, None)
+            contacts = self._observe(Phase.PLACE, watch, steps, 0.0, None)
             steps += 1
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 open_m = max(world.finger_travel_m())
@@ -151,7 +169,7 @@ class Execution:
         still_s, waited_s = 0.0, 0.0
         while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = watch.after_step(steps, 0.0, None)
+            contacts = self._observe(Phase.PLACE, watch, steps, 0.0, None)
             steps += 1
             waited_s += self._step_s
             linear, angular = world.workpiece_speed()
@@ -181,9 +199,41 @@ class Execution:
                 f"the object is {error * 1e3:.1f} mm from the place and {height_error * 1e3:.1f} mm off its height",
             )
 
+    def _keep_grip(self, watch: Watch) -> None:
+        """Close further where friction is short of what the load needs."""
+        self._since_tightening_s += self._step_s
+        margin = watch.grip_margin
+        if (
+            margin is not None
+            and margin < self._control.tighten_below
+            and self._since_tightening_s >= self._control.force_window_s
+        ):
+            self._tighten()
+
+    def _tighten(self) -> None:
+        gripper = self._world.gripper
+        if self._grip_n >= gripper.finger_force_n:
+            return
+        added_n = self._control.tightening_share * gripper.finger_force_n
+        self._grip_n = min(gripper.finger_force_n, self._grip_n + added_n)
+        self._since_tightening_s = 0.0
+        self._tightenings += 1
+        self._world.drive_fingers(gripper.finger_velocity_m_s, self._grip_n)
+
     def _hold_arm_and_step(self) -> None:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
         self._world.step()
+
+    def _observe(
+        self, phase: Phase, watch: Watch, index: int, load_m_s2: float, tool_m: tuple[float, float, float] | None
+    ) -> Contacts:
+        contacts = watch.after_step(index, load_m_s2, tool_m)
+        if self._observer is not None:
+            force_n = self._grip_n if phase is Phase.GRASP or phase in CARRYING else None
+            self._observer.after_step(self._world, phase, contacts, watch.grip_margin, force_n)
+        if self._checkpoint is not None:
+            self._checkpoint()
+        return contacts
 
     def _result(self, phase: Phase, watch: Watch, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
         pose = self._world.workpiece_pose()

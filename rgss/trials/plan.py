@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -147,14 +147,17 @@ def _configurations(cell: Workcell) -> tuple[dict[Waypoint, Array], Array | None
     for waypoint, pose in poses.items():
         meeting = [models[phase] for phase, ends in _ENDS.items() if waypoint in ends]
         candidates[waypoint] = [q for q in inverse.solve(pose) if all(model.is_valid(q) for model in meeting)]
-    order = list(poses)
-    legs = [(order.index(start), order.index(goal)) for start, goal in _ENDS.values()]
-    if not all(candidates.values()):
-        return {waypoint: found[0] for waypoint, found in candidates.items() if found}, None
+    # The task is done as far as its waypoints can be reached.
+    order = list(itertools.takewhile(lambda waypoint: candidates[waypoint], poses))
+    legs = [(order.index(start), order.index(goal)) for start, goal in _ENDS.values() if {start, goal} <= {*order}]
+    if not legs:
+        return {waypoint: candidates[waypoint][0] for waypoint in order}, None
     chosen = choose_branches([candidates[waypoint] for waypoint in order], legs=legs, home=cell.scene.robot.home_rad)
     if chosen is None:
         return {}, None
     stops = dict(zip(order, chosen, strict=True))
+    if Waypoint.LIFT not in stops:
+        return stops, None
     lift = straight_line(inverse, stops[Waypoint.GRASP], poses[Waypoint.LIFT])
     if lift is None or not all(models[Phase.LIFT].is_valid(q) for q in lift):
         del stops[Waypoint.LIFT]
@@ -200,7 +203,7 @@ def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: Plannin
 def _tool_path_length(cell: Workcell, path: Array, resolution_rad: float) -> float:
     """Length of the way of the tool along a joint path, which between its corners is no straight line."""
     states = [path[:1]]
-    for start, end in pairwise(path):
+    for start, end in itertools.pairwise(path):
         states.append(segment_states(start, end, resolution_rad))
     return path_length(cell.arm.tool_position(np.vstack(states)))
 

@@ -15,6 +15,7 @@ from rgss.evidence import (
     PlanOutcome,
     TrialRecord,
 )
+from rgss.trials.grasp_record import PREFIX
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import PlannedMove, TaskPlan
 from rgss.trials.spec import TrialSpec
@@ -32,6 +33,10 @@ _GREATEST = (
     "tracking_error_m",
     "slip_m",
 )
+# The grasp is judged by its worst while the object is carried.
+_CARRIED = (Phase.LIFT, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
+_LEAST_OF_GRASP = ("force_closure", "q_msv_1", "q_voe_1", "q_gii_1", "q_smw_n", "load_factor_1")
+_GREATEST_OF_GRASP = ("q_gpri_1", "q_diff_m")
 
 
 def assemble_record(
@@ -39,6 +44,8 @@ def assemble_record(
     plan: TaskPlan,
     timing_failures: Mapping[Phase, tuple[Failure, str]],
     execution: Sequence[PhaseResult],
+    *,
+    bench_payload_kg: float | None = None,
 ) -> TrialRecord:
     """Read a trial off the pieces that it shares with others.
 
@@ -50,6 +57,7 @@ def assemble_record(
         plan: The searches, which went on at least as long as the limit.
         timing_failures: Moves that have a path but no trajectory, and why.
         execution: The phases that physics ran, in order.
+        bench_payload_kg: What the gripper holds on the payload bench; None where that is not known.
     """
     results = {result.phase: result for result in execution}
     phases: list[PhaseRecord] = []
@@ -96,7 +104,7 @@ def assemble_record(
         failure_detail=detail,
         phases=tuple(phases),
         planning=tuple(planning),
-        metrics=_metrics(phases, planning, success=failure is None),
+        metrics={**_metrics(phases, planning, success=failure is None), "bench_payload_kg": bench_payload_kg},
     )
 
 
@@ -137,6 +145,7 @@ def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], 
     cycle_s: Metric = None
     if closing.outcome is PhaseOutcome.COMPLETED and isinstance(opening_s, float) and closing.duration_s is not None:
         cycle_s = closing.duration_s + opening_s
+    touches = [count for p in phases if isinstance(count := p.metrics.get("arm_scene_contacts"), int)]
     margins = [m for p in phases if isinstance(m := p.metrics.get("grip_margin_min"), float)]
     metrics: dict[str, Metric] = {
         "success": int(success),
@@ -151,15 +160,18 @@ def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], 
         "task_time_s": motion_s + sum(times) if success else None,
         "grasp_cycle_time_s": cycle_s,
         "grip_margin_min": min(margins, default=None),
-        "arm_scene_contacts": sum(
-            count for p in phases if isinstance(count := p.metrics.get("arm_scene_contacts"), int)
-        ),
+        "arm_scene_contacts": sum(touches) if touches else None,
         "place_error_m": _last(phases, "place_error_m"),
         "place_tilt_rad": _last(phases, "place_tilt_rad"),
     }
     for name in _GREATEST:
         values = [v for p in phases if isinstance(v := p.metrics.get(name), float)]
         metrics[name] = max(values, default=None)
+    carried = [by_phase[phase].metrics for phase in _CARRIED]
+    for names, worst in ((_LEAST_OF_GRASP, min), (_GREATEST_OF_GRASP, max)):
+        for name in names:
+            known = [v for m in carried if isinstance(v := m.get(f"{PREFIX}{name}"), (int, float))]
+            metrics[f"{PREFIX}{name}"] = worst(known) if known else None
     return metrics
 
 

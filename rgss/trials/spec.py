@@ -12,11 +12,12 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
+from functools import lru_cache
 from typing import Any
 
 from rgss.documents.digests import digest
 from rgss.evidence import Fidelity
-from rgss.scenes import Gripper, Scene
+from rgss.scenes import Gripper, Scene, Shape
 from rgss.trials.settings import TrialSettings
 
 
@@ -52,9 +53,10 @@ class TrialDigests:
     """Digests of the inputs of a trial's pieces, each covering those before it.
 
     Attributes:
-        plan: Scene, gripper's shape, planner, seed, planning settings.
+        plan: Geometry of the scene, gripper's shape, planner, seed, planning settings.
         timing: The plan and the tool speed.
-        execution: The timing, the gripper, physics and control settings, fidelity.
+        execution: The timing, the gripper, masses and frictions of the scene, physics and control
+            settings, fidelity.
         trial: The execution and the planning limit; the variant's number is no input.
     """
 
@@ -75,12 +77,9 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         spec: The trial.
         versions: Versions of the code and the engines, which are inputs like any other.
     """
-    scene = plain(spec.scene)
-    for colourful in (*scene["bodies"], scene["workpiece"]):
-        del colourful["colour"]
     plan = digest(
         {
-            "scene": scene,
+            "scene": _geometry_digest(spec.scene),
             "geometry": plain(spec.gripper.geometry),
             "planner": spec.planner,
             "seed": spec.seed,
@@ -93,6 +92,7 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         {
             "timing": timing,
             "gripper": plain(spec.gripper),
+            "scene": _matter_of(spec.scene),
             "physics": plain(spec.settings.physics),
             "control": plain(spec.settings.control),
             "fidelity": spec.fidelity,
@@ -100,6 +100,40 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     )
     trial = digest({"execution": execution, "planning_limit_s": spec.planning_limit_s})
     return TrialDigests(plan=plan, timing=timing, execution=execution, trial=trial)
+
+
+@lru_cache(maxsize=64)
+def _geometry_digest(scene: Scene) -> str:
+    """Digest of what planning and timing need of a scene: where everything is, and how the arm may move."""
+    geometry = {
+        "robot": plain(scene.robot),
+        "bodies": [{"id": body.id, "shape": _shape(body.shape), "pose": plain(body.pose)} for body in scene.bodies],
+        "workpiece": {
+            "id": scene.workpiece.id,
+            "shape": _shape(scene.workpiece.shape),
+            "pose": plain(scene.workpiece.pose),
+        },
+        "supports": [scene.support, scene.place_support],
+        "place": plain(scene.place.centre_m),
+        "task": plain(scene.task),
+    }
+    return digest(geometry)
+
+
+def _matter_of(scene: Scene) -> dict[str, Any]:
+    """What only the physics needs of a scene; colours are nobody's input."""
+    workpiece = scene.workpiece
+    return {
+        "id": scene.id,
+        "gravity_m_s2": scene.gravity_m_s2,
+        "frictions": [body.friction for body in scene.bodies],
+        "workpiece": [workpiece.mass_kg, workpiece.friction, workpiece.force_limit_n],
+        "place": [scene.place.radius_m, scene.place.largest_tilt_rad],
+    }
+
+
+def _shape(shape: Shape) -> dict[str, Any]:
+    return {"kind": type(shape).__name__, **plain(shape)}
 
 
 def plain(value: Any) -> Any:

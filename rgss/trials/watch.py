@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 
 from rgss.evidence import Failure, Metric
 from rgss.physics import Contacts, World
@@ -16,6 +17,7 @@ class Watch:
     Attributes:
         failure: The first thing that went wrong; None so far.
         detail: The numbers that show it.
+        grip_margin: Friction available over friction needed as last observed; None so far.
     """
 
     def __init__(self, world: World, control: ControlSettings, *, carried_at: Pose | None, resting_on: str) -> None:
@@ -30,6 +32,7 @@ class Watch:
         """
         self.failure: Failure | None = None
         self.detail = ""
+        self.grip_margin: float | None = None
         self._world = world
         self._control = control
         self._carried_at = carried_at
@@ -38,6 +41,7 @@ class Watch:
         self._mass_kg = world.scene.workpiece.mass_kg
         self._step_s = world.settings.step_s
         self._every = max(1, round(world.settings.rate_hz / control.observation_rate_hz))
+        self._forces_n: deque[float] = deque(maxlen=max(1, round(control.force_window_s * world.settings.rate_hz)))
         self._lost_s = 0.0
         self._touches = 0
         self._peak_force_n = 0.0
@@ -102,8 +106,11 @@ class Watch:
 
     def _watch_grip(self, contacts: Contacts, load_m_s2: float) -> None:
         needed = self._mass_kg * load_m_s2
-        margin = self._friction * contacts.finger_force_sum_n / needed
-        self._margin = min(self._margin, margin)
+        self._forces_n.append(contacts.finger_force_sum_n)
+        if len(self._forces_n) == self._forces_n.maxlen:
+            margin = self._friction * math.fsum(self._forces_n) / len(self._forces_n) / needed
+            self.grip_margin = margin
+            self._margin = min(self._margin, margin)
         if contacts.fingers_touching >= 2:
             self._lost_s = 0.0
             return

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 from rgss.evidence import Phase
 from rgss.kinematics import Arm, CollisionModel, Situation
@@ -40,6 +41,18 @@ class Workcell:
             phase: CollisionModel(scene, geometry, situation, clearance_m=_SHARE_KEPT * clearance_m)
             for phase, situation in found.items()
         }
+
+
+@lru_cache(maxsize=4)
+def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float) -> Workcell:
+    """The workcell of a scene and a gripper shape, built once in a process.
+
+    Args:
+        scene: The scene with its robot.
+        geometry: The gripper's shape.
+        clearance_m: Distance that planned paths keep from everything.
+    """
+    return Workcell(scene, geometry, clearance_m=clearance_m)
 
 
 def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, Situation]:

@@ -185,7 +185,6 @@ def test_several_problems_at_once_in_the_order_of_their_places(write):
         "1:1: error: key 'title' is missing",
         "2:12: error: mass: 'heavy' is not a quantity",
         "3:19: error: mass: unit 's' does not measure what 'kg' measures",
-        "4:5: error: key 'id' is missing",
         "4:6: error: unknown key 'ids'",
         "5:8: error: spare: true or false is expected [document.value]",
         "6:1: error: unknown key 'cuont'",

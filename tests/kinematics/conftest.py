@@ -62,6 +62,7 @@ def make_robot(**changes):
         "flange": "flange",
         "joints": joints,
         "base": Pose(position_m=(0.0, 0.0, 0.85)),
+        "payload_kg": 10.0,
         "tool_acceleration_m_s2": 4.0,
         "home_rad": (0.0, -1.5, 1.5, -1.5, -1.5, 0.0),
     }

@@ -41,6 +41,11 @@ TRIAL: Mapping[str, Any] = {
     "peak_tool_acceleration_m_s2": 1.1,
     "slip_m": 0.0015,
     "grip_margin_min": 1.6,
+    "bench_payload_kg": 1.2,
+    "grasp_force_closure": 1,
+    "grasp_q_msv_1": 1.5,
+    "grasp_q_gii_1": 0.5,
+    "grasp_q_smw_n": 3.0,
     "peak_finger_force_n": 9.5,
     "place_error_m": 0.004,
     "peak_joint_torque_ratio": 0.6,
@@ -91,6 +96,11 @@ def values(reference: MeasureSet, variant: int, *trials: Mapping[str, Any], **ch
                 "grip_margin": 1.6,
                 "slip": 1.5,
                 "place_error": 4.0,
+                "P_max_simulated": 1.2 / 1.5,  # the bench in place of 4.8
+                "force_closure": 1.0,
+                "Q_MSV": 1.5,
+                "Q_GII": 0.5,
+                "Q_SMW": 3.0,
             },
         ),
         (

@@ -112,6 +112,7 @@ def arm():
         flange="flange",
         joints=joints,
         base=Pose(),
+        payload_kg=10.0,
         tool_acceleration_m_s2=4.0,
         home_rad=(0.0,) * 6,
     )

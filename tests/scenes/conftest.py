@@ -68,6 +68,7 @@ joints:
   - {name: joint_4, range: [-150 deg, 180 deg], speed: 3 rad/s, acceleration: 6 rad/s^2, torque: 50 N*m}
   - {name: joint_5, range: [-140 deg, 180 deg], speed: 3 rad/s, acceleration: 6 rad/s^2, torque: 50 N*m}
   - {name: joint_6, range: [-130 deg, 180 deg], speed: 3 rad/s, acceleration: 6 rad/s^2, torque: 50 N*m}
+payload: 10 kg
 tool_acceleration: 1.2 m/s^2
 home: [0 deg, -90 deg, 90 deg, 0 deg, 0 deg, 45 deg]
 """

@@ -1,0 +1,180 @@
+"""Hold the simulation against theory and against itself; write docs/validation.md.
+
+Run it from the repository's folder: ``python benchmarks/validation.py > docs/validation.md``.
+Figures of time are ratios within one run, so that they hold on any machine.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from rgss.evidence import Fidelity, Phase, TrialRecord
+from rgss.physics import World
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import Project, load_project
+from rgss.trials.execution import Execution
+from rgss.trials.plan import plan_task
+from rgss.trials.reference import reference_of
+from rgss.trials.run import Pieces
+from rgss.trials.spec import TrialSpec
+from rgss.trials.timing import time_task
+from rgss.trials.workcell import Workcell
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import payload
+
+PROJECT = Path(__file__).resolve().parents[1]
+NOMINAL = (12, 30, 48, 66)
+SEEDS = (1, 2, 3)
+FINE_HZ = 1000.0
+
+
+def main() -> None:
+    """Write every table."""
+    project = load_project(PROJECT)
+    out = sys.stdout
+    out.write("# Validation of the simulation\n\n")
+    out.write("Written by `python benchmarks/validation.py > docs/validation.md`; do not edit.\n\n")
+    out.write("Simulation counts as *analysis*: what is held here is the simulation against theory and against\n")
+    out.write("itself, not the real robot.\n\n")
+    _payload(out)
+    records = _records(project)
+    _rates(out, records)
+    _fidelities(out, project)
+    _limits(out, project, records)
+    _cost(out, project)
+
+
+def _payload(out: Any) -> None:
+    out.write("## Payload at first slip against Coulomb's law\n\n")
+    out.write("The bench bisects the object's mass to the first slip while it is lifted with a constant\n")
+    out.write("acceleration of 0.5, 1, 2 and 4 m/s², and compares it with mu F n / (g + a).\n\n")
+    table = io.StringIO()
+    with contextlib.redirect_stdout(table):
+        payload.main()
+    # The time of a probe is a figure of this machine.
+    out.write(table.getvalue().rsplit("\n", 2)[0].rstrip() + "\n\n")
+
+
+def _records(project: Project) -> dict[tuple[int, int], tuple[TrialRecord, TrialRecord]]:
+    pieces = Pieces()
+    found = {}
+    for spec in _specs(project):
+        fine = replace(spec, settings=replace(spec.settings, physics=replace(spec.settings.physics, rate_hz=FINE_HZ)))
+        found[spec.variant, spec.seed] = (pieces.record(spec), pieces.record(fine))
+    return found
+
+
+def _specs(project: Project) -> tuple[TrialSpec, ...]:
+    variants = [project.designs.variant(number) for number in NOMINAL]
+    return trial_specs(project, variants=variants, seeds=SEEDS)
+
+
+def _rates(out: Any, records: dict[tuple[int, int], tuple[TrialRecord, TrialRecord]]) -> None:
+    out.write("## Step rate: 240 Hz and 1000 Hz\n\n")
+    out.write("| variant | seed | success | t_e at 240 Hz (s) | t_e at 1000 Hz (s) | difference (%) ")
+    out.write("| slip at 240 Hz (mm) | slip at 1000 Hz (mm) |\n|---|---|---|---|---|---|---|---|\n")
+    for (variant, seed), (coarse, fine) in records.items():
+        success = f"{_yes(coarse.success)}, {_yes(fine.success)}"
+        if not (coarse.success and fine.success):
+            reason = coarse.failure.value if coarse.failure else "–"
+            out.write(f"| {variant} | {seed} | {success} ({reason}) | – | – | – | – | – |\n")
+            continue
+        before, after = _value(coarse, "task_time_s"), _value(fine, "task_time_s")
+        out.write(
+            f"| {variant} | {seed} | {success} | {before:.3f} | {after:.3f} | {100 * (after / before - 1):+.2f} "
+            f"| {1e3 * _value(coarse, 'slip_m'):.2f} | {1e3 * _value(fine, 'slip_m'):.2f} |\n"
+        )
+    out.write("\n")
+
+
+def _fidelities(out: Any, project: Project) -> None:
+    out.write("## Three fidelities of one trial\n\n")
+    out.write(
+        "| variant | motion time, kinematic (s) | dynamic (s) | contact (s) | tool off its path, dynamic (mm) |\n"
+    )
+    out.write("|---|---|---|---|---|\n")
+    pieces = Pieces()
+    for spec in _specs(project):
+        if spec.seed != SEEDS[0]:
+            continue
+        rows = {fidelity: pieces.record(replace(spec, fidelity=fidelity)) for fidelity in Fidelity}
+        times = " | ".join(f"{_value(rows[fidelity], 'motion_time_s'):.3f}" for fidelity in Fidelity)
+        tracking = 1e3 * _value(rows[Fidelity.DYNAMIC], "tracking_error_m")
+        out.write(f"| {spec.variant} | {times} | {tracking:.4f} |\n")
+    out.write("\n")
+
+
+def _limits(out: Any, project: Project, records: dict[tuple[int, int], tuple[TrialRecord, TrialRecord]]) -> None:
+    out.write("## Limits kept in contact trials at 240 Hz\n\n")
+    limits = {spec.variant: spec.tool_speed_m_s for spec in _specs(project)}
+    good = [record for record, _ in records.values() if record.success]
+    speed = max(_value(record, "peak_tool_speed_m_s") / limits[record.variant] for record in good)
+    out.write("| figure | greatest | bound |\n|---|---|---|\n")
+    out.write(f"| tool off its path (mm) | {1e3 * _most(good, 'tracking_error_m'):.4f} | 0.1 |\n")
+    out.write(f"| tool speed over d7 | {speed:.4f} | 1.01 |\n")
+    out.write(f"| joint torque over its limit | {_most(good, 'peak_joint_torque_ratio'):.3f} | 1 |\n")
+    out.write(f"| contacts of arm and scene | {_most(good, 'arm_scene_contacts'):.0f} | 0 |\n")
+    out.write(f"| object off its place (mm) | {1e3 * _most(good, 'place_error_m'):.3f} | 40 |\n\n")
+
+
+def _cost(out: Any, project: Project) -> None:
+    out.write("## Cost of a trial beyond the engine's steps\n\n")
+    out.write("Time of the eight states over the time of as many bare engine steps in the same grasping world.\n\n")
+    out.write("| variant | steps | ratio | bound |\n|---|---|---|---|\n")
+    for spec in _specs(project):
+        if spec.seed == SEEDS[0]:
+            steps, ratio = _cost_of(spec)
+            out.write(f"| {spec.variant} | {steps} | {ratio:.2f} | 1.4 |\n")
+
+
+def _cost_of(spec: TrialSpec) -> tuple[int, float]:
+    settings = spec.settings
+    cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=settings.planning.clearance_m)
+    plan = plan_task(cell, spec.planner, seed=spec.seed, settings=settings.planning)
+    timing = time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=settings.planning)
+    physics = settings.physics
+    references = {
+        phase: reference_of(found, cell.arm, step_s=physics.step_s, gravity_m_s2=spec.scene.gravity_m_s2)
+        for phase, found in timing.trajectories.items()
+    }
+    ratios, steps = [], 0
+    for _ in range(3):
+        with World(spec.scene, spec.gripper, physics) as world:
+            begin = time.perf_counter()
+            results = Execution(world, references, settings.control).run()
+            full_s = time.perf_counter() - begin
+        steps = round(sum(result.duration_s for result in results) / physics.step_s)
+        grasping = {phase: references[phase] for phase in (Phase.MOVE_TO_GRASP, Phase.LIFT)}
+        with World(spec.scene, spec.gripper, physics) as world:
+            Execution(world, grasping, settings.control).run()
+            begin = time.perf_counter()
+            for _ in range(steps):
+                world.step()
+            ratios.append(full_s / (time.perf_counter() - begin))
+    return steps, sorted(ratios)[1]
+
+
+def _value(record: TrialRecord, name: str) -> float:
+    value = record.metrics[name]
+    if not isinstance(value, (int, float)):
+        raise TypeError(f"{name} is not one number")
+    return float(value)
+
+
+def _most(records: list[TrialRecord], name: str) -> float:
+    return max(_value(record, name) for record in records)
+
+
+def _yes(success: object) -> str:
+    return "yes" if success else "no"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,49 @@
+"""Options that several verbs have, and the project that they choose."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rgss.studies.project import Project
+
+FIDELITIES = ("kinematic", "dynamic", "contact")
+
+
+def add_study(parser: argparse.ArgumentParser) -> None:
+    """Add the study as an argument."""
+    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+
+
+def add_replicates(parser: argparse.ArgumentParser) -> None:
+    """Add the number of trials of each variant."""
+    parser.add_argument("--replicates", type=int, metavar="N", help="trials of each variant (default: the study's)")
+
+
+def add_fidelity(parser: argparse.ArgumentParser) -> None:
+    """Add how much physics a trial has."""
+    parser.add_argument("--fidelity", choices=FIDELITIES, help="how much physics a trial has (default: the study's)")
+
+
+def chosen_project(options: argparse.Namespace) -> Project:
+    """The project with the study, the replicates and the fidelity that the options name.
+
+    Raises:
+        DocumentError: Files of the project are wrong.
+        DefinitionError: There is no project, or a number is impossible.
+    """
+    from rgss.errors import DefinitionError
+    from rgss.studies.document import MOST_REPLICATES
+    from rgss.studies.project import find_project, load_project
+
+    project = load_project(find_project(options.project), options.study)
+    replicates = getattr(options, "replicates", None)
+    if replicates is not None:
+        if not 1 <= replicates <= MOST_REPLICATES:
+            raise DefinitionError(
+                f"--replicates must be from 1 to {MOST_REPLICATES}", hint="leave it away for the study's number"
+            )
+        project = project.with_replicates(replicates)
+    fidelity = getattr(options, "fidelity", None)
+    return project if fidelity is None else project.with_fidelity(fidelity)

@@ -1,0 +1,73 @@
+"""``rgss replay``: a stored trial once more, compared bit for bit."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from rgss.cli.options import add_fidelity, chosen_project
+
+HELP = "run a stored trial again and compare it bit for bit"
+EXAMPLE = "rgss replay 28/1"
+_SHOWN = 12
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument("trial", metavar="TRIAL", help="variant and seed, such as 28/1, or the beginning of its key")
+    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    add_fidelity(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it again; 1 if a bit differs."""
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import print_json
+    from rgss.cli.sweep_verb import shown_path
+    from rgss.evidence import EvidenceStore, record_digest
+    from rgss.studies.replaying import find_trial, replay
+
+    project = chosen_project(options)
+    with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
+        stored = find_trial(project, store, options.trial)
+    result = replay(project, stored)
+    if options.json:
+        print_json(
+            {
+                "key": stored.key,
+                "variant": stored.record.variant,
+                "seed": stored.record.seed,
+                "same": result.same,
+                "digest_then": stored.content_digest,
+                "digest_now": record_digest(result.record),
+                "versions": [_as_json(change) for change in result.versions],
+                "changed_inputs": list(result.inputs),
+                "differences": [_as_json(change) for change in result.differences],
+            }
+        )
+    else:
+        _show(result)
+    return CLEAN if result.same else FINDINGS
+
+
+def _as_json(change: Any) -> dict[str, str]:
+    return {"name": change.name, "then": change.then, "now": change.now}
+
+
+def _show(result: Any) -> None:
+    from rgss.cli.output import print_table
+
+    record = result.stored.record
+    print(f"Trial {result.stored.key[:12]}: variant {record.variant}, seed {record.seed}, {record.fidelity.value}")
+    for change in result.versions:
+        print(f"  version of {change.name}: {change.then[:12]} then, {change.now[:12]} now")
+    if result.inputs:
+        print(f"  other inputs than then: {', '.join(result.inputs)}")
+    if result.same:
+        print(f"The same, bit for bit: {result.stored.content_digest}")
+        return
+    print(f"{len(result.differences)} values differ:")
+    rows = [[change.name, change.then, change.now] for change in result.differences[:_SHOWN]]
+    print_table(["value", "then", "now"], rows)
+    if len(result.differences) > _SHOWN:
+        print(f"… and {len(result.differences) - _SHOWN} more (--json shows them)")

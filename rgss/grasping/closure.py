@@ -1,0 +1,209 @@
+"""Equilibrium, force closure, form closure and wrench resistance, decided by linear programs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rgss.errors import DefinitionError
+from rgss.grasping.contact import Matrix, Vector3
+from rgss.grasping.grasp import Grasp
+from rgss.grasping.grasp_map import PrimitiveWrenches, plane_rows, primitive_wrenches
+from rgss.grasping.linear import maximise
+from rgss.grasping.screws import Wrench
+
+RANK_TOLERANCE = 1e-9
+"""A singular value below this share of the greatest counts as zero."""
+
+_BALANCED = 1e-8
+_STRICTLY_POSITIVE = 1e-7
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClosureVerdict:
+    """Whether a property holds, and by how much.
+
+    Attributes:
+        holds: The verdict.
+        margin: A pure number; what it measures is said where the verdict is given.
+    """
+
+    holds: bool
+    margin: float
+
+
+def equilibrium(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None) -> ClosureVerdict:
+    """Tell whether contact forces other than zero can hold the object at rest without an outer load (eq. 3.1).
+
+    Among all contact forces whose normal forces sum to 1 N, a first program finds the smallest net wrench; a second
+    one, if that is zero, the most even squeeze. A contact without a share in any squeeze is not essential (sec.
+    3.3.1).
+
+    Args:
+        grasp: The grasp.
+        cone_edges: Edges of each friction pyramid.
+        plane_normal: For a planar grasp, the unit normal of its plane.
+
+    Returns:
+        If it holds, the margin is the smallest share of a contact in the squeeze at its most even, from 0 (one cannot
+        take part) to 1 (all press alike). If it does not, minus the greatest component of the smallest net wrench.
+
+    Raises:
+        DefinitionError: The pyramids are ill defined, or the solver failed.
+    """
+    edges = primitive_wrenches(grasp, cone_edges=cone_edges, plane_normal=plane_normal)
+    residual = _smallest_net_wrench(edges.matrix)
+    if residual > _BALANCED:
+        return ClosureVerdict(holds=False, margin=-residual)
+    share = _most_even_share(edges, len(grasp.contacts))
+    return ClosureVerdict(holds=True, margin=share if share > _STRICTLY_POSITIVE else 0.0)
+
+
+def force_closure(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None) -> ClosureVerdict:
+    """Tell whether contact forces can resist every wrench, if they may be as large as it takes (eq. 3.4).
+
+    The primitive wrenches positively span the space: they have full rank, and a combination with coefficients that are
+    all above zero is zero (Lynch and Park, Modern Robotics, 2017, chapter 12; Murray, Li, Sastry 1994, chapter 5). The
+    program finds the combination whose smallest coefficient is greatest.
+
+    Args:
+        grasp: The grasp.
+        cone_edges: Edges of each friction pyramid.
+        plane_normal: For a planar grasp, the unit normal of its plane.
+
+    Returns:
+        The margin is that smallest coefficient over the mean one: 0 where the property does not hold, 1 where all edges
+        are alike.
+
+    Raises:
+        DefinitionError: The pyramids are ill defined, or the solver failed.
+    """
+    return positive_span(primitive_wrenches(grasp, cone_edges=cone_edges, plane_normal=plane_normal).matrix)
+
+
+def form_closure(grasp: Grasp, *, plane_normal: Vector3 | None = None) -> ClosureVerdict:
+    """Tell whether the contacts' normals alone immobilise the object (sec. 3.3.2.1).
+
+    This is form closure of first order: curvature, which can immobilise with fewer contacts, does not count. It is
+    force closure without friction, and takes at least 7 contacts in space and 4 in a plane. The margin is that of
+    `force_closure`.
+
+    Raises:
+        DefinitionError: A contact's normal is not in the given plane, or the solver failed.
+    """
+    return positive_span(primitive_wrenches(grasp, plane_normal=plane_normal, frictionless=True).matrix)
+
+
+def wrench_resistance(
+    grasp: Grasp,
+    external: Wrench,
+    *,
+    finger_force_limit_n: float,
+    cone_edges: int = 8,
+    plane_normal: Vector3 | None = None,
+) -> ClosureVerdict:
+    """Tell whether the fingers can hold the object against an outer load with the force they have (eq. 3.4).
+
+    The program finds the greatest multiple of the load for which contact forces in the friction cones balance it, while
+    the normal forces of the points of each finger sum to at most its limit.
+
+    Args:
+        grasp: The grasp.
+        external: The load about the centre of mass.
+        finger_force_limit_n: Greatest normal force of a finger.
+        cone_edges: Edges of each friction pyramid.
+        plane_normal: For a planar grasp, the unit normal of its plane; only what acts in the plane counts.
+
+    Returns:
+        The margin is that multiple less 1, from -1 (nothing can be borne); infinite for no load.
+
+    Raises:
+        DefinitionError: The load is not finite or the limit not positive; the pyramids are ill defined, or the solver
+            failed.
+    """
+    require_force_limit(finger_force_limit_n)
+    numbers = (*external.force_n, *external.torque_n_m)
+    if not all(map(math.isfinite, numbers)):
+        raise DefinitionError(f"a load with the components {numbers} cannot be resisted", hint="give finite numbers")
+    edges = primitive_wrenches(grasp, cone_edges=cone_edges, plane_normal=plane_normal)
+    load = np.concatenate([external.force_n, np.array(external.torque_n_m) / grasp.characteristic_length_m])
+    if plane_normal is not None:
+        load = plane_rows(plane_normal) @ load
+    size = float(np.linalg.norm(load))
+    if size == 0.0:
+        return ClosureVerdict(holds=True, margin=math.inf)
+    fingers = np.array([np.isin(edges.contacts, members) for members in grasp.fingers()], dtype=float)
+    # Forces count in limits and the load in its own size, so that the numbers are near 1.
+    best = maximise(
+        np.append(np.zeros(edges.matrix.shape[1]), 1.0),
+        equal=(np.hstack([edges.matrix, (load / size)[:, None]]), np.zeros(len(load))),
+        at_most=(np.hstack([fingers, np.zeros((len(fingers), 1))]), np.ones(len(fingers))),
+    )
+    factor = 0.0 if best is None else float(best[-1]) * finger_force_limit_n / size
+    return ClosureVerdict(holds=factor >= 1.0 - _BALANCED, margin=factor - 1.0)
+
+
+def positive_span(wrenches: Matrix) -> ClosureVerdict:
+    """Tell whether wrenches positively span their space; the margin is that of `force_closure`.
+
+    Args:
+        wrenches: Shape (space, n), in newtons alone.
+
+    Raises:
+        DefinitionError: The solver failed.
+    """
+    rows, columns = wrenches.shape
+    values = np.linalg.svd(wrenches, compute_uv=False)
+    if columns <= rows or values[-1] <= RANK_TOLERANCE * values[0]:
+        return ClosureVerdict(holds=False, margin=0.0)
+    # The coefficients are x + t for x ≥ 0, so that t is the smallest of them; they sum to 1.
+    best = maximise(
+        np.append(np.zeros(columns), 1.0),
+        equal=(
+            np.block([[wrenches, wrenches.sum(axis=1, keepdims=True)], [np.ones((1, columns)), float(columns)]]),
+            np.append(np.zeros(rows), 1.0),
+        ),
+    )
+    margin = 0.0 if best is None else columns * float(best[-1])
+    holds = margin > _STRICTLY_POSITIVE
+    return ClosureVerdict(holds=holds, margin=min(margin, 1.0) if holds else 0.0)
+
+
+def require_force_limit(finger_force_limit_n: float) -> None:
+    """Refuse a limit that is none.
+
+    Raises:
+        DefinitionError: The limit is not a positive number.
+    """
+    if not 0.0 < finger_force_limit_n < math.inf:
+        raise DefinitionError(
+            f"a finger cannot have the force limit {finger_force_limit_n:g} N", hint="give a force above zero"
+        )
+
+
+def _smallest_net_wrench(matrix: Matrix) -> float:
+    rows, columns = matrix.shape
+    bound = np.ones((rows, 1))
+    best = maximise(
+        np.append(np.zeros(columns), -1.0),
+        equal=(np.append(np.ones(columns), 0.0)[None], np.ones(1)),
+        at_most=(np.block([[matrix, -bound], [-matrix, -bound]]), np.zeros(2 * rows)),
+    )
+    return math.inf if best is None else float(np.max(np.abs(matrix @ best[:-1])))
+
+
+def _most_even_share(edges: PrimitiveWrenches, count: int) -> float:
+    rows, columns = edges.matrix.shape
+    members = (edges.contacts == np.arange(count)[:, None]).astype(float)
+    balance = np.hstack([edges.matrix, np.zeros((rows, 1))])
+    best = maximise(
+        np.append(np.zeros(columns), 1.0),
+        equal=(np.append(np.ones(columns), 0.0)[None], np.ones(1)),
+        at_most=(
+            np.vstack([np.hstack([-members, np.ones((count, 1))]), balance, -balance]),
+            np.concatenate([np.zeros(count), np.full(2 * rows, 2.0 * _BALANCED)]),
+        ),
+    )
+    return 0.0 if best is None else min(1.0, count * float(best[-1]))

@@ -1,0 +1,110 @@
+"""A point at which a finger touches an object: where, along which normal, and what it can transmit."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import DefinitionError
+
+Vector3 = tuple[float, float, float]
+"""Three components in one right-handed frame."""
+
+Matrix = NDArray[np.float64]
+"""An array of floats; its shape is said where it is used."""
+
+_UNIT_LENGTH_TOLERANCE = 1e-6
+_NEARLY_VERTICAL = 0.9
+_NEARLY_PARALLEL = 1e-6
+
+
+class ContactKind(str, Enum):
+    """What a contact can transmit besides its normal force.
+
+    Attributes:
+        FRICTIONLESS: Nothing.
+        HARD: Friction in the tangent plane (a point contact with friction).
+        SOFT: Friction in the tangent plane and a torque about the normal (a soft finger).
+    """
+
+    FRICTIONLESS = "frictionless"
+    HARD = "hard"
+    SOFT = "soft"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactPoint:
+    """One point of contact between a finger and the grasped object.
+
+    All vectors are in one frame. Friction cones are replaced by pyramids whose edges start from `tangent`, so give
+    contacts in a frame that is fixed to the object, or give tangents: then nothing changes when the object is turned.
+
+    Attributes:
+        position_m: The point on the object.
+        normal: Unit vector that points into the object.
+        kind: What the contact can transmit.
+        friction: Coulomb's coefficient of the pair of surfaces; does not count for a frictionless contact.
+        torsional_friction_m: Greatest torque about the normal over the normal force; counts for a soft contact alone.
+        normal_force_n: Force along the normal as it is now.
+        friction_force_n: Friction force on the object as it is now.
+        gap_m: Distance between finger and object along the normal, negative where they penetrate.
+        relative_velocity_m_s: Velocity of the object's point relative to the finger's.
+        finger: Number of the finger; its points share one force limit and make one corner of the grasp polygon. None
+            stands for a finger that has this point alone.
+        tangent: Direction of the first edge of the friction pyramid, as far as it lies in the tangent plane. None
+            stands for the frame's z axis, or its x axis where the normal is near z.
+    """
+
+    position_m: Vector3
+    normal: Vector3
+    kind: ContactKind = ContactKind.HARD
+    friction: float = 0.0
+    torsional_friction_m: float = 0.0
+    normal_force_n: float = 0.0
+    friction_force_n: Vector3 = (0.0, 0.0, 0.0)
+    gap_m: float = 0.0
+    relative_velocity_m_s: Vector3 = (0.0, 0.0, 0.0)
+    finger: int | None = None
+    tangent: Vector3 | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what is not a contact.
+
+        Raises:
+            DefinitionError: A number is not finite, the normal has not the length 1, a coefficient or the normal force
+                is negative, or the tangent is parallel to the normal.
+        """
+        for name in ("position_m", "normal", "friction_force_n", "relative_velocity_m_s", "tangent"):
+            vector = getattr(self, name)
+            if vector is not None and not (len(vector) == 3 and all(map(math.isfinite, vector))):
+                raise DefinitionError(f"a contact cannot have the {name} {vector}", hint="give three finite numbers")
+        for name in ("friction", "torsional_friction_m", "normal_force_n"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise DefinitionError(f"a contact cannot have the {name} {value:g}", hint="give a number from 0")
+        if not math.isfinite(self.gap_m):
+            raise DefinitionError(f"a contact cannot have the gap_m {self.gap_m:g}", hint="give a finite number")
+        length = math.hypot(*self.normal)
+        if abs(length - 1.0) > _UNIT_LENGTH_TOLERANCE:
+            raise DefinitionError(f"the normal of a contact has the length {length:.9g}", hint="give it the length 1")
+        if self.tangent is not None:
+            across = np.linalg.norm(np.cross(self.normal, self.tangent))
+            if not across > _NEARLY_PARALLEL * math.hypot(*self.tangent):
+                raise DefinitionError(
+                    f"the tangent {self.tangent} of a contact has no direction in its tangent plane",
+                    hint="give a vector that is not along the normal",
+                )
+
+    def axes(self) -> Matrix:
+        """The contact's frame: unit normal and two unit tangents as rows, right-handed, shape (3, 3)."""
+        normal = np.array(self.normal) / math.hypot(*self.normal)
+        towards = self.tangent
+        if towards is None:
+            towards = (0.0, 0.0, 1.0) if abs(normal[2]) <= _NEARLY_VERTICAL else (1.0, 0.0, 0.0)
+        second = np.cross(normal, towards)
+        second /= np.linalg.norm(second)
+        return np.array([normal, np.cross(second, normal), second])

@@ -1,0 +1,186 @@
+"""The grasp map: which wrench on the object the contacts make."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rgss.errors import DefinitionError
+from rgss.grasping.contact import ContactKind, ContactPoint, Matrix, Vector3
+from rgss.grasping.grasp import Grasp
+from rgss.grasping.screws import Wrench
+
+FEWEST_CONE_EDGES = 3
+_IN_PLANE_TOLERANCE = 1e-6
+_INTENSITIES = {ContactKind.FRICTIONLESS: 1, ContactKind.HARD: 3, ContactKind.SOFT: 4}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PrimitiveWrenches:
+    """The edges of the contacts' linearised friction cones as wrenches on the object.
+
+    Attributes:
+        matrix: A column for each edge, for a normal force of 1 N: force in N above torque over the characteristic
+            length in N, about the centre of mass. Shape (6, edges); (3, edges) in a plane.
+        contacts: Index of the contact of each column, shape (edges,).
+    """
+
+    matrix: Matrix
+    contacts: np.typing.NDArray[np.int64]
+
+
+def partial_wrench_basis(grasp: Grasp, index: int) -> Matrix:
+    """The columns of the grasp matrix that belong to one contact.
+
+    Rows are force, then torque about the centre of mass over the characteristic length, as in equation 3.1. Columns are
+    the intensities that the contact can have, all in newtons: normal force; for hard and soft contacts the two friction
+    forces along the contact's tangents; for a soft one the torque about the normal over the characteristic length.
+
+    Returns:
+        Shape (6, 1), (6, 3) or (6, 4); no units.
+    """
+    contact = grasp.contacts[index]
+    axes, arm = contact.axes(), grasp.arms_m()[index]
+    forces = axes[:1] if contact.kind is ContactKind.FRICTIONLESS else axes
+    columns: Matrix = np.hstack([forces, np.cross(arm, forces) / grasp.characteristic_length_m]).T
+    if contact.kind is ContactKind.SOFT:
+        columns = np.hstack([columns, np.concatenate([np.zeros(3), axes[0]])[:, None]])
+    return columns
+
+
+def grasp_matrix(grasp: Grasp) -> Matrix:
+    """The grasp matrix G, shape (6, m): from the contacts' intensities to the wrench on the object (sec. 3.4.2)."""
+    return np.hstack([partial_wrench_basis(grasp, index) for index in range(len(grasp.contacts))])
+
+
+def grasp_map(grasp: Grasp, intensities: Sequence[Sequence[float]]) -> Wrench:
+    """The grasp map L_G (eq. 3.1): net wrench of given contact forces about the centre of mass.
+
+    Args:
+        grasp: The grasp.
+        intensities: For each contact as many as its kind has, in real units: normal force (N); two friction forces (N);
+            torque about the normal (N·m).
+
+    Raises:
+        DefinitionError: The numbers do not fit the contacts.
+    """
+    asked = [_INTENSITIES[contact.kind] for contact in grasp.contacts]
+    given = [len(row) for row in intensities]
+    if given != asked:
+        raise DefinitionError(
+            f"the contacts have {asked} intensities each, not {given}",
+            hint="give 1 for a frictionless contact, 3 for a hard one, 4 for a soft one",
+        )
+    length = grasp.characteristic_length_m
+    scaled = [[*row[:3], *(torque / length for torque in row[3:])] for row in intensities]
+    wrench = grasp_matrix(grasp) @ np.concatenate(scaled)
+    return _wrench(wrench[:3], wrench[3:] * length)
+
+
+def net_wrench(grasp: Grasp) -> Wrench:
+    """The wrench of the contacts' present normal and friction forces about the centre of mass."""
+    forces = np.array(
+        [
+            np.array(contact.normal) * contact.normal_force_n + np.array(contact.friction_force_n)
+            for contact in grasp.contacts
+        ]
+    )
+    return _wrench(forces.sum(axis=0), np.cross(grasp.arms_m(), forces).sum(axis=0))
+
+
+def in_friction_cone(contact: ContactPoint, intensities: Sequence[float], *, tolerance_n: float = 1e-9) -> bool:
+    """Tell whether a contact can transmit a force: membership of the generalised friction cone C_i.
+
+    The cone is round: friction up to the coefficient times the normal force, and for a soft contact, independently, a
+    torque up to the torsional coefficient times the normal force (Murray, Li, Sastry 1994, chapter 5).
+    """
+    normal = intensities[0]
+    if normal < -tolerance_n:
+        return False
+    if len(intensities) > 1 and math.hypot(*intensities[1:3]) > contact.friction * normal + tolerance_n:
+        return False
+    return len(intensities) < 4 or abs(intensities[3]) <= contact.torsional_friction_m * normal + tolerance_n
+
+
+def primitive_wrenches(
+    grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None, frictionless: bool = False
+) -> PrimitiveWrenches:
+    """The edges of the friction cones, replaced by pyramids inside of them, as wrenches of unit normal force.
+
+    What a pyramid can resist the round cone can, so that verdicts err on the safe side; friction is at worst
+    cos(π / edges) of what it is, 0.92 for 8.
+
+    Args:
+        grasp: The grasp.
+        cone_edges: Edges of each pyramid.
+        plane_normal: Unit normal of the plane in which a planar grasp lies; the wrenches are then two forces in the
+            plane and the torque about its normal, and each friction cone has its two edges in the plane.
+        frictionless: Leave friction out of account.
+
+    Raises:
+        DefinitionError: There are fewer than 3 edges, or a contact's normal or the normals of a plane do not fit it.
+    """
+    if cone_edges < FEWEST_CONE_EDGES:
+        raise DefinitionError(
+            f"a friction cone cannot have {cone_edges} edges", hint=f"give at least {FEWEST_CONE_EDGES}"
+        )
+    if plane_normal is not None:
+        _check_plane(grasp, plane_normal)
+    arms, columns, owners = grasp.arms_m(), [], []
+    for index, contact in enumerate(grasp.contacts):
+        kind = ContactKind.FRICTIONLESS if frictionless else contact.kind
+        forces = _edge_forces(contact, kind, cone_edges, plane_normal)
+        torques = np.cross(arms[index], forces) / grasp.characteristic_length_m
+        twisting = contact.torsional_friction_m / grasp.characteristic_length_m
+        if kind is ContactKind.SOFT and twisting > 0.0:
+            spin = twisting * contact.axes()[0]
+            forces, torques = np.vstack([forces, forces]), np.vstack([torques + spin, torques - spin])
+        columns.append(np.hstack([forces, torques]))
+        owners += [index] * len(forces)
+    matrix = np.vstack(columns).T
+    if plane_normal is not None:
+        matrix = plane_rows(plane_normal) @ matrix
+    return PrimitiveWrenches(matrix=matrix, contacts=np.array(owners))
+
+
+def _edge_forces(contact: ContactPoint, kind: ContactKind, cone_edges: int, plane_normal: Vector3 | None) -> Matrix:
+    """Forces along the edges of a contact's friction pyramid with a normal force of 1, shape (edges, 3)."""
+    axes = contact.axes()
+    if kind is ContactKind.FRICTIONLESS or contact.friction == 0.0:
+        return axes[:1]
+    if plane_normal is not None:
+        across = contact.friction * np.cross(plane_normal, axes[0])
+        return np.array([axes[0] + across, axes[0] - across])
+    angles = 2.0 * math.pi * np.arange(cone_edges) / cone_edges
+    circle = np.column_stack([np.cos(angles), np.sin(angles)])
+    forces: Matrix = axes[0] + contact.friction * circle @ axes[1:]
+    return forces
+
+
+def _check_plane(grasp: Grasp, plane_normal: Vector3) -> None:
+    length = math.hypot(*plane_normal)
+    if not abs(length - 1.0) <= _IN_PLANE_TOLERANCE:
+        raise DefinitionError(f"the normal of a plane has the length {length:.9g}", hint="give it the length 1")
+    for index, contact in enumerate(grasp.contacts):
+        if abs(float(np.dot(contact.normal, plane_normal))) > _IN_PLANE_TOLERANCE:
+            raise DefinitionError(
+                f"the normal of contact {index} does not lie in the plane of the grasp",
+                hint="leave plane_normal out for a grasp in space",
+            )
+
+
+def plane_rows(plane_normal: Vector3) -> Matrix:
+    """Picks two forces in a plane and the torque about its normal out of a wrench, shape (3, 6)."""
+    frame = ContactPoint(position_m=(0.0, 0.0, 0.0), normal=plane_normal).axes()
+    rows = np.zeros((3, 6))
+    rows[:2, :3], rows[2, 3:] = frame[1:], frame[0]
+    return rows
+
+
+def _wrench(force_n: Matrix, torque_n_m: Matrix) -> Wrench:
+    fx, fy, fz = force_n.tolist()
+    tx, ty, tz = torque_n_m.tolist()
+    return Wrench(torque_n_m=(tx, ty, tz), force_n=(fx, fy, fz))

@@ -1,0 +1,123 @@
+"""Measures of how good a grasp is (sec. 3.4): from the grasp matrix, the grasp polygon, and the contact forces."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rgss.errors import DefinitionError
+from rgss.grasping.closure import RANK_TOLERANCE, positive_span, require_force_limit
+from rgss.grasping.contact import Matrix
+from rgss.grasping.grasp import Grasp
+from rgss.grasping.grasp_map import primitive_wrenches
+from rgss.grasping.polygon import FEWEST_CORNERS, GraspPolygon, internal_angles, worst_deviation
+
+
+def singular_values(matrix: Matrix) -> Matrix:
+    """Singular values of a grasp matrix, one for each of its rows, greatest first.
+
+    A matrix with fewer columns than rows has zeros for the rest; what rounding leaves of a zero is made zero.
+    """
+    values = np.zeros(matrix.shape[0])
+    found = np.linalg.svd(matrix, compute_uv=False)
+    values[: len(found)] = found
+    values[values <= RANK_TOLERANCE * values[0]] = 0.0
+    return values
+
+
+def q_msv(matrix: Matrix) -> float:
+    """Smallest singular value of the grasp matrix (eq. 3.6): 0 if some wrench cannot be resisted, more is better."""
+    return float(singular_values(matrix)[-1])
+
+
+def q_voe(matrix: Matrix) -> float:
+    """Volume of the ellipsoid of wrenches, √det(G Gᵀ), the product of the singular values (eq. 3.7); more is better."""
+    return float(np.prod(singular_values(matrix)))
+
+
+def q_gii(matrix: Matrix) -> float:
+    """Isotropy of the ellipsoid of wrenches, σ_min / σ_max (eq. 3.8): from 0, singular, to 1, balanced."""
+    values = singular_values(matrix)
+    return float(values[-1] / values[0])
+
+
+def q_gpri(polygon: GraspPolygon) -> float | None:
+    """Regularity of the grasp polygon, Σ|θ_i - θ̄| / θ_max (eq. 3.9): from 0, regular, to 1, pressed into a line.
+
+    The corner of a finger that stands inside the others makes an angle above π, and the sum may exceed what a convex
+    polygon can have: it counts as 1.
+
+    Returns:
+        None for fewer than three corners, which have no angles.
+    """
+    count = len(polygon.corners_m)
+    if count < FEWEST_CORNERS:
+        return None
+    if polygon.is_flat:
+        return 1.0
+    mean = math.pi * (count - 2) / count
+    deviation = float(np.sum(np.abs(internal_angles(polygon.corners_m) - mean)))
+    return min(1.0, deviation / worst_deviation(count))
+
+
+def q_diff_m(polygon: GraspPolygon) -> float:
+    """Distance in space from the centroid of the grasp polygon to the object's centre of mass (eq. 3.10, 3.11)."""
+    return float(np.linalg.norm(polygon.centroid_m))
+
+
+def q_smw_n(grasp: Grasp, *, finger_force_limit_n: float, cone_edges: int = 8) -> float:
+    """Smallest maximum wrench (eq. 3.12, 3.13): what the grasp resists in its weakest direction, in newtons.
+
+    Each finger's bounded wrench cone W_i has the normal force at most at the limit, and W is the convex hull of them,
+    so the fingers share the limit of one. The measure is the radius of the largest ball about the origin in W, torques
+    being divided by the characteristic length; friction pyramids make it smaller than with round cones, never greater.
+
+    Args:
+        grasp: The grasp.
+        finger_force_limit_n: Greatest normal force of a finger.
+        cone_edges: Edges of each friction pyramid.
+
+    Returns:
+        0 without force closure.
+
+    Raises:
+        DefinitionError: The limit is not positive, the pyramids are ill defined, or no hull could be built.
+    """
+    require_force_limit(finger_force_limit_n)
+    edges = primitive_wrenches(grasp, cone_edges=cone_edges).matrix
+    return finger_force_limit_n * ball_radius(edges) if positive_span(edges).holds else 0.0
+
+
+def ball_radius(wrenches: Matrix) -> float:
+    """Radius of the largest ball about the origin in the convex hull of wrenches that positively span their space.
+
+    The least, over the facets' normals u, of the hull's support max_i u·w_i.
+
+    Args:
+        wrenches: Shape (space, n).
+
+    Raises:
+        DefinitionError: The hull has no facets, because the wrenches lie in a plane or nearly so.
+    """
+    from scipy.spatial import QhullError
+
+    try:
+        normals = _facet_normals(wrenches, "Qt Qx")
+    except QhullError:
+        # Facets that are flat but for rounding can make merging fail; moving the points by some 1e-11 avoids merging.
+        try:
+            normals = _facet_normals(wrenches, "QJ")
+        except QhullError as error:
+            raise DefinitionError(
+                f"the wrenches of a grasp have no hull: {str(error).splitlines()[0]}",
+                hint="check that contacts do not nearly coincide",
+            ) from error
+    return float(np.min(np.max(normals @ wrenches, axis=1)))
+
+
+def _facet_normals(wrenches: Matrix, options: str) -> Matrix:
+    from scipy.spatial import ConvexHull
+
+    normals: Matrix = ConvexHull(wrenches.T, qhull_options=options).equations[:, :-1]
+    return normals

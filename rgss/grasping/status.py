@@ -1,0 +1,127 @@
+"""A contact in words: apart, touching or penetrating; rolling or slipping."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from rgss.grasping.contact import ContactPoint, Vector3
+from rgss.grasping.kinematics import ContactMotion
+from rgss.grasping.screws import Twist, Wrench, reciprocal_product
+
+
+class ContactState(str, Enum):
+    """Where two bodies stand by the gap between them."""
+
+    SEPARATED = "separated"
+    TOUCHING = "touching"
+    PENETRATING = "penetrating"
+
+
+class Tendency(str, Enum):
+    """Where the gap is going: growing, staying as it is, or shrinking (into penetration, if they touch)."""
+
+    SEPARATING = "separating"
+    STAYING = "staying"
+    PENETRATING = "penetrating"
+
+
+class Sliding(str, Enum):
+    """What the surfaces do to one another in the tangent plane.
+
+    Attributes:
+        ROLLING: No relative tangential motion.
+        SLIP_EMERGING: None yet, but it accelerates.
+        SLIPPING: Relative tangential motion.
+    """
+
+    ROLLING = "rolling"
+    SLIP_EMERGING = "slip_emerging"
+    SLIPPING = "slipping"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactTolerances:
+    """What counts as zero: smaller gaps, speeds and accelerations are not told from none."""
+
+    gap_m: float = 1e-6
+    speed_m_s: float = 1e-6
+    acceleration_m_s2: float = 1e-6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactStatus:
+    """A contact in words.
+
+    Attributes:
+        state: By the gap.
+        tendency: By the first derivative of the gap that is not zero.
+        sliding: By the tangential motion; None where the bodies are apart.
+    """
+
+    state: ContactState
+    tendency: Tendency
+    sliding: Sliding | None
+
+
+def contact_status(motion: ContactMotion, tolerances: ContactTolerances | None = None) -> ContactStatus:
+    """Tell what a contact does.
+
+    A contact lasts only while the gap and its derivatives are zero; the first of them that is not says where it is
+    going. An acceleration that is not known counts as zero.
+    """
+    limits = tolerances or ContactTolerances()
+    state = ContactState.TOUCHING
+    if abs(motion.gap_m) > limits.gap_m:
+        state = ContactState.SEPARATED if motion.gap_m > 0.0 else ContactState.PENETRATING
+    tendency = _tendency(motion.gap_rate_m_s, limits.speed_m_s)
+    if tendency is Tendency.STAYING and motion.gap_acceleration_m_s2 is not None:
+        tendency = _tendency(motion.gap_acceleration_m_s2, limits.acceleration_m_s2)
+    sliding: Sliding | None = None
+    if state is not ContactState.SEPARATED:
+        change = motion.tangential_acceleration_m_s2
+        sliding = Sliding.ROLLING
+        if math.hypot(*motion.tangential_velocity_m_s) > limits.speed_m_s:
+            sliding = Sliding.SLIPPING
+        elif change is not None and math.hypot(*change) > limits.acceleration_m_s2:
+            sliding = Sliding.SLIP_EMERGING
+    return ContactStatus(state=state, tendency=tendency, sliding=sliding)
+
+
+def contact_normal_wrench(contact: ContactPoint, reference_m: Vector3) -> Wrench:
+    """The wrench of a force of 1 N along a contact's normal, about a reference point."""
+    offset = np.subtract(reference_m, contact.position_m)
+    return Wrench(force_n=contact.normal).moved(tuple(offset.tolist()))
+
+
+def twist_tendency(
+    twist: Twist,
+    contact: ContactPoint,
+    reference_m: Vector3,
+    *,
+    finger_velocity_m_s: Vector3 = (0.0, 0.0, 0.0),
+    tolerance_m_s: float = 1e-9,
+) -> Tendency:
+    """Tell whether a twist of the object leaves a contact, keeps it, or would penetrate the finger.
+
+    By the power of a unit force along the normal: tᵀW is at least the finger's speed along the normal for a motion that
+    the finger permits (eq. 2.5 to 2.8); a resting finger demands tᵀW ≥ 0.
+
+    Args:
+        twist: Motion of the object about the reference point.
+        contact: The contact.
+        reference_m: The reference point.
+        finger_velocity_m_s: Velocity of the finger's point.
+        tolerance_m_s: What counts as zero.
+    """
+    power = reciprocal_product(twist, contact_normal_wrench(contact, reference_m))
+    return _tendency(power - float(np.dot(contact.normal, finger_velocity_m_s)), tolerance_m_s)
+
+
+def _tendency(value: float, tolerance: float) -> Tendency:
+    if abs(value) <= tolerance:
+        return Tendency.STAYING
+    return Tendency.SEPARATING if value > 0.0 else Tendency.PENETRATING

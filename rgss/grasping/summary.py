@@ -1,0 +1,125 @@
+"""Everything about one grasp in one value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+from rgss.evidence.records import Metric
+from rgss.grasping.closure import equilibrium, force_closure, form_closure, wrench_resistance
+from rgss.grasping.contact import ContactPoint, Vector3
+from rgss.grasping.grasp import Grasp
+from rgss.grasping.grasp_map import grasp_matrix, net_wrench
+from rgss.grasping.polygon import grasp_polygon
+from rgss.grasping.quality import q_diff_m, q_gii, q_gpri, q_msv, q_smw_n, q_voe
+from rgss.grasping.rigid_body import wrench_norm_n
+from rgss.grasping.screws import Wrench
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GraspQuality:
+    """What a grasp is worth; the names carry the units, 1 for pure numbers.
+
+    Attributes:
+        contact_count: Number of contact points.
+        finger_count: Number of fingers that they belong to.
+        characteristic_length_m: What torques are divided by.
+        equilibrium: Tells whether a squeeze can balance itself.
+        equilibrium_margin_1: See `rgss.grasping.closure.equilibrium`.
+        force_closure: Tells whether every wrench can be resisted.
+        force_closure_margin_1: See `rgss.grasping.closure.force_closure`.
+        form_closure: Tells whether the normals alone immobilise the object.
+        form_closure_margin_1: See `rgss.grasping.closure.form_closure`.
+        q_msv_1: Smallest singular value of the grasp matrix.
+        q_voe_1: Volume of the ellipsoid of wrenches.
+        q_gii_1: Isotropy of the ellipsoid of wrenches.
+        q_gpri_1: Irregularity of the grasp polygon; None for fewer than three corners.
+        q_diff_m: Distance from the polygon's centroid to the centre of mass.
+        q_smw_n: Smallest maximum wrench.
+        net_wrench_n: Norm of the contacts' present net wrench.
+        wrench_resistance: Tells whether the given load can be resisted; None if none was given.
+        load_factor_1: The greatest multiple of that load; None if none was given, or a load of zero.
+    """
+
+    contact_count: int
+    finger_count: int
+    characteristic_length_m: float
+    equilibrium: bool
+    equilibrium_margin_1: float
+    force_closure: bool
+    force_closure_margin_1: float
+    form_closure: bool
+    form_closure_margin_1: float
+    q_msv_1: float
+    q_voe_1: float
+    q_gii_1: float
+    q_gpri_1: float | None
+    q_diff_m: float
+    q_smw_n: float
+    net_wrench_n: float
+    wrench_resistance: bool | None
+    load_factor_1: float | None
+
+    def metrics(self) -> dict[str, Metric]:
+        """The attributes by name, as a trial records them: verdicts as 0 or 1."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: int(value) if isinstance(value, bool) else value for name, value in values.items()}
+
+
+def analyse_grasp(
+    contacts: Sequence[ContactPoint],
+    *,
+    centre_of_mass_m: Vector3,
+    finger_force_limit_n: float,
+    grasp_axis: Vector3 | None = None,
+    characteristic_length_m: float | None = None,
+    external_wrench: Wrench | None = None,
+    cone_edges: int = 8,
+) -> GraspQuality:
+    """Analyse the grasp that contacts make.
+
+    Args:
+        contacts: At least one, in one frame, best one that is fixed to the object (see `ContactPoint`).
+        centre_of_mass_m: The object's, in that frame.
+        finger_force_limit_n: Greatest normal force of a finger.
+        grasp_axis: Normal of the plane of the grasp polygon, such as the gripper's axis; None to fit it to the
+            contacts.
+        characteristic_length_m: What torques are divided by; None for the greatest distance of a contact from the
+            centre of mass. Give one length wherever grasps are compared.
+        external_wrench: A load about the centre of mass that is to be resisted, such as the weight.
+        cone_edges: Edges of each friction pyramid.
+
+    Raises:
+        DefinitionError: The contacts, the limit, the axis, the length or the load make no sense, or a solver failed.
+    """
+    grasp = Grasp.of(contacts, centre_of_mass_m, characteristic_length_m)
+    matrix, polygon = grasp_matrix(grasp), grasp_polygon(grasp, grasp_axis)
+    balance = equilibrium(grasp, cone_edges=cone_edges)
+    force, form = force_closure(grasp, cone_edges=cone_edges), form_closure(grasp)
+    resistance = (
+        wrench_resistance(grasp, external_wrench, finger_force_limit_n=finger_force_limit_n, cone_edges=cone_edges)
+        if external_wrench is not None
+        else None
+    )
+    is_loaded = resistance is not None and math.isfinite(resistance.margin)
+    return GraspQuality(
+        contact_count=len(grasp.contacts),
+        finger_count=len(grasp.fingers()),
+        characteristic_length_m=grasp.characteristic_length_m,
+        equilibrium=balance.holds,
+        equilibrium_margin_1=balance.margin,
+        force_closure=force.holds,
+        force_closure_margin_1=force.margin,
+        form_closure=form.holds,
+        form_closure_margin_1=form.margin,
+        q_msv_1=q_msv(matrix),
+        q_voe_1=q_voe(matrix),
+        q_gii_1=q_gii(matrix),
+        q_gpri_1=q_gpri(polygon),
+        q_diff_m=q_diff_m(polygon),
+        q_smw_n=q_smw_n(grasp, finger_force_limit_n=finger_force_limit_n, cone_edges=cone_edges),
+        net_wrench_n=wrench_norm_n(net_wrench(grasp), grasp.characteristic_length_m),
+        wrench_resistance=None if resistance is None else resistance.holds,
+        load_factor_1=resistance.margin + 1.0 if resistance is not None and is_loaded else None,
+    )

@@ -1,0 +1,121 @@
+"""Dynamics of the arm with what its flange carries."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.kinematics.description import build_model, transform
+from rgss.scenes import Box, Cylinder, Gripper, Pose, Robot, Workpiece
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """A rigid body that moves with the flange.
+
+    Attributes:
+        mass_kg: Its mass.
+        moments_kg_m2: Its principal moments of inertia about its own centre.
+        pose: Transform of its central principal frame to the flange.
+    """
+
+    mass_kg: float
+    moments_kg_m2: tuple[float, float, float]
+    pose: Pose
+
+
+def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
+    """The gripper's base and fingers as loads of the flange.
+
+    Args:
+        gripper: The gripper.
+        opening_m: Distance of its pads from its axis.
+    """
+    geometry = gripper.geometry
+    base = Load(
+        mass_kg=gripper.base_mass_kg,
+        moments_kg_m2=_solid_cylinder(geometry.base, gripper.base_mass_kg),
+        pose=geometry.base_pose,
+    )
+    fingers = (
+        Load(
+            mass_kg=gripper.finger_mass_kg,
+            moments_kg_m2=_solid_box(geometry.finger, gripper.finger_mass_kg),
+            pose=geometry.finger_pose(finger, opening_m),
+        )
+        for finger in range(geometry.fingers)
+    )
+    return (base, *fingers)
+
+
+def workpiece_load(workpiece: Workpiece, pose: Pose) -> Load:
+    """A held workpiece as a load of the flange.
+
+    Args:
+        workpiece: What is held.
+        pose: Transform of its shape's frame to the flange.
+    """
+    return Load(mass_kg=workpiece.mass_kg, moments_kg_m2=_solid_cylinder(workpiece.shape, workpiece.mass_kg), pose=pose)
+
+
+class ArmDynamics:
+    """Joint torques of the arm with loads on its flange."""
+
+    def __init__(self, robot: Robot, loads: Sequence[Load], *, gravity_m_s2: float) -> None:
+        """Build the model.
+
+        Args:
+            robot: The arm.
+            loads: What its flange carries.
+            gravity_m_s2: Magnitude of gravity, along the world's -z.
+
+        Raises:
+            DefinitionError: The robot is ill defined.
+        """
+        import pinocchio
+
+        self._engine = pinocchio
+        self._model = build_model(robot)
+        self._model.gravity.linear = np.array([0.0, 0.0, -gravity_m_s2])
+        flange = self._model.frames[self._model.getFrameId(robot.flange)]
+        for load in loads:
+            inertia = pinocchio.Inertia(load.mass_kg, np.zeros(3), np.diag(load.moments_kg_m2))
+            self._model.appendBodyToJoint(flange.parentJoint, inertia, flange.placement * transform(load.pose))
+        self._data = self._model.createData()
+
+    def torques(
+        self, q: Sequence[float] | Vector, dq: Sequence[float] | Vector, ddq: Sequence[float] | Vector
+    ) -> Vector:
+        """Torques that produce accelerations, by the recursive Newton-Euler algorithm.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+            dq: Joint speeds in rad/s, shape (6,).
+            ddq: Joint accelerations in rad/s², shape (6,).
+
+        Returns:
+            Joint torques in N·m, shape (6,).
+        """
+        found: Vector = self._engine.rnea(
+            self._model,
+            self._data,
+            np.asarray(q, dtype=float),
+            np.asarray(dq, dtype=float),
+            np.asarray(ddq, dtype=float),
+        )
+        return np.array(found)
+
+
+def _solid_cylinder(shape: Cylinder, mass_kg: float) -> tuple[float, float, float]:
+    across = mass_kg * (3 * shape.radius_m**2 + shape.height_m**2) / 12
+    return across, across, mass_kg * shape.radius_m**2 / 2
+
+
+def _solid_box(shape: Box, mass_kg: float) -> tuple[float, float, float]:
+    x, y, z = shape.size_m
+    return mass_kg * (y**2 + z**2) / 12, mass_kg * (x**2 + z**2) / 12, mass_kg * (x**2 + y**2) / 12

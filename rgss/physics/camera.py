@@ -1,0 +1,196 @@
+"""Pictures of a scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType, TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.physics.rendering import Array, Lens, Picture, Vector, Window, draw
+from rgss.physics.shadows import Light, Receiver, darkness
+from rgss.physics.stage import Posture, Stage
+from rgss.scenes import Gripper, Scene
+
+_SUPERSAMPLING = 2
+_FIELD_OF_VIEW_RAD = math.radians(36)
+_NEAR_M, _FAR_M = 0.15, 12.0
+_ABOVE_M = 0.14
+_ARM_REACH_M, _SCENE_REACH_M = 2.0, 2.6
+_SKY = np.array([233, 238, 243], dtype=np.float32)
+_SKY_DEPTH = 0.9999
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    """Where a camera stands.
+
+    Attributes:
+        azimuth_rad: Direction from what it looks at to the camera, from the world's x towards its y.
+        elevation_rad: Height of the camera as an angle above the horizontal.
+        distance_m: Distance of the camera from what it looks at.
+        follows_tool: Whether it looks at the grasp centre; else just above the middle of the task.
+    """
+
+    azimuth_rad: float
+    elevation_rad: float
+    distance_m: float
+    follows_tool: bool = False
+
+
+VIEWS: Mapping[str, View] = MappingProxyType(
+    {
+        "overview": View(azimuth_rad=math.radians(215), elevation_rad=math.radians(25), distance_m=2.85),
+        "hand": View(azimuth_rad=math.radians(235), elevation_rad=math.radians(14), distance_m=0.85, follows_tool=True),
+        "side": View(azimuth_rad=math.radians(230), elevation_rad=math.radians(8), distance_m=2.8),
+    }
+)
+"""Views by name, for scenes as large as an arm's reach."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Background:
+    """What stands still as the camera sees it.
+
+    Attributes:
+        picture: Its colours (height, width, 3), shaded by itself.
+        depths: Its depths at the finer resolution.
+        darkness: The share (height, width) of the colour that goes where no light falls.
+        receiver: How the light that follows what moves sees it.
+    """
+
+    picture: Array
+    depths: Array
+    darkness: Array
+    receiver: Receiver
+
+
+class Camera:
+    """A camera before a scene; a context manager that closes its stage."""
+
+    def __init__(self, scene: Scene, gripper: Gripper, view: View, *, width: int, height: int) -> None:
+        """Set up.
+
+        Args:
+            scene: What there is to see.
+            gripper: The gripper on the robot's flange.
+            view: Where the camera stands.
+            width: Width of the pictures in pixels.
+            height: Height of the pictures in pixels.
+
+        Raises:
+            SimulationError: The engine cannot build the stage.
+        """
+        self._view = view
+        self._width, self._height = width, height
+        grasp, place = scene.grasp.position_m, scene.place_pose.position_m
+        x, y, z = ((a + b) / 2 for a, b in zip(grasp, place, strict=True))
+        self._middle = (x, y, z + _ABOVE_M)
+        self._background: _Background | None = None
+        self._sun = Light(self._middle, reach_m=_SCENE_REACH_M, resolution=1024, tolerance_m=0.045)
+        self._sun_depths: Array | None = None
+        self._stage = Stage(scene, gripper)
+
+    def __enter__(self) -> Camera:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the stage; closing twice is allowed."""
+        self._stage.close()
+
+    def picture(self, posture: Posture) -> Picture:
+        """Draw the scene.
+
+        Args:
+            posture: How everything that moves stands.
+        """
+        stage = self._stage
+        stage.take(posture)
+        target = stage.tool_position() if self._view.follows_tool else self._middle
+        lens = self._lens(target)
+        reach = min(_ARM_REACH_M, 1.2 * self._view.distance_m)
+        light = Light(target, reach_m=reach, resolution=640, tolerance_m=0.005)
+        # What stands still is drawn once, where the camera stands still too.
+        if self._background is None or self._view.follows_tool:
+            self._background = self._draw_background(lens, light)
+        background = self._background
+        shadow = light.shadow(light.depths_of(stage.moving), background.receiver)
+        picture: Array = background.picture * (1 - background.darkness * shadow)[:, :, np.newaxis]
+        window = self._window(lens)
+        if window is not None:
+            fine = window.scaled(_SUPERSAMPLING)
+            colours, depths = draw(stage.moving, lens.enlarged(_SUPERSAMPLING), fine)
+            in_front = (depths < background.depths[fine.slices])[:, :, np.newaxis]
+            seen = picture[window.slices]
+            picture[window.slices] = seen * (1 - _coarse(in_front)) + _coarse(colours * in_front)
+        return np.rint(picture).astype(np.uint8)
+
+    def _draw_background(self, lens: Lens, light: Light) -> _Background:
+        fine = lens.enlarged(_SUPERSAMPLING)
+        colours, depths = draw(self._stage.still, fine)
+        sky = depths >= _SKY_DEPTH
+        picture = _coarse(np.where(sky[:, :, np.newaxis], _SKY, colours))
+        points = lens.unproject(np.ascontiguousarray(depths[::_SUPERSAMPLING, ::_SUPERSAMPLING]))
+        loss = np.where(sky[::_SUPERSAMPLING, ::_SUPERSAMPLING], np.float32(0.0), darkness(points))
+        if self._sun_depths is None:
+            self._sun_depths = self._sun.depths_of(self._stage.still)
+        shadow = loss * self._sun.shadow(self._sun_depths, self._sun.receiver(points))
+        return _Background(
+            picture=picture * (1 - shadow)[:, :, np.newaxis],
+            depths=depths,
+            # What is shaded already gets no darker.
+            darkness=(loss - shadow) / (1 - shadow),
+            receiver=light.receiver(points),
+        )
+
+    def _window(self, lens: Lens) -> Window | None:
+        """The part of the picture that what moves can cover; None if it is out of sight."""
+        columns, rows, _ = lens.project(np.array(self._stage.corners(), dtype=np.float32))
+        if np.isnan(columns).any():  # some of it is behind the camera
+            return Window(top=0, bottom=lens.height, left=0, right=lens.width)
+        left, top = (max(0, math.floor(values.min()) - 1) for values in (columns, rows))
+        right, bottom = (
+            min(size, math.ceil(values.max()) + 1) for size, values in ((lens.width, columns), (lens.height, rows))
+        )
+        return Window(top=top, bottom=bottom, left=left, right=right) if top < bottom and left < right else None
+
+    def _lens(self, target: Vector) -> Lens:
+        view = self._view
+        across = view.distance_m * math.cos(view.elevation_rad)
+        along = (math.cos(view.azimuth_rad), math.sin(view.azimuth_rad))
+        straight_down = across < 1e-3 * view.distance_m
+        return Lens(
+            eye_m=(
+                target[0] + across * along[0],
+                target[1] + across * along[1],
+                target[2] + view.distance_m * math.sin(view.elevation_rad),
+            ),
+            target_m=target,
+            up=(-along[0], -along[1], 0.0) if straight_down else (0.0, 0.0, 1.0),
+            field_of_view_rad=_FIELD_OF_VIEW_RAD,
+            width=self._width,
+            height=self._height,
+            near_m=_NEAR_M,
+            far_m=_FAR_M,
+        )
+
+
+def _coarse(values: NDArray[Any]) -> Array:
+    """The mean of each block of pixels."""
+    n = _SUPERSAMPLING
+    total: Array = values[0::n, 0::n].astype(np.float32)
+    for row in range(n):
+        for column in range(n):
+            if row or column:
+                total += values[row::n, column::n]
+    mean: Array = total / np.float32(n**2)
+    return mean

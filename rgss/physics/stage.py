@@ -1,0 +1,206 @@
+"""The bodies of a scene to be looked at, in clients that are never stepped.
+
+A world that is simulated holds nothing for pictures, so no picture can change its results. What
+is shown is what is simulated, but for two things: a mat marks the place, and each finger slides
+on a rail, so that an open finger is not seen to float.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+from rgss.errors import SimulationError
+from rgss.physics.engine import load_urdf_text, open_client, pybullet
+from rgss.physics.solids import Surface, box_surface, cup_surface, cylinder_surface
+from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene, Shape
+from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
+
+Colour = Sequence[float]
+
+GRIPPER_BASE_COLOUR = (0.22, 0.23, 0.26, 1.0)
+FINGER_COLOUR = (0.96, 0.74, 0.15, 1.0)
+RAIL_COLOUR = (0.45, 0.47, 0.50, 1.0)
+PLACE_COLOUR = (0.93, 0.93, 0.90, 1.0)
+_MAT_THICKNESS_M = 0.002
+_RAIL_HEIGHT_M = 0.012
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Posture:
+    """How everything that moves stands.
+
+    Attributes:
+        joints_rad: Joint positions of the arm.
+        finger_travel_m: How far each finger has closed.
+        workpiece: Transform of the workpiece to the world.
+    """
+
+    joints_rad: Sequence[float]
+    finger_travel_m: Sequence[float]
+    workpiece: Pose
+
+
+class Stage:
+    """What stands still in one client, what moves in another, so that each can be drawn alone.
+
+    Attributes:
+        still: Client of the scene's bodies and of a mat that marks the place.
+        moving: Client of the arm, the gripper and the workpiece.
+    """
+
+    def __init__(self, scene: Scene, gripper: Gripper) -> None:
+        """Set the stage.
+
+        Args:
+            scene: What there is to see.
+            gripper: The gripper on the robot's flange.
+
+        Raises:
+            SimulationError: The engine cannot build it.
+        """
+        self._engine = pybullet()
+        self._scene, self._gripper = scene, gripper
+        self._clients: list[int] = []
+        try:
+            self.still, self.moving, self._machine = self._open(), self._open(), self._open()
+            for body in scene.bodies:
+                self._add(self.still, _surface(body.shape), body.pose, body.colour)
+            mat = Cylinder(radius_m=scene.place.radius_m, height_m=_MAT_THICKNESS_M)
+            centre = Pose(position_m=scene.place.centre_m).raised(_MAT_THICKNESS_M / 2)
+            self._add(self.still, cylinder_surface(mat), centre, PLACE_COLOUR)
+            workpiece = scene.workpiece
+            self._half_sizes: dict[int, tuple[float, float, float]] = {}
+            self._poses: dict[int, Pose] = {}
+            self._workpiece = self._add(self.moving, cup_surface(workpiece.shape), workpiece.pose, workpiece.colour)
+            self._half_sizes[self._workpiece] = _half_size(workpiece.shape)
+            self._add_robot()
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Close the clients; closing twice is allowed."""
+        while self._clients:
+            self._engine.disconnect(physicsClientId=self._clients.pop())
+
+    def take(self, posture: Posture) -> None:
+        """Let everything that moves take its place."""
+        engine = self._engine
+        joints = (*self._arm_joints, *self._finger_joints)
+        for joint, position in zip(joints, (*posture.joints_rad, *posture.finger_travel_m), strict=True):
+            engine.resetJointState(self._robot, joint, position, physicsClientId=self._machine)
+        self._place(self._workpiece, posture.workpiece)
+        for part, link, pose in self._parts:
+            self._place(part, self._link_pose(link) @ pose)
+
+    def tool_position(self) -> tuple[float, float, float]:
+        """Position of the grasp centre in the world."""
+        return (self._link_pose(self._flange) @ self._gripper.geometry.grasp_centre).position_m
+
+    def corners(self) -> list[tuple[float, float, float]]:
+        """Points of the world within whose convex hull lies everything that moves."""
+        corners = []
+        for body, half in self._half_sizes.items():
+            for signs in product((-1, 1), repeat=3):
+                x, y, z = (sign * size for sign, size in zip(signs, half, strict=True))
+                corners.append((self._poses[body] @ Pose(position_m=(x, y, z))).position_m)
+        return corners
+
+    def _open(self) -> int:
+        client = open_client()
+        self._clients.append(client)
+        return client
+
+    def _add(self, client: int, surface: Surface, pose: Pose, colour: Colour) -> int:
+        visual = self._engine.createVisualShape(
+            self._engine.GEOM_MESH,
+            vertices=surface.vertices_m,
+            normals=surface.normals,
+            indices=surface.indices,
+            rgbaColor=colour,
+            physicsClientId=client,
+        )
+        body = int(
+            self._engine.createMultiBody(0.0, -1, visual, pose.position_m, pose.quaternion_xyzw, physicsClientId=client)
+        )
+        if visual < 0 or body < 0:
+            raise SimulationError("the physics engine refused a body of a picture", hint="check its sizes")
+        return body
+
+    def _place(self, body: int, pose: Pose) -> None:
+        self._poses[body] = pose
+        self._engine.resetBasePositionAndOrientation(
+            body, pose.position_m, pose.quaternion_xyzw, physicsClientId=self.moving
+        )
+
+    def _add_robot(self) -> None:
+        """Load the machine to know where its links are, and a part in the picture for each solid of a link."""
+        engine, client, base = self._engine, self._machine, self._scene.robot.base
+        self._robot = load_urdf_text(
+            client,
+            assembled_urdf(self._scene.robot, self._gripper),
+            position=base.position_m,
+            orientation=base.quaternion_xyzw,
+            flags=0,
+        )
+        info: list[Any] = [
+            engine.getJointInfo(self._robot, index, physicsClientId=client)
+            for index in range(engine.getNumJoints(self._robot, physicsClientId=client))
+        ]
+        joints = {entry[1].decode(): entry[0] for entry in info}
+        links = {entry[12].decode(): entry[0] for entry in info}
+        fingers = range(self._gripper.geometry.fingers)
+        self._arm_joints = [joints[joint.name] for joint in self._scene.robot.joints]
+        self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
+        self._flange = links[self._scene.robot.flange]
+        colours = {links[finger_link(finger)]: FINGER_COLOUR for finger in fingers}
+        colours[links[GRIPPER_BASE_LINK]] = GRIPPER_BASE_COLOUR
+        self._parts = []
+        for _, link, kind, size, _, position, orientation, colour, *_ in engine.getVisualShapeData(
+            self._robot, physicsClientId=client
+        ):
+            shape: Shape = (
+                Box(size_m=tuple(size)) if kind == engine.GEOM_BOX else Cylinder(radius_m=size[1], height_m=size[0])
+            )
+            pose = Pose(position_m=tuple(position), quaternion_xyzw=tuple(orientation))
+            part = self._add(self.moving, _surface(shape), Pose(), colours.get(link, colour))
+            self._half_sizes[part] = _half_size(shape)
+            self._parts.append((part, link, pose))
+        self._add_rails(links[GRIPPER_BASE_LINK])
+
+    def _add_rails(self, base_link: int) -> None:
+        geometry = self._gripper.geometry
+        thickness, width, _ = geometry.finger.size_m
+        length = geometry.largest_opening_m + thickness
+        rail = Box(size_m=(length, 0.6 * width, _RAIL_HEIGHT_M))
+        for azimuth in geometry.azimuths_rad:
+            centre = (
+                length / 2 * math.cos(azimuth),
+                length / 2 * math.sin(azimuth),
+                geometry.base.height_m - _RAIL_HEIGHT_M / 2,
+            )
+            pose = Pose.from_roll_pitch_yaw(centre, (0.0, 0.0, azimuth))
+            part = self._add(self.moving, box_surface(rail), Pose(), RAIL_COLOUR)
+            self._half_sizes[part] = _half_size(rail)
+            self._parts.append((part, base_link, pose))
+
+    def _link_pose(self, link: int) -> Pose:
+        if link < 0:
+            return self._scene.robot.base
+        state = self._engine.getLinkState(self._robot, link, computeForwardKinematics=1, physicsClientId=self._machine)
+        return Pose(position_m=tuple(state[4]), quaternion_xyzw=tuple(state[5]))
+
+
+def _surface(shape: Shape) -> Surface:
+    return box_surface(shape) if isinstance(shape, Box) else cylinder_surface(shape)
+
+
+def _half_size(shape: Shape) -> tuple[float, float, float]:
+    if isinstance(shape, Box):
+        x, y, z = shape.size_m
+        return x / 2, y / 2, z / 2
+    return shape.radius_m, shape.radius_m, shape.half_height_m

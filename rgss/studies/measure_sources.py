@@ -1,0 +1,54 @@
+"""Whether there is what the measures take their inputs from."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator, Mapping
+
+from rgss.documents import Document
+from rgss.findings import Finding
+from rgss.measures import InputSymbol
+from rgss.quantities import dimension
+from rgss.trials.metrics import METRICS
+
+_LONGEST_LIST = 12
+
+
+def source_findings(
+    inputs: Iterable[InputSymbol], design_units: Mapping[str, str], document: Document
+) -> Iterator[Finding]:
+    """Find inputs whose source is not there or measures something else.
+
+    Args:
+        inputs: The inputs of the measures, in the order of their file.
+        design_units: The unit of each source that designs have; empty for a name.
+        document: The measures' file, for positions.
+    """
+    trial_units = {f"trial.{name}": kind.unit for name, kind in METRICS.items()}
+    for index, symbol in enumerate(inputs):
+        owner, units = ("trials", trial_units) if symbol.from_trial else ("designs", design_units)
+        unit = units.get(symbol.source)
+        if unit is None:
+            message = f"{symbol.id}: the {owner} have no {symbol.source!r}"
+            hint = _known(symbol.source, list(units))
+            yield document.finding("measures.unknown-source", message, ("inputs", index, "source"), hint=hint)
+        elif not unit:
+            message = f"{symbol.id}: {symbol.source!r} is a name, not a number"
+            yield document.finding("measures.source-unit", message, ("inputs", index, "source"))
+        elif dimension(unit) != dimension(symbol.unit):
+            message = f"{symbol.id}: {symbol.source!r} is measured in {unit!r}, not in {symbol.unit!r}"
+            hint = "correct the source or the unit"
+            yield document.finding("measures.source-unit", message, ("inputs", index, "unit"), hint=hint)
+        elif symbol.from_trial and symbol.length != METRICS[symbol.metric].length:
+            length = METRICS[symbol.metric].length
+            message = f"{symbol.id}: {symbol.source!r} is {'one number' if length is None else f'a row of {length}'}"
+            hint = "remove 'length'" if length is None else f"write 'length: {length}'"
+            yield document.finding("measures.source-length", message, ("inputs", index), hint=hint)
+
+
+def _known(source: str, names: list[str]) -> str:
+    near = difflib.get_close_matches(source, names, n=1)
+    if near:
+        return f"did you mean {near[0]!r}?"
+    alike = [name for name in names if name.split(".")[:-1] == source.split(".")[:-1]] or names
+    return f"sources: {', '.join(alike[:_LONGEST_LIST])}{' …' if len(alike) > _LONGEST_LIST else ''}"

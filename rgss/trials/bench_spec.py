@@ -1,0 +1,206 @@
+"""What a payload bench is run with, and the digest of exactly that."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rgss.documents.digests import digest
+from rgss.errors import DefinitionError
+from rgss.physics import PhysicsSettings
+from rgss.scenes import Cylinder, Gripper, Scene
+from rgss.trials.spec import plain
+
+SAFETY_FACTOR = 1.5
+"""Of a gripper's payload by friction (thesis, eq. 4.8)."""
+
+_VERSIONS = ("pybullet", "rgss-source")
+_FINEST_RESOLUTION = 1.0e-6
+_SOLVER_MARGIN = 2.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BenchSettings:
+    """How the bench grasps, lifts, and judges.
+
+    Attributes:
+        firm_share: Share of its force above which a finger counts as pressing firmly.
+        firm_grasp_s: Time for which every finger must press firmly; closing gives a spike.
+        grasp_timeout_s: Time beyond the fingers' travel after which there is no firm grasp.
+        lift_s: Time for which the hand is accelerated upwards. An object that is heavier than the
+            limit by a share s slides by s (g + a) lift_s² / 2, so a long lift tells close masses apart.
+        largest_slip_m: Displacement of the object in the hand beyond which it slips. Less is the give
+            of the simulated friction while it takes up the load: below the limit by 0.5 % and more it
+            stays under 0.9 mm at 240 Hz, while 0.5 % above it more than 4 mm are slid.
+        resolution: Width of the final bracket as a share of its upper end.
+        smallest_kg: Mass below which no payload is looked for, if the solver can go that far down.
+    """
+
+    firm_share: float = 0.9
+    firm_grasp_s: float = 0.05
+    grasp_timeout_s: float = 0.5
+    lift_s: float = 0.4
+    largest_slip_m: float = 1.0e-3
+    resolution: float = 0.005
+    smallest_kg: float = 0.02
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BenchSpec:
+    """One gripper to be tried with one kind of object under one acceleration.
+
+    Attributes:
+        gripper: The gripper; the masses, force, velocity and friction of the design.
+        shape: The object's solid, upright and gripped at its centre.
+        object_friction: The object's coefficient; the contact's is the product with the pads'.
+        force_limit_n: Normal force of a finger above which the object is damaged.
+        gravity_m_s2: Magnitude of gravity.
+        acceleration_m_s2: Acceleration a_m at which the object is lifted.
+        rated_kg: Mass at which the search ends, what the arm may carry.
+        physics: Step length and solver.
+        settings: How the bench grasps, lifts, and judges.
+    """
+
+    gripper: Gripper
+    shape: Cylinder
+    object_friction: float
+    force_limit_n: float
+    gravity_m_s2: float
+    acceleration_m_s2: float
+    rated_kg: float
+    physics: PhysicsSettings = field(default_factory=PhysicsSettings)
+    settings: BenchSettings = field(default_factory=BenchSettings)
+
+    @property
+    def friction(self) -> float:
+        """Coulomb coefficient mu of a finger on the object."""
+        return self.gripper.friction * self.object_friction
+
+    @property
+    def total_force_n(self) -> float:
+        """F_max of eq. 4.8 when d5 is the force of one finger: N_f times d5."""
+        return self.gripper.geometry.fingers * self.gripper.finger_force_n
+
+    @property
+    def theory_kg(self) -> float:
+        """Mass that Coulomb's law holds under the acceleration: mu N_f F / (g + a_m)."""
+        return self.friction * self.total_force_n / (self.gravity_m_s2 + self.acceleration_m_s2)
+
+    @property
+    def eq_4_8_kg(self) -> float:
+        """The gripper's payload by eq. 4.8, which divides by a safety factor."""
+        return self.theory_kg / SAFETY_FACTOR
+
+    @property
+    def lightest_body_kg(self) -> float:
+        """Mass of a body, finger or object, through which the solver passes the whole finger force.
+
+        In each of its iterations the motor of a finger gives the finger at most its momentum M v_f,
+        which the contact takes away again; so no more than iterations times M v_f / dt is ever
+        pressed. Measured without margin on fingers; an object between three fingers needs twice that.
+        """
+        passed_n_kg = self.physics.solver_iterations * self.gripper.finger_velocity_m_s * self.physics.rate_hz
+        return _SOLVER_MARGIN * self.gripper.finger_force_n / passed_n_kg
+
+    @property
+    def smallest_kg(self) -> float:
+        """The smallest mass that is tried."""
+        return max(self.settings.smallest_kg, self.lightest_body_kg)
+
+    def check(self) -> None:
+        """Refuse what cannot be tried.
+
+        Raises:
+            DefinitionError: A number is out of range, or the open hand cannot be put over the object.
+        """
+        positive = {
+            "the acceleration": self.acceleration_m_s2,
+            "the rated mass": self.rated_kg,
+            "the time of the lift": self.settings.lift_s,
+            "the smallest mass": self.settings.smallest_kg,
+            "the largest slip": self.settings.largest_slip_m,
+            "the force of a finger": self.gripper.finger_force_n,
+            "the velocity of a finger": self.gripper.finger_velocity_m_s,
+        }
+        for name, value in positive.items():
+            if not 0.0 < value < math.inf:
+                raise DefinitionError(f"{name} of a payload bench cannot be {value:g}", hint="give a number above zero")
+        if not _FINEST_RESOLUTION <= self.settings.resolution < 1.0:
+            raise DefinitionError(
+                f"the resolution of a payload bench cannot be {self.settings.resolution:g}",
+                hint=f"give a share from {_FINEST_RESOLUTION:g} to 1",
+            )
+        if self.gripper.finger_mass_kg < self.lightest_body_kg:
+            raise DefinitionError(
+                f"fingers of {self.gripper.finger_mass_kg:g} kg are too light for the solver to press with "
+                f"{self.gripper.finger_force_n:g} N; it needs {self.lightest_body_kg:.3g} kg",
+                hint="give the physics more solver iterations or a higher rate",
+            )
+        if self.smallest_kg >= self.rated_kg:
+            raise DefinitionError(
+                f"the smallest mass of {self.smallest_kg:.3g} kg is not below the rated {self.rated_kg:g} kg",
+                hint="let the payload bench have masses to try",
+            )
+        self._check_fit()
+
+    def _check_fit(self) -> None:
+        geometry = self.gripper.geometry
+        if self.shape.radius_m >= geometry.largest_opening_m:
+            raise DefinitionError(
+                f"an object of radius {self.shape.radius_m:g} m does not fit into gripper {geometry.id!r}, "
+                f"which opens to {geometry.largest_opening_m:g} m",
+                hint="take a thinner object or a gripper that opens wider",
+            )
+        palm_m = geometry.grasp_depth_m - geometry.base.height_m
+        if self.shape.half_height_m >= palm_m:
+            raise DefinitionError(
+                f"an object of height {self.shape.height_m:g} m gripped at its centre meets the base of "
+                f"gripper {geometry.id!r}, which is {palm_m:g} m above",
+                hint="take a lower object or a deeper grasp",
+            )
+
+
+def bench_spec(
+    scene: Scene,
+    gripper: Gripper,
+    *,
+    acceleration_m_s2: float,
+    rated_kg: float,
+    physics: PhysicsSettings | None = None,
+    settings: BenchSettings | None = None,
+) -> BenchSpec:
+    """The bench of a gripper with the object and the gravity of a scene.
+
+    Args:
+        scene: Where the object comes from; its mass and its place do not matter.
+        gripper: The gripper.
+        acceleration_m_s2: Acceleration at which the object is lifted.
+        rated_kg: Mass at which the search ends.
+        physics: Step length and solver; the default ones if not given.
+        settings: How the bench judges; the default ones if not given.
+    """
+    return BenchSpec(
+        gripper=gripper,
+        shape=scene.workpiece.shape,
+        object_friction=scene.workpiece.friction,
+        force_limit_n=scene.workpiece.force_limit_n,
+        gravity_m_s2=scene.gravity_m_s2,
+        acceleration_m_s2=acceleration_m_s2,
+        rated_kg=rated_kg,
+        physics=physics or PhysicsSettings(),
+        settings=settings or BenchSettings(),
+    )
+
+
+def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
+    """The digest of the inputs of a bench, by which designs with the same gripper share one.
+
+    Args:
+        spec: The bench; the name of the gripper's shape is no input.
+        versions: Versions of the code and the engines; only those that a bench uses are taken.
+    """
+    inputs = plain(spec)
+    del inputs["gripper"]["geometry"]["id"]
+    used = {name: version for name, version in versions.items() if name in _VERSIONS}
+    return digest({"bench": inputs, "versions": used})

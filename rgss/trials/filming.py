@@ -1,0 +1,123 @@
+"""A film of a trial, drawn from its trace when the trial is over."""
+
+from __future__ import annotations
+
+import math
+from contextlib import ExitStack
+from dataclasses import dataclass
+from types import TracebackType
+
+from rgss.evidence.trial_trace import PhaseSpan, TrialTrace
+from rgss.physics.camera import Camera, View
+from rgss.physics.rendering import Picture
+from rgss.physics.stage import Posture
+from rgss.scenes import Pose
+from rgss.trials.spec import TrialSpec
+
+_INSET_SHARE = 0.35
+_INSET_MARGIN_SHARE = 0.02
+_FRAME_COLOUR = 255
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Frame:
+    """One picture of a trial.
+
+    Attributes:
+        picture: What is seen, shape (height, width, 3).
+        time_s: When it is seen.
+        span: The phase that ran then.
+    """
+
+    picture: Picture
+    time_s: float
+    span: PhaseSpan
+
+
+class Film:
+    """The frames of a trial, each drawn when it is asked for; a context manager that closes its cameras."""
+
+    def __init__(
+        self,
+        spec: TrialSpec,
+        trace: TrialTrace,
+        view: View,
+        *,
+        inset: View | None = None,
+        width: int,
+        height: int,
+        rate_hz: float,
+    ) -> None:
+        """Set up the cameras.
+
+        Args:
+            spec: The trial.
+            trace: Its course.
+            view: Where the camera stands.
+            inset: Where a second camera stands, whose picture is set into the lower right of the first.
+            width: Width of the pictures in pixels.
+            height: Height of the pictures in pixels.
+            rate_hz: Frames a second.
+
+        Raises:
+            SimulationError: The engine cannot build what is to be seen.
+        """
+        self._trace = trace
+        self._rate_hz = rate_hz
+        self._inset: Camera | None = None
+        with ExitStack() as cameras:  # closes the first camera should the second fail
+            self._camera = cameras.enter_context(Camera(spec.scene, spec.gripper, view, width=width, height=height))
+            if inset is not None:
+                size = {"width": round(_INSET_SHARE * width), "height": round(_INSET_SHARE * height)}
+                self._inset = cameras.enter_context(Camera(spec.scene, spec.gripper, inset, **size))
+            self._cameras = cameras.pop_all()
+
+    def __enter__(self) -> Film:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the cameras; closing twice is allowed."""
+        self._cameras.close()
+
+    def __len__(self) -> int:
+        """Number of frames: one at the beginning of each interval, and one at the end."""
+        return math.ceil(self._trace.duration_s * self._rate_hz - 1e-9) + 1
+
+    def frame(self, index: int) -> Frame:
+        """The frame of an index; the last one shows the end."""
+        last = index >= len(self) - 1
+        return self._frame(len(self._trace.time_s) - 1 if last else self._trace.sample_at(index / self._rate_hz))
+
+    def ends_of_phases(self) -> tuple[Frame, ...]:
+        """A frame of the end of each phase that ran."""
+        return tuple(self._frame(span.last) for span in self._trace.spans)
+
+    def _frame(self, sample: int) -> Frame:
+        trace = self._trace
+        px, py, pz = trace.workpiece_position_m[sample].tolist()
+        qx, qy, qz, qw = trace.workpiece_quaternion_xyzw[sample].tolist()
+        posture = Posture(
+            joints_rad=trace.joint_positions_rad[sample].tolist(),
+            finger_travel_m=trace.finger_travel_m[sample].tolist(),
+            workpiece=Pose(position_m=(px, py, pz), quaternion_xyzw=(qx, qy, qz, qw)),
+        )
+        picture = self._camera.picture(posture)
+        if self._inset is not None:
+            _set_into(picture, self._inset.picture(posture))
+        return Frame(picture=picture, time_s=float(trace.time_s[sample]), span=trace.span_at(sample))
+
+
+def _set_into(picture: Picture, inset: Picture) -> None:
+    """Put a picture with a white frame into the lower right of another."""
+    height, width, _ = picture.shape
+    margin = round(_INSET_MARGIN_SHARE * height)
+    bottom, right = height - margin, width - margin
+    top, left = bottom - inset.shape[0], right - inset.shape[1]
+    line = max(1, width // 300)
+    picture[top - line : bottom + line, left - line : right + line] = _FRAME_COLOUR
+    picture[top:bottom, left:right] = inset

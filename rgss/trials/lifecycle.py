@@ -1,0 +1,154 @@
+"""A simulation as its user handles it: initialise, execute, pause, resume, shut down."""
+
+from __future__ import annotations
+
+import threading
+from enum import Enum
+from types import TracebackType
+
+from rgss.errors import SimulationError
+from rgss.evidence import TrialRecord
+from rgss.trials.observer import StepObserver
+from rgss.trials.run import Pieces
+from rgss.trials.spec import TrialSpec
+
+
+class SimulationState(str, Enum):
+    """Where a simulation stands."""
+
+    CREATED = "created"
+    READY = "ready"
+    RUNNING = "running"
+    PAUSED = "paused"
+    FINISHED = "finished"
+    SHUT_DOWN = "shut_down"
+
+
+class Simulation:
+    """One trial that can be paused; a context manager that always shuts down.
+
+    `pause`, `resume` and `shut_down` may be called from another thread or from an observer while
+    `execute` runs. A pause takes effect between two steps, those of the kinematic model being whole
+    phases, and changes no result.
+    """
+
+    def __init__(self, spec: TrialSpec, *, observer: StepObserver | None = None) -> None:
+        """Take a trial; nothing is computed yet.
+
+        Args:
+            spec: The trial.
+            observer: Looks on after every physics step in contact.
+        """
+        self._spec = spec
+        self._pieces = Pieces(observer=observer, checkpoint=self._wait_while_paused)
+        self._lock = threading.Lock()
+        self._may_run = threading.Event()
+        self._may_run.set()
+        self._state = SimulationState.CREATED
+        self._executing = False
+
+    @property
+    def state(self) -> SimulationState:
+        """Where it stands."""
+        return self._state
+
+    def __enter__(self) -> Simulation:
+        self.initialise()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.shut_down()
+
+    def initialise(self) -> None:
+        """Read the scene into the models and plan and time every move.
+
+        Raises:
+            SimulationError: It was initialised before.
+        """
+        with self._lock:
+            self._demand(SimulationState.READY, SimulationState.CREATED)
+        self._pieces.prepare(self._spec)
+        with self._lock:
+            if self._state is SimulationState.CREATED:
+                self._state = SimulationState.READY
+
+    def execute(self) -> TrialRecord:
+        """Run the eight states of the task; if it is paused, once it is resumed.
+
+        Returns:
+            The record, the same as without any pause.
+
+        Raises:
+            SimulationError: It is not initialised, has run, or was shut down meanwhile.
+        """
+        with self._lock:
+            if self._executing or self._state is not SimulationState.PAUSED:
+                self._demand(SimulationState.RUNNING, SimulationState.READY)
+                self._state = SimulationState.RUNNING
+            self._executing = True
+        try:
+            record = self._pieces.record(self._spec)
+            self._wait_while_paused()
+        except _ShutDownError:
+            raise SimulationError(
+                "the simulation was shut down before the task was complete", hint="make a new one to run it"
+            ) from None
+        except BaseException:
+            self.shut_down()
+            raise
+        with self._lock:
+            if self._state is not SimulationState.SHUT_DOWN:
+                self._state = SimulationState.FINISHED
+        return record
+
+    def pause(self) -> None:
+        """Stop between two steps until `resume`.
+
+        Raises:
+            SimulationError: It is not running or about to run.
+        """
+        with self._lock:
+            self._demand(SimulationState.PAUSED, SimulationState.RUNNING, SimulationState.READY)
+            self._state = SimulationState.PAUSED
+            self._may_run.clear()
+
+    def resume(self) -> None:
+        """Go on after a pause.
+
+        Raises:
+            SimulationError: It is not paused.
+        """
+        with self._lock:
+            self._demand(SimulationState.RUNNING, SimulationState.PAUSED)
+            self._state = SimulationState.RUNNING if self._executing else SimulationState.READY
+            self._may_run.set()
+
+    def shut_down(self) -> None:
+        """End it, even in the middle of the task; the world is closed. Twice is allowed."""
+        with self._lock:
+            self._state = SimulationState.SHUT_DOWN
+            self._may_run.set()
+
+    def _wait_while_paused(self) -> None:
+        self._may_run.wait()
+        if self._state is SimulationState.SHUT_DOWN:
+            raise _ShutDownError
+
+    def _demand(self, state: SimulationState, *before: SimulationState) -> None:
+        """Refuse to become a state except from those that come before it; the lock is held."""
+        if self._state not in before:
+            allowed = " or ".join(_shown(allowed) for allowed in before)
+            raise SimulationError(
+                f"a simulation that is {_shown(self._state)} cannot become {_shown(state)}",
+                hint=f"it must be {allowed}",
+            )
+
+
+class _ShutDownError(Exception):
+    """Unwinds the task so that its world is closed."""
+
+
+def _shown(state: SimulationState) -> str:
+    return state.value.replace("_", " ")

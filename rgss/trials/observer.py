@@ -1,0 +1,30 @@
+"""What may look on while the task runs."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from rgss.evidence import Phase
+from rgss.physics import Contacts, World
+
+
+class StepObserver(Protocol):
+    """Told of every physics step; it reads the world and must not change it."""
+
+    def after_step(
+        self,
+        world: World,
+        phase: Phase,
+        contacts: Contacts,
+        grip_margin: float | None,
+        commanded_force_n: float | None,
+    ) -> None:
+        """Take note of a step.
+
+        Args:
+            world: The world after the step.
+            phase: The phase to which the step belongs.
+            contacts: What touched what.
+            grip_margin: Friction available over friction needed; None while it is not known.
+            commanded_force_n: Force that each finger is told to press with; None while it is to open.
+        """

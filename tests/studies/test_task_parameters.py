@@ -1,0 +1,98 @@
+"""What the task needs of the designs, found wrong before anything is simulated."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+SPACE, CATALOGUE = "designs/grasping_system.yaml", "designs/catalogue.yaml"
+
+VALUES = [
+    ("d4: 0.04 m/s", "d4: 0 m/s", "0 m/s", "error: d4 must be greater than zero [design.not-positive]"),
+    ("d5: 10 N", "d5: 0 N", "0 N\n  d6", "error: d5 must be greater than zero [design.not-positive]"),
+    ("d6: 0.7", "d6: -0.7", "-0.7", "error: d6 must be greater than zero [design.not-positive]"),
+    ("{d7: 0.5 m/s}", "{d7: 0 m/s}", "0 m/s}", "error: d7 must be greater than zero [design.not-positive]"),
+    ("{d9: 4 s}", "{d9: -4 s}", "-4 s}", "error: d9 must be greater than zero [design.not-positive]"),
+    (
+        "{d8: TRRT}",
+        "{d8: PRM}",
+        "PRM",
+        "error: d8: no planner component is named 'PRM' (known planner names: RRT, STRIDE, TRRT)",
+    ),
+]
+
+
+@pytest.mark.verifies("SYS-027")
+@pytest.mark.parametrize(("old", "new", "at", "expected"), VALUES)
+def test_values(edit, problems, place_of, old, new, at, expected):
+    edit(SPACE, old, new)
+
+    (problem,) = problems()
+    assert problem.startswith(f"{place_of(SPACE, at)}: {expected}")
+
+
+@pytest.mark.verifies("SYS-031")
+def test_a_planner_that_only_the_catalogue_knows(edit, problems, place_of):
+    edit(SPACE, "sets: {d8: TRRT}", "sets: {d8: PRM}")
+    edit(CATALOGUE, "matches: {d8: TRRT}", "matches: {d8: PRM}")
+
+    assert problems() == [
+        f"{place_of(SPACE, 'PRM')}: error: there is no planner 'PRM' (planners: RRT, TRRT, STRIDE) [design.planner]"
+    ]
+
+
+def test_a_parameter_that_the_task_needs(folder, problems, place_of):
+    for file in (SPACE, CATALOGUE):
+        text = (folder / file).read_text(encoding="utf-8")
+        (folder / file).write_text(re.sub(r"\bd9\b", "d10", text), encoding="utf-8")
+
+    (problem,) = problems()
+    assert problem.startswith(
+        f"{place_of(SPACE, '- id: d1')}: error: the task needs the design parameter 'd9' (a trial"
+    )
+
+
+def test_a_parameter_of_another_unit(edit, problems, place_of):
+    edit(SPACE, "    unit: s\n", "    unit: m\n")
+    for time in ("4", "6", "8"):
+        edit(SPACE, f"d9: {time} s", f"d9: {time} m")
+
+    (problem,) = problems()
+    assert problem.startswith(f"{place_of(SPACE, 'd9')}: error: d9 must be a quantity in 's' for the task (a trial is")
+
+
+def test_a_planner_that_is_a_number(edit, problems, place_of):
+    edit(SPACE, "    kind: name\n    role: planner\n", '    unit: "1"\n')
+    for number, planner in enumerate(("RRT", "TRRT", "STRIDE")):
+        edit(SPACE, f"d8: {planner}", f"d8: {number}")
+        edit(CATALOGUE, f"d8: {planner}", f"d8: {number}")
+
+    assert problems()[0].startswith(f"{place_of(SPACE, 'd8')}: error: d8 must be a name for the task")
+
+
+def test_a_role_that_the_task_needs(folder, problems, place_of):
+    for file in (CATALOGUE, SPACE, "requirements/measures.yaml"):
+        text = (folder / file).read_text(encoding="utf-8")
+        (folder / file).write_text(text.replace("finger_actuator", "finger_drive"), encoding="utf-8")
+
+    (problem,) = problems()
+    assert problem.startswith(
+        f"{place_of(CATALOGUE, '- id: manipulator')}: error: the task needs components of the role 'finger_actuator'"
+    )
+
+
+def test_a_gripper_without_a_shape(folder, edit, problems):
+    edit(CATALOGUE, "    geometry: scenes/grippers/kg-3.yaml\n", "")
+
+    (problem,) = problems()
+    assert re.match(rf"{CATALOGUE}:\d+:5: error: gripper '.*' has no geometry \(name the file", problem)
+
+
+def test_a_gripper_with_the_shape_of_another(edit, problems):
+    edit(CATALOGUE, "geometry: scenes/grippers/kg-3.yaml", "geometry: scenes/grippers/kg-2.yaml")
+
+    (problem,) = problems()
+    assert re.match(
+        rf"{CATALOGUE}:\d+:15: error: '.*' is for d1 = 3, its shape has 2 fingers \(name the file of another", problem
+    )

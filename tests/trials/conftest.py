@@ -1,0 +1,55 @@
+"""The reference project, its trials, and one replicate of all of them from shared pieces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from rgss.evidence import TrialRecord
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import Project, load_project
+from rgss.trials.run import Pieces
+from rgss.trials.spec import TrialSpec
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Replicate:
+    """Every variant tried with the study's first seed.
+
+    Attributes:
+        specs: The trials by variant.
+        records: Their records by variant.
+        made: How many pieces of each kind were made for them.
+    """
+
+    specs: dict[int, TrialSpec]
+    records: dict[int, TrialRecord]
+    made: dict[str, int]
+
+
+@pytest.fixture(scope="session")
+def project() -> Project:
+    return load_project(REPOSITORY)
+
+
+@pytest.fixture(scope="session")
+def spec_of(project):
+    """Makes the trial of a variant and a seed."""
+
+    def make(variant: int = 65, seed: int = 1) -> TrialSpec:
+        (spec,) = trial_specs(project, variants=[project.designs.variant(variant)], seeds=[seed])
+        return spec
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def replicate(project) -> Replicate:
+    specs = trial_specs(project, seeds=[project.study.seed])
+    pieces = Pieces()
+    records = {spec.variant: pieces.record(spec) for spec in specs}
+    return Replicate(specs={spec.variant: spec for spec in specs}, records=records, made=pieces.made)

@@ -1,0 +1,291 @@
+"""Each way in which a trial can end early, provoked, and named in its record."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+import pytest
+
+from rgss.errors import SimulationError
+from rgss.evidence import Failure, Phase, PhaseOutcome, PlanOutcome, TrialRecord
+from rgss.physics import World
+from rgss.scenes import Box, Cylinder, Pose, SceneBody
+from rgss.trials import timing as timing_module
+from rgss.trials.plan import TaskPlan, plan_task
+from rgss.trials.record import assemble_record
+from rgss.trials.run import execute, run_trial
+from rgss.trials.spec import TrialSpec
+from rgss.trials.timing import TaskTiming, time_task
+from rgss.trials.workcell import Workcell
+
+pytestmark = pytest.mark.engine
+
+
+def with_scene(spec, **changes):
+    return replace(spec, scene=replace(spec.scene, **changes))
+
+
+def with_workpiece(spec, **changes):
+    return with_scene(spec, workpiece=replace(spec.scene.workpiece, **changes))
+
+
+def with_cup_of(spec, radius_m):
+    return with_workpiece(spec, shape=replace(spec.scene.workpiece.shape, radius_m=radius_m))
+
+
+def with_cup_at(spec, x, y):
+    return with_workpiece(spec, pose=Pose(position_m=(x, y, spec.scene.workpiece.pose.position_m[2])))
+
+
+def with_place(spec, **changes):
+    return with_scene(spec, place=replace(spec.scene.place, **changes))
+
+
+def with_task(spec, **changes):
+    return with_scene(spec, task=replace(spec.scene.task, **changes))
+
+
+def with_gripper(spec, **changes):
+    return replace(spec, gripper=replace(spec.gripper, **changes))
+
+
+def with_control(spec, **changes):
+    return replace(spec, settings=replace(spec.settings, control=replace(spec.settings.control, **changes)))
+
+
+def with_body(spec, size_m, position_m):
+    body = SceneBody(
+        id="obstacle", shape=Box(size_m=size_m), pose=Pose(position_m=position_m), friction=0.5, colour=(0, 0, 0, 1)
+    )
+    return with_scene(spec, bodies=(*spec.scene.bodies, body))
+
+
+TRIALS = {
+    "a limit that no search keeps": (
+        lambda spec: replace(spec, planning_limit_s=0.01),
+        (Failure.PLANNING_LIMIT, Phase.MOVE_TO_GRASP, r"RRT found no path in 0\.01 s \(\d+ validity checks\)"),
+    ),
+    "a cup out of reach": (
+        lambda spec: with_cup_at(spec, 3.0, -0.3),
+        (Failure.INVALID_START, Phase.MOVE_TO_GRASP, "no collision-free configuration reaches grasp_approach"),
+    ),
+    "a cup inside another body": (
+        lambda spec: with_cup_at(spec, 0.72, -0.06),
+        (Failure.INVALID_START, Phase.MOVE_TO_GRASP, "no collision-free configuration reaches grasp_approach"),
+    ),
+    "a cup that fills the hand": (
+        lambda spec: with_cup_of(spec, 0.069),
+        (Failure.INVALID_GOAL, Phase.MOVE_TO_GRASP, "no collision-free configuration reaches grasp"),
+    ),
+    "a lift out of reach": (
+        lambda spec: with_task(spec, lift_height_m=0.9),
+        (Failure.UNREACHABLE_WAYPOINT, Phase.LIFT, "the arm cannot follow the straight line of the lift .*"),
+    ),
+    "a place out of reach": (
+        lambda spec: with_place(spec, centre_m=(-3.0, 0.7, 0.9)),
+        (Failure.INVALID_GOAL, Phase.MOVE_TO_PLACE_APPROACH, "no collision-free .* reaches place_approach"),
+    ),
+    "a place that is taken": (
+        lambda spec: with_place(spec, centre_m=(-0.03, 0.68, 0.9)),
+        (Failure.INVALID_GOAL, Phase.MOVE_TO_PLACE, "no collision-free configuration reaches place"),
+    ),
+    "fingers too weak": (
+        lambda spec: with_gripper(spec, finger_force_n=0.3),
+        (Failure.NO_FIRM_GRASP, Phase.GRASP, r"fingers press with [\d., ]+ N, each needs 1\.75 N"),
+    ),
+    "a cup narrower than the closed hand": (
+        lambda spec: with_cup_of(spec, 0.018),
+        (Failure.NO_FIRM_GRASP, Phase.GRASP, r"fingers press with 0\.00, 0\.00 N, each needs 1\.75 N"),
+    ),
+    "a cup too heavy to begin with": (
+        lambda spec: with_workpiece(spec, mass_kg=3.0),
+        (Failure.NO_FIRM_GRASP, Phase.GRASP, r"fingers press with [\d., ]+ N, each needs 21\.02 N"),
+    ),
+    "a cup that bears little": (
+        lambda spec: with_workpiece(spec, force_limit_n=5.0),
+        (Failure.OBJECT_DAMAGED, Phase.GRASP, r"a finger pressed with \d+\.\d\d N, the object bears 5 N"),
+    ),
+    "hardly any friction": (
+        lambda spec: with_gripper(spec, friction=0.13),
+        (Failure.OBJECT_DROPPED, Phase.LIFT, r"the object slipped \d+\.\d mm in the gripper"),
+    ),
+    "no deviation allowed": (
+        lambda spec: with_control(spec, largest_tracking_error_m=1e-9),
+        (Failure.TRACKING_ERROR, Phase.MOVE_TO_GRASP, r"the tool was 0\.00 mm from where it should be"),
+    ),
+    "a place region of no size": (
+        lambda spec: with_place(spec, radius_m=1e-7),
+        (
+            Failure.NOT_IN_PLACE_REGION,
+            Phase.PLACE,
+            r"the object is 0\.\d mm from the place and 0\.\d mm off its height",
+        ),
+    ),
+    "a cup released high above the place": (
+        lambda spec: with_task(spec, place_clearance_m=0.25),
+        (Failure.NOT_UPRIGHT, Phase.PLACE, r"the object leans by \d+\.\d deg"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TRIALS)
+def test_a_trial_names_its_failure(spec_of, name):
+    change, (failure, phase, detail) = TRIALS[name]
+    record = run_trial(change(spec_of()))
+
+    assert (record.failure, record.failed_phase) == (failure, phase)
+    assert re.fullmatch(detail, record.failure_detail)
+    agrees_with_its_phases(record)
+
+
+def agrees_with_its_phases(record: TrialRecord) -> None:
+    done = list(Phase).index(record.failed_phase)
+    assert not record.success
+    assert record.metrics["success"] == 0
+    assert record.metrics["phases_completed"] == done
+    assert record.metrics["task_time_s"] is None
+    assert record.phases[done].outcome is PhaseOutcome.FAILED
+    assert {phase.outcome for phase in record.phases[:done]} <= {PhaseOutcome.COMPLETED}
+    assert {phase.outcome for phase in record.phases[done + 1 :]} <= {PhaseOutcome.NOT_RUN}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Planned:
+    """A trial that is planned and timed, and goes on in another world than it was planned for."""
+
+    spec: TrialSpec
+    cell: Workcell
+    plan: TaskPlan
+    timing: TaskTiming
+
+    def run_in(self, spec):
+        return assemble_record(spec, self.plan, self.timing.failures, execute(spec, self.cell, self.timing))
+
+    def timed_in(self, spec):
+        cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=spec.settings.planning.clearance_m)
+        return time_task(cell, self.plan, tool_speed_m_s=spec.tool_speed_m_s, settings=spec.settings.planning)
+
+
+@pytest.fixture(scope="module")
+def planned(spec_of):
+    spec = spec_of()
+    planning = spec.settings.planning
+    cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m)
+    plan = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
+    timing = time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
+    return Planned(spec=spec, cell=cell, plan=plan, timing=timing)
+
+
+def with_tall_cup(spec):
+    return with_workpiece(spec, shape=Cylinder(radius_m=0.035, height_m=0.16), pose=Pose(position_m=(0.7, -0.3, 0.98)))
+
+
+UNFORESEEN = {
+    "a bar over the cup": (
+        lambda spec: with_body(spec, (0.3, 0.02, 0.02), (0.70, -0.30, 1.03)),
+        (Failure.ARM_COLLISION, Phase.MOVE_TO_GRASP, r"finger_\d touched obstacle"),
+    ),
+    "a saucer on the place": (
+        lambda spec: with_body(spec, (0.1, 0.1, 0.02), (-0.25, 0.70, 0.91)),
+        (Failure.OBJECT_COLLISION, Phase.MOVE_TO_PLACE, "the object touched obstacle"),
+    ),
+    "a taller cup": (
+        with_tall_cup,
+        (Failure.OBJECT_COLLISION, Phase.MOVE_TO_GRASP, r"the arm pressed the object with \d+\.\d\d N"),
+    ),
+    "a cup under the finger": (
+        lambda spec: with_cup_at(spec, 0.74, -0.3),
+        (Failure.OBJECT_DAMAGED, Phase.MOVE_TO_GRASP, r"a finger pressed with \d+\.\d\d N, the object bears 40 N"),
+    ),
+    "a cup that does not stay where it was": (
+        lambda spec: with_workpiece(spec, pose=spec.scene.workpiece.pose.raised(0.008)),
+        (Failure.OBJECT_COLLISION, Phase.MOVE_TO_GRASP, r"the object was pushed 8\.\d mm before the grasp"),
+    ),
+}
+
+
+@pytest.mark.verifies("SYS-003")
+@pytest.mark.parametrize("name", UNFORESEEN)
+def test_what_planning_did_not_know_ends_the_trial(planned, name):
+    change, (failure, phase, detail) = UNFORESEEN[name]
+    record = planned.run_in(change(planned.spec))
+
+    assert (record.failure, record.failed_phase) == (failure, phase)
+    assert re.fullmatch(detail, record.failure_detail)
+    agrees_with_its_phases(record)
+    assert (record.metrics["arm_scene_contacts"] > 0) is (failure is Failure.ARM_COLLISION)
+
+
+@pytest.mark.verifies("SYS-034")
+def test_what_runs_is_itself_checked(planned):
+    spec = with_body(planned.spec, (0.1, 0.1, 0.02), (-0.25, 0.70, 0.91))
+    timing = planned.timed_in(spec)
+
+    assert timing.failures == {
+        Phase.MOVE_TO_PLACE: (
+            Failure.TRAJECTORY_IN_COLLISION,
+            "the timed motion would touch something that the path did not",
+        )
+    }
+    record = assemble_record(spec, planned.plan, timing.failures, execute(spec, planned.cell, timing))
+    assert (record.failure, record.failed_phase) == (Failure.TRAJECTORY_IN_COLLISION, Phase.MOVE_TO_PLACE)
+    assert record.planning[3].outcome is PlanOutcome.SOLVED
+    agrees_with_its_phases(record)
+
+
+def test_a_motion_that_keeps_no_limits_is_named(planned, monkeypatch):
+    real = timing_module.time_move
+
+    def infeasible(*arguments, **options):
+        timed = real(*arguments, **options)
+        return replace(timed, outcome=timing_module.TimingOutcome.INFEASIBLE, trajectory=None)
+
+    monkeypatch.setattr(timing_module, "time_move", infeasible)
+    timing = planned.timed_in(planned.spec)
+
+    assert not timing.trajectories
+    assert set(timing.failures.values()) == {
+        (Failure.TRAJECTORY_INFEASIBLE, "no motion along the path keeps the limits of joints and tool")
+    }
+    assert execute(planned.spec, planned.cell, timing) == ()
+
+
+class StuckWorld(World):
+    """The fingers stop two millimetres before they are open."""
+
+    def finger_travel_m(self):
+        return tuple(max(travel, 0.002) for travel in super().finger_travel_m())
+
+
+class StickyWorld(World):
+    """A finger keeps touching the object once the hand has opened."""
+
+    _opened = 0
+
+    def hold_open(self):
+        self._opened += 1
+        super().hold_open()
+
+    def contacts(self):
+        contacts = super().contacts()
+        return replace(contacts, finger_forces_n=(0.1, 0.0)) if self._opened > 1 else contacts
+
+
+@pytest.mark.verifies("SYS-008")
+@pytest.mark.parametrize(
+    ("world", "detail"),
+    [(StuckWorld, "a finger is still 2.0 mm from open"), (StickyWorld, "1 fingers still touch the object")],
+)
+def test_a_hand_that_does_not_let_go_is_named(planned, monkeypatch, world, detail):
+    monkeypatch.setattr("rgss.trials.run.World", world)
+    record = planned.run_in(planned.spec)
+
+    assert (record.failure, record.failed_phase) == (Failure.NOT_RELEASED, Phase.PLACE)
+    assert record.failure_detail == detail
+    agrees_with_its_phases(record)
+
+
+def test_a_world_that_cannot_be_built_is_an_error(planned):
+    with pytest.raises(SimulationError, match="the workpiece cannot have the mass 0"):
+        planned.run_in(with_workpiece(planned.spec, mass_kg=0.0))

@@ -1,0 +1,124 @@
+"""The task program on a plant that does what it is told: order, first failure, missing motions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rgss.evidence import Failure, Phase
+from rgss.trials.phase_result import PhaseResult
+from rgss.trials.program import run_program
+from rgss.trials.reference import Reference
+
+MOVES = tuple(phase for phase in Phase if phase not in (Phase.GRASP, Phase.PLACE))
+START_RAD = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
+
+
+class ScriptedPlant:
+    """Notes what it is asked for, and fails where it is told to."""
+
+    def __init__(self, fails_at=None):
+        self.calls = []
+        self.fails_at = fails_at
+
+    def start(self, configuration_rad):
+        self.calls.append(("start", configuration_rad))
+
+    def move(self, phase, reference):
+        self.calls.append(("move", phase, reference))
+        return self._result(phase)
+
+    def grasp(self):
+        self.calls.append(("grasp",))
+        return self._result(Phase.GRASP)
+
+    def place(self):
+        self.calls.append(("place",))
+        return self._result(Phase.PLACE)
+
+    def _result(self, phase):
+        failure = Failure.OBJECT_DROPPED if phase is self.fails_at else None
+        detail = "" if failure is None else "it fell"
+        return PhaseResult(phase=phase, failure=failure, detail=detail, duration_s=1.0, metrics={})
+
+
+def reference(first_rad=0.0):
+    positions = np.full((2, 6), first_rad)
+    return Reference(
+        positions_rad=positions,
+        velocities_rad_s=np.zeros((1, 6)),
+        tool_m=np.zeros((2, 3)),
+        load_m_s2=np.zeros(1),
+        peak_tool_speed_m_s=0.0,
+        peak_tool_acceleration_m_s2=0.0,
+    )
+
+
+@pytest.fixture
+def references():
+    found = {phase: reference(float(index)) for index, phase in enumerate(MOVES)}
+    found[Phase.MOVE_TO_GRASP].positions_rad[0] = START_RAD
+    return found
+
+
+def test_the_eight_states_run_in_their_order(references):
+    plant = ScriptedPlant()
+    results = run_program(plant, references)
+    assert [result.phase for result in results] == list(Phase)
+    assert plant.calls == [
+        ("start", START_RAD),
+        ("move", Phase.MOVE_TO_GRASP, references[Phase.MOVE_TO_GRASP]),
+        ("grasp",),
+        ("move", Phase.LIFT, references[Phase.LIFT]),
+        ("move", Phase.MOVE_TO_GRASP_DEPARTURE, references[Phase.MOVE_TO_GRASP_DEPARTURE]),
+        ("move", Phase.MOVE_TO_PLACE_APPROACH, references[Phase.MOVE_TO_PLACE_APPROACH]),
+        ("move", Phase.MOVE_TO_PLACE, references[Phase.MOVE_TO_PLACE]),
+        ("place",),
+        ("move", Phase.MOVE_TO_GRASP_APPROACH, references[Phase.MOVE_TO_GRASP_APPROACH]),
+    ]
+
+
+def test_it_starts_once_where_the_first_motion_begins_in_plain_numbers(references):
+    plant = ScriptedPlant()
+    run_program(plant, references)
+    starts = [call for call in plant.calls if call[0] == "start"]
+    assert starts == [("start", START_RAD)]
+    assert all(type(angle) is float for angle in starts[0][1])
+
+
+@pytest.mark.parametrize("phase", Phase)
+def test_it_ends_with_the_first_failure(references, phase):
+    plant = ScriptedPlant(fails_at=phase)
+    results = run_program(plant, references)
+    ran = list(Phase)[: list(Phase).index(phase) + 1]
+    assert [result.phase for result in results] == ran
+    assert [result.failure for result in results] == [None] * (len(ran) - 1) + [Failure.OBJECT_DROPPED]
+    assert len(plant.calls) == len(ran) + 1
+
+
+@pytest.mark.parametrize("phase", MOVES[1:])
+def test_it_ends_before_a_move_that_has_no_motion(references, phase):
+    del references[phase]
+    results = run_program(ScriptedPlant(), references)
+    assert [result.phase for result in results] == list(Phase)[: list(Phase).index(phase)]
+
+
+def test_without_the_first_motion_nothing_is_started(references):
+    del references[Phase.MOVE_TO_GRASP]
+    plant = ScriptedPlant()
+    assert run_program(plant, references) == ()
+    assert plant.calls == []
+
+
+def test_a_checkpoint_is_passed_before_each_phase_and_may_end_the_program(references):
+    plant, passed = ScriptedPlant(), []
+
+    def checkpoint():
+        passed.append(len(plant.calls))
+        if len(passed) == 4:
+            raise RuntimeError("stop")
+
+    with pytest.raises(RuntimeError, match="stop"):
+        run_program(plant, references, checkpoint=checkpoint)
+    assert passed == [1, 2, 3, 4]
+    assert [call[0] for call in plant.calls] == ["start", "move", "grasp", "move"]

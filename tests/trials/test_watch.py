@@ -1,0 +1,209 @@
+"""What a phase's watch makes of contacts and poses, in a world that says what the test wants."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import pytest
+
+from rgss.evidence import Failure
+from rgss.physics import Contacts, PhysicsSettings
+from rgss.scenes import Pose
+from rgss.trials.control import ControlSettings
+from rgss.trials.watch import Watch
+
+CONTROL = ControlSettings()
+QUIET = Contacts(
+    finger_forces_n=(0.0, 0.0, 0.0), other_force_n=0.0, friction_n=(0.0, 0.0, 0.0), robot_bodies=(), workpiece_bodies=()
+)
+TOOL = Pose(position_m=(0.1, 0.2, 0.3), quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
+HELD = Pose(position_m=(0.0, 0.0, 0.01))
+
+
+class ScriptedWorld:
+    """Stands in for the physics: every answer is an attribute that the test sets."""
+
+    def __init__(self, spec):
+        self.scene = spec.scene
+        self.gripper = spec.gripper
+        self.settings = PhysicsSettings()
+        self.now = QUIET
+        self.tool = TOOL
+        self.workpiece = TOOL @ HELD
+        self.torques = (0.0,) * 6
+
+    def contacts(self):
+        return self.now
+
+    def tool_pose(self):
+        return self.tool
+
+    def workpiece_pose(self):
+        return self.workpiece
+
+    def arm_state(self):
+        return (0.0,) * 6, (0.0,) * 6, self.torques
+
+
+@pytest.fixture
+def world(spec_of):
+    return ScriptedWorld(spec_of())
+
+
+def watch_of(world, *, carried=False, resting_on=""):
+    return Watch(world, CONTROL, carried_at=HELD if carried else None, resting_on=resting_on)
+
+
+def contacts(*forces, other=0.0, robot=(), workpiece=()):
+    return Contacts(
+        finger_forces_n=forces or (0.0, 0.0),
+        other_force_n=other,
+        friction_n=(0.0, 0.0, 0.0),
+        robot_bodies=robot,
+        workpiece_bodies=workpiece,
+    )
+
+
+def seen(world, watch, what, steps=1, load=9.81):
+    world.now = what
+    for index in range(steps):
+        watch.after_step(index, load, None)
+    return watch.failure, watch.detail
+
+
+def test_nothing_happens(world):
+    watch = watch_of(world)
+
+    assert seen(world, watch, QUIET, steps=100) == (None, "")
+    metrics = watch.metrics()
+    assert metrics["arm_scene_contacts"] == 0
+    assert metrics["slip_m"] is None
+    assert metrics["grip_margin_min"] is None
+
+
+@pytest.mark.parametrize(
+    ("what", "failure", "detail"),
+    [
+        (contacts(robot=(("forearm_link", "shelf"),)), Failure.ARM_COLLISION, "forearm_link touched shelf"),
+        (contacts(other=1.234), Failure.OBJECT_COLLISION, "the arm pressed the object with 1.23 N"),
+        (contacts(workpiece=("menu_stand",)), Failure.OBJECT_COLLISION, "the object touched menu_stand"),
+        (contacts(3.0, 40.5), Failure.OBJECT_DAMAGED, "a finger pressed with 40.50 N, the object bears 40 N"),
+    ],
+)
+def test_what_must_not_be_touched(world, what, failure, detail):
+    watch = watch_of(world, resting_on="counter_pick")
+
+    assert seen(world, watch, what) == (failure, detail)
+    assert watch.metrics()["arm_scene_contacts"] == len(what.robot_bodies)
+
+
+def test_the_object_may_touch_what_it_rests_on(world):
+    assert seen(world, watch_of(world, resting_on="counter_pick"), contacts(workpiece=("counter_pick",)))[0] is None
+    assert seen(world, watch_of(world), contacts(workpiece=("counter_pick",)))[0] is Failure.OBJECT_COLLISION
+
+
+def test_the_object_bears_its_limit(world):
+    assert seen(world, watch_of(world), contacts(40.0, 40.0))[0] is None
+
+
+def test_the_first_failure_counts(world):
+    watch = watch_of(world)
+    seen(world, watch, contacts(other=2.0))
+
+    assert seen(world, watch, contacts(robot=(("wrist", "lamp"),)))[0] is Failure.OBJECT_COLLISION
+
+
+def test_the_peak_force_is_the_largest_of_one_finger(world):
+    watch = watch_of(world)
+    for forces in ((3.0, 4.0), (9.5, 1.0), (2.0, 8.0)):
+        seen(world, watch, contacts(*forces))
+
+    assert watch.metrics()["peak_finger_force_n"] == 9.5
+
+
+def test_a_held_object_has_the_margin_of_coulombs_law(world):
+    watch = watch_of(world, carried=True)
+    seen(world, watch, contacts(10.0, 10.0), steps=48, load=11.0)
+
+    friction = world.gripper.friction * world.scene.workpiece.friction
+    margin = friction * 20.0 / (world.scene.workpiece.mass_kg * 11.0)
+    assert watch.metrics()["grip_margin_min"] == pytest.approx(margin)
+    assert watch.failure is None
+
+
+def test_the_margin_is_the_smallest_while_carrying(world):
+    watch = watch_of(world, carried=True)
+    for force in (10.0, 4.0, 10.0):
+        seen(world, watch, contacts(force, force), steps=48, load=9.81)
+
+    friction = world.gripper.friction * world.scene.workpiece.friction
+    assert watch.metrics()["grip_margin_min"] == pytest.approx(friction * 8.0 / (world.scene.workpiece.mass_kg * 9.81))
+
+
+def test_an_object_that_one_finger_touches_for_long_is_dropped(world):
+    watch = watch_of(world, carried=True)
+    steps = math.ceil(CONTROL.lost_contact_s / world.settings.step_s)
+
+    assert seen(world, watch, contacts(10.0, 0.0), steps=steps - 1)[0] is None
+    failure, detail = seen(world, watch, contacts(10.0, 0.0), steps=2)
+    assert failure is Failure.OBJECT_DROPPED
+    assert re.fullmatch("1 fingers touched the object for 5[04] ms", detail)
+
+
+def test_a_touch_of_two_fingers_in_between_is_enough(world):
+    watch = watch_of(world, carried=True)
+    steps = math.ceil(CONTROL.lost_contact_s / world.settings.step_s) - 1
+    for _ in range(5):
+        seen(world, watch, contacts(0.0, 0.0), steps=steps)
+        seen(world, watch, contacts(1.0, 1.0))
+
+    assert watch.failure is None
+
+
+def test_fingers_may_let_go_of_what_is_not_carried(world):
+    assert seen(world, watch_of(world), contacts(0.0, 0.0), steps=100)[0] is None
+
+
+def test_slip_is_the_displacement_in_the_gripper(world):
+    watch = watch_of(world, carried=True)
+    # Arm and object moved together: no slip.
+    moved = Pose(position_m=(0.5, -0.4, 0.9), quaternion_xyzw=(0.0, 1.0, 0.0, 0.0))
+    world.tool, world.workpiece = moved, moved @ HELD
+    seen(world, watch, contacts(9.0, 9.0))
+    assert watch.metrics()["slip_m"] == pytest.approx(0.0, abs=1e-12)
+
+    world.workpiece = moved @ Pose(position_m=(0.0, 0.004, 0.013))
+    seen(world, watch, contacts(9.0, 9.0))
+    assert watch.metrics()["slip_m"] == pytest.approx(0.005)
+    assert watch.failure is None
+
+    world.workpiece = moved @ Pose(position_m=(0.0, 0.0, 0.0305))
+    assert seen(world, watch, contacts(9.0, 9.0)) == (
+        Failure.OBJECT_DROPPED,
+        "the object slipped 20.5 mm in the gripper",
+    )
+
+
+def test_a_tool_that_strays_is_a_failure(world):
+    watch = watch_of(world)
+    watch.finish((0.1, 0.2, 0.3015))
+    assert watch.failure is None
+    assert watch.metrics()["tracking_error_m"] == pytest.approx(0.0015)
+
+    watch.finish((0.1, 0.2, 0.3025))
+    assert (watch.failure, watch.detail) == (
+        Failure.TRACKING_ERROR,
+        "the tool was 2.50 mm from where it should be",
+    )
+
+
+def test_the_torque_ratio_is_the_largest_share_of_a_joints_limit(world):
+    watch = watch_of(world)
+    limits = [joint.torque_n_m for joint in world.scene.robot.joints]
+    for torques in ((-0.5 * limits[0], 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.25 * limits[4], 0.0)):
+        world.torques = torques
+        watch.finish(None)
+
+    assert watch.metrics()["peak_joint_torque_ratio"] == pytest.approx(0.5)
+    assert watch.metrics()["tracking_error_m"] == 0.0
