@@ -45,6 +45,7 @@ class FingerContact:
         gap_m: Distance of the surfaces along the normal, negative where they penetrate.
         normal_force_n: Force along the normal.
         friction_n: Friction force on the workpiece.
+        relative_velocity_m_s: Velocity of the workpiece's point relative to the finger's.
     """
 
     finger: int
@@ -53,3 +54,4 @@ class FingerContact:
     gap_m: float
     normal_force_n: float
     friction_n: tuple[float, float, float]
+    relative_velocity_m_s: tuple[float, float, float]

@@ -14,6 +14,7 @@ from types import TracebackType
 from typing import Any
 
 from rgss.errors import SimulationError
+from rgss.physics.contact_reader import ContactReader
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.settings import PhysicsSettings
@@ -51,6 +52,7 @@ class World:
         self.gripper = gripper
         self.settings = settings
         self._steps = 0
+        self._to_renew: list[int] = []
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
             self._set_parameters()
@@ -144,8 +146,7 @@ class World:
         that should not, and an opening finger drags the object along. Each renewal costs the
         deflection of the friction that held the object, some hundredths of a millimetre.
         """
-        # Setting a filter, even to what it is, takes the body out of the broad phase and puts it back.
-        self._engine.setCollisionFilterGroupMask(self._workpiece, -1, 1, -1, physicsClientId=self._client)
+        self._rediscover(self._workpiece, -1)
 
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
         """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm."""
@@ -182,73 +183,25 @@ class World:
 
         The arm's base link does not move and so is never reported, wherever it is mounted.
         """
-        forces = [0.0] * len(self._finger_joints)
-        other = fx = fy = fz = 0.0
-        robot_bodies: list[tuple[str, str]] = []
-        workpiece_bodies: list[str] = []
-        robot, workpiece = self._robot, self._workpiece
-        # All are asked for: asked for one body's, the engine names it A, yet does not turn the friction round.
-        for point in self._engine.getContactPoints(physicsClientId=self._client):
-            force = point[9]
-            if force <= 0.0 and point[8] > 0.0:
-                continue
-            body_a, body_b = point[1], point[2]
-            if body_a == robot or body_b == robot:
-                robot_is_a = body_a == robot
-                link, partner = (point[3], body_b) if robot_is_a else (point[4], body_a)
-                if partner != workpiece:
-                    robot_bodies.append((self._link_names[link], self._scene_names[partner]))
-                    continue
-                finger = self._finger_of_link.get(link)
-                if finger is None:
-                    other += force
-                    continue
-                forces[finger] += force
-                # The engine gives friction as it acts on body A.
-                sign = -1.0 if robot_is_a else 1.0
-                first, along_first, second, along_second = point[10], point[11], point[12], point[13]
-                fx += sign * (first * along_first[0] + second * along_second[0])
-                fy += sign * (first * along_first[1] + second * along_second[1])
-                fz += sign * (first * along_first[2] + second * along_second[2])
-            elif body_a == workpiece or body_b == workpiece:
-                workpiece_bodies.append(self._scene_names[body_b if body_a == workpiece else body_a])
-        return Contacts(
-            finger_forces_n=tuple(forces),
-            other_force_n=other,
-            friction_n=(fx, fy, fz),
-            robot_bodies=tuple(dict.fromkeys(robot_bodies)),
-            workpiece_bodies=tuple(dict.fromkeys(workpiece_bodies)),
-        )
+        return self._reader.contacts()
 
     def finger_contacts(self) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step."""
-        found = []
-        for point in self._engine.getContactPoints(physicsClientId=self._client):
-            bodies = (point[1], point[2])
-            if self._workpiece not in bodies or self._robot not in bodies or point[9] <= 0.0:
-                continue
-            workpiece_is_a = bodies[0] == self._workpiece
-            finger = self._finger_of_link.get(point[4] if workpiece_is_a else point[3])
-            if finger is None:
-                continue
-            # The engine's normal points from body B to body A, its friction acts on A.
-            sign = 1.0 if workpiece_is_a else -1.0
-            normal = tuple(sign * value for value in point[7])
-            friction = tuple(
-                sign * (point[10] * first + point[12] * second)
-                for first, second in zip(point[11], point[13], strict=True)
-            )
-            found.append(
-                FingerContact(finger, tuple(point[5 if workpiece_is_a else 6]), normal, point[8], point[9], friction)
-            )
-        return tuple(found)
+        return self._reader.finger_contacts()
 
     def _renew_contacts_after_rotation(self) -> None:
         _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=self._client)
         cosine = abs(sum(a * b for a, b in zip(turned, self._renewed_at, strict=True)))
         if cosine < _RENEWAL_COSINE:
             self._renewed_at = turned
-            self.renew_contacts()
+            self._to_renew = list(self._finger_joints)
+        if self._to_renew:
+            # One finger at a time, so that the others hold the object meanwhile.
+            self._rediscover(self._robot, self._to_renew.pop(0))
+
+    def _rediscover(self, body: int, link: int) -> None:
+        # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
+        self._engine.setCollisionFilterGroupMask(body, link, 1, -1, physicsClientId=self._client)
 
     def _set_parameters(self) -> None:
         engine, client = self._engine, self._client
@@ -343,8 +296,8 @@ class World:
         ]
         joints = {entry[1].decode(): entry[0] for entry in info}
         links = {entry[12].decode(): entry[0] for entry in info}
-        self._link_names = {index: name for name, index in links.items()}
-        self._link_names[-1] = engine.getBodyInfo(robot, physicsClientId=client)[0].decode()
+        link_names = {index: name for name, index in links.items()}
+        link_names[-1] = engine.getBodyInfo(robot, physicsClientId=client)[0].decode()
         arm = self.scene.robot.joints
         self._arm_joints = [joints[joint.name] for joint in arm]
         self._arm_torques = [joint.torque_n_m for joint in arm]
@@ -352,8 +305,16 @@ class World:
         self._arm_velocity_gains = [1.0] * len(arm)
         fingers = range(self.gripper.geometry.fingers)
         self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
-        self._finger_of_link = {joint: finger for finger, joint in enumerate(self._finger_joints)}
         self._flange = links[self.scene.robot.flange]
+        self._reader = ContactReader(
+            engine,
+            client,
+            robot=robot,
+            workpiece=self._workpiece,
+            finger_links=self._finger_joints,
+            link_names=link_names,
+            scene_names=self._scene_names,
+        )
         for link in range(-1, len(info)):
             engine.changeDynamics(
                 robot, link, linearDamping=0.0, angularDamping=0.0, jointDamping=0.0, physicsClientId=client

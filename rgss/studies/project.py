@@ -121,7 +121,7 @@ def load_project(folder: Path, study: str | None = None) -> Project:
     Raises:
         DocumentError: Files are wrong; with every problem in all of them.
     """
-    return _Reader(folder).read(study if study is not None else DEFAULT_STUDY)
+    return _Reader(folder).read(study)
 
 
 def _undecidable(project: Project) -> tuple[Finding, ...]:
@@ -140,7 +140,7 @@ class _Reader:
         self._folder = folder
         self._findings: list[Finding] = []
 
-    def read(self, study_name: str) -> Project:
+    def read(self, study_name: str | None) -> Project:
         folder = self._folder
         requirements = self._try(lambda: load_requirements(folder / "requirements"))
         measures = self._try(lambda: load_measures(folder / MEASURES, label=MEASURES))
@@ -190,7 +190,10 @@ class _Reader:
             self._findings.extend(error.findings)
             return None
 
-    def _study_file(self, name: str) -> tuple[Path, str]:
+    def _study_file(self, name: str | None) -> tuple[Path, str]:
+        if name is None:
+            # That of another project, in which this process may have been started, is never meant.
+            return self._folder / DEFAULT_STUDY, DEFAULT_STUDY
         path = self._folder / name
         try:
             if not path.is_file() and Path(name).is_file():

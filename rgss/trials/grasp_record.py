@@ -2,8 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rgss.evidence import Metric
-from rgss.grasping import ContactKind, ContactPoint, Wrench, analyse_grasp
+from rgss.grasping import (
+    ContactKind,
+    ContactPoint,
+    ContactState,
+    ContactTolerances,
+    Sliding,
+    Tendency,
+    Wrench,
+    analyse_grasp,
+    contact_status,
+    recorded_motion,
+)
 from rgss.physics import World
 from rgss.scenes import Pose
 
@@ -23,6 +36,8 @@ _RECORDED = (
 PREFIX = "grasp_"
 # A pyramid of six edges underrates friction by at most 1 - cos(30°); more edges cost more than the physics.
 _CONE_EDGES = 6
+# Contacts of the engine penetrate by hundredths of a millimetre, and friction gives way at less than this.
+_TOLERANCES = ContactTolerances(gap_m=5.0e-5, speed_m_s=1.0e-3)
 
 
 def grasp_metrics(world: World) -> dict[str, Metric]:
@@ -52,6 +67,7 @@ def grasp_metrics(world: World) -> dict[str, Metric]:
             normal_force_n=contact.normal_force_n,
             friction_force_n=turn.rotate(contact.friction_n),
             gap_m=contact.gap_m,
+            relative_velocity_m_s=turn.rotate(contact.relative_velocity_m_s),
             finger=contact.finger,
         )
         for contact in contacts
@@ -67,4 +83,15 @@ def grasp_metrics(world: World) -> dict[str, Metric]:
         cone_edges=_CONE_EDGES,
     )
     found = quality.metrics()
-    return {f"{PREFIX}{name}": found[name] for name in _RECORDED}
+    return {**{f"{PREFIX}{name}": found[name] for name in _RECORDED}, **_kinematics(points)}
+
+
+def _kinematics(points: Sequence[ContactPoint]) -> dict[str, Metric]:
+    """How the contacts move: their least gap, and how many penetrate, part, or slip."""
+    statuses = [contact_status(recorded_motion(point), _TOLERANCES) for point in points]
+    return {
+        "contact_gap_min_m": min(point.gap_m for point in points),
+        "contacts_penetrating": sum(status.state is ContactState.PENETRATING for status in statuses),
+        "contacts_separating": sum(status.tendency is Tendency.SEPARATING for status in statuses),
+        "contacts_slipping": sum(status.sliding is Sliding.SLIPPING for status in statuses),
+    }

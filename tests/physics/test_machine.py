@@ -20,7 +20,7 @@ def dynamics(world, body: int, link: int) -> tuple:
 def test_links_have_the_masses_and_inertias_of_the_description(cell):
     root = ET.fromstring(assembled_urdf(cell.scene.robot, cell.gripper))  # noqa: S314 - our own text
     with cell.world() as world:
-        number_of = {name: number for number, name in world._link_names.items()}
+        number_of = {name: number for number, name in world._reader._link_names.items()}
         # The base stands still and has no mass to the engine.
         moving = [link for link in root.findall("link") if number_of[link.get("name")] >= 0]
         assert len(moving) == 6 + 1 + 1 + cell.gripper.geometry.fingers
@@ -48,7 +48,7 @@ def test_links_are_the_primitive_solids_of_the_description(cell):
     root = ET.fromstring(assembled_urdf(cell.scene.robot, cell.gripper))  # noqa: S314 - our own text
     with cell.world() as world:
         kinds = {world._engine.GEOM_CYLINDER: "cylinder", world._engine.GEOM_BOX: "box"}
-        for number, name in world._link_names.items():
+        for number, name in world._reader._link_names.items():
             (link,) = (each for each in root.findall("link") if each.get("name") == name)
             shapes = world._engine.getCollisionShapeData(world._robot, number, physicsClientId=world._client)
             solids = [solid for geometry in link.findall("collision/geometry") for solid in geometry]
@@ -67,7 +67,7 @@ def test_frictions_are_those_of_scene_and_design(cell):
             (number,) = (number for number, name in world._scene_names.items() if name == body.id)
             assert dynamics(world, number, -1)[FRICTION] == body.friction
         assert dynamics(world, world._workpiece, -1)[FRICTION] == cell.scene.workpiece.friction
-        number_of = {name: number for number, name in world._link_names.items()}
+        number_of = {name: number for number, name in world._reader._link_names.items()}
         for finger in range(cell.gripper.geometry.fingers):
             assert dynamics(world, world._robot, number_of[finger_link(finger)])[FRICTION] == cell.gripper.friction
 

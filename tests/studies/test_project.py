@@ -122,6 +122,13 @@ def test_a_study_is_named_relative_to_the_project_or_to_here(folder, edit, monke
     assert load_project(folder, str(tmp_path / "elsewhere.yaml")).study.label == str(tmp_path / "elsewhere.yaml")
 
 
+def test_the_default_study_is_that_of_the_project_wherever_one_stands(folder, problems, shipped, monkeypatch):
+    (folder / STUDY).unlink()
+    monkeypatch.chdir(shipped.folder)
+
+    assert problems() == [f"{STUDY}:1:1: error: no such file (check the name and --project) [document.missing]"]
+
+
 @pytest.mark.parametrize("name", ["studies/nothing.yaml", "x" * 5000, "a\0b"])
 def test_a_study_that_is_not_there(problems, name):
     (problem,) = problems(name)
