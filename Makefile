@@ -31,7 +31,7 @@ test: setup ## run the whole test suite
 
 lock: ## resolve requirements.lock anew from pyproject.toml (needs uv)
 	@UV_CUSTOM_COMPILE_COMMAND="make lock" uv pip compile --quiet --universal --python-version 3.10 \
-		--generate-hashes --no-emit-index-url --extra dev --output-file requirements.lock pyproject.toml
+		--generate-hashes --no-emit-index-url --no-strip-extras --extra dev --output-file requirements.lock pyproject.toml
 
 clean: ## remove the environment and all caches; evidence in .rgss stays
 	@rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache .grimp_cache build dist
