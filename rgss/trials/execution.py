@@ -19,6 +19,7 @@ from rgss.trials.watch import Watch
 CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 _ANALYSED = (Phase.LIFT, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 _OPEN_TOLERANCE_M = 5.0e-4
+_FAIR_PART = 0.5
 
 
 class Execution:
@@ -131,7 +132,7 @@ class Execution:
             contacts = self._observe(Phase.GRASP, watch, steps, scene.gravity_m_s2, None)
             steps += 1
             forces = contacts.finger_forces_n
-            firm_s = firm_s + self._step_s if min(forces) > needed_n else 0.0
+            firm_s = firm_s + self._step_s if _is_firm(forces, needed_n) else 0.0
             touching_s = touching_s + self._step_s if min(forces) > 0.0 else 0.0
             if firm_s == 0.0 and touching_s > control.firm_grasp_s:
                 touching_s = 0.0
@@ -246,3 +247,16 @@ class Execution:
             duration_s=steps * self._step_s,
             metrics=metrics,
         )
+
+
+def _is_firm(forces_n: Sequence[float], needed_n: float) -> bool:
+    """Whether the fingers together press with what friction needs, and each with a fair part of it.
+
+    Coupled fingers share their force: while the object stands, its support takes the difference
+    between them, so that one may press with less than its part although together they hold.
+
+    Args:
+        forces_n: Normal force of each finger.
+        needed_n: Force that each finger needs if all press alike.
+    """
+    return min(forces_n) > _FAIR_PART * needed_n and sum(forces_n) > len(forces_n) * needed_n

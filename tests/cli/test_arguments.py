@@ -1,0 +1,118 @@
+"""What stands on the command line: help, and complaints of one line."""
+
+from __future__ import annotations
+
+import pytest
+
+from rgss.cli.main import VERBS
+from rgss.cli.sweep_verb import parse_ids
+from rgss.errors import DefinitionError
+
+
+def test_help(rgss):
+    told = rgss("--help")
+
+    assert (told.status, told.errors) == (0, "")
+    assert all(f"\n    {verb} " in told.output for verb in VERBS)
+    assert "Exit status: 0 clean, 1 findings" in " ".join(told.output.split())
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_help_of_a_verb(rgss, verb):
+    told = rgss(verb, "--help")
+
+    assert (told.status, told.errors) == (0, "")
+    assert told.output.startswith(f"usage: rgss {verb} ")
+    assert f"Example: rgss {verb}" in told.output
+    assert "--project DIR" in told.output
+    assert "--json" in told.output
+
+
+def test_version(rgss):
+    told = rgss("--version")
+
+    assert told.status == 0
+    assert told.output.startswith("rgss ")
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        ([], "rgss: the following arguments are required: VERB (see 'rgss --help')"),
+        (["decide"], "rgss: argument VERB: invalid choice: 'decide' (choose from "),
+        (["check", "a.yaml", "b.yaml"], "rgss: unrecognized arguments: b.yaml (see 'rgss --help')"),
+        (["run"], "rgss run: the following arguments are required: ID (see 'rgss run --help')"),
+        (["run", "first"], "rgss run: argument ID: invalid int value: 'first' (see 'rgss run --help')"),
+        (["variants", "--format", "xml"], "rgss variants: argument --format: invalid choice: 'xml' (choose from"),
+        (["sweep", "--jobs", "all"], "rgss sweep: argument --jobs: invalid int value: 'all' (see 'rgss sweep --help')"),
+        (["measure", "--fidelity", "high"], "rgss measure: argument --fidelity: invalid choice: 'high' (choose from"),
+        (["check", "--a\nb"], "rgss: unrecognized arguments: --a b (see 'rgss --help')"),
+    ],
+)
+def test_words_that_are_not_understood(rgss, words, complaint):
+    told = rgss(*words)
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint.startswith(complaint)
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["run", "0"], "there is no variant 0 (ids of variants: from 1 to 72)"),
+        (["run", "73"], "there is no variant 73 (ids of variants: from 1 to 72)"),
+        (["run", "65", "--seed=-1"], "seed -1 is out of range (give a seed from 0 to 2147483647)"),
+        (["run", "65", "--seed=2147483648"], "seed 2147483648 is out of range (give a seed from 0 to 2147483647)"),
+        (["sweep", "--replicates=0"], "--replicates must be from 1 to 10000 (leave it away for the study's number)"),
+        (["sweep", "--replicates=10001"], "--replicates must be from 1 to 10000 (leave it away for the study's"),
+        (["measure", "--replicates=0"], "--replicates must be from 1 to 10000 (leave it away for the study's"),
+        (["trade", "--replicates=-3"], "--replicates must be from 1 to 10000 (leave it away for the study's"),
+        (["sweep", "--jobs=0"], "--jobs must be at least 1 (leave it away for one process a core)"),
+        (["sweep", "--only=x"], "--only: 'x' is no id or range (write ids such as 1,5,60-72)"),
+        (["sweep", "--only="], "--only: '' is no id or range (write ids such as 1,5,60-72)"),
+        (["sweep", "--only=1,,2"], "--only: '' is no id or range (write ids such as 1,5,60-72)"),
+        (["sweep", "--only=-5"], "--only: '-5' is no id or range (write ids such as 1,5,60-72)"),
+        (["sweep", "--only=²"], "--only: '²' is no id or range (write ids such as 1,5,60-72)"),
+        (["sweep", "--only=0"], "--only: there is no variant 0 (ids go from 1 to 72)"),
+        (["sweep", "--only=73"], "--only: there is no variant 73 (ids go from 1 to 72)"),
+        (["sweep", "--only=70-99999999999"], "--only: there is no variant 73 (ids go from 1 to 72)"),
+        (["sweep", "--only=5-1"], "--only: there is no variant 5-1 (ids go from 1 to 72)"),
+        (["measure"], "there is no evidence in "),
+        (["trade"], "there is no evidence in "),
+        (["measure", "--variant=99"], "there is no variant 99 (ids of variants: from 1 to 72)"),
+    ],
+)
+def test_numbers_that_are_impossible(rgss, untouched, words, complaint):
+    told = rgss(*words, "--project", untouched)
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint.startswith(f"rgss: {complaint}")
+    assert not (untouched / ".rgss").exists()
+
+
+def test_no_project(rgss, tmp_path, monkeypatch):
+    told = rgss("check", "--project", tmp_path / "nowhere")
+    assert (told.status, told.output) == (2, "")
+    assert "is not a project: it has no folder requirements/ (a project has requirements/," in told.complaint
+
+    monkeypatch.chdir(tmp_path)
+    assert rgss("variants").complaint == (
+        "rgss: no project here or above (go into a project or name it with --project DIR)"
+    )
+
+
+@pytest.mark.parametrize("study", ["studies/none.yaml", "x" * 5000, "scenes"])
+def test_a_study_that_is_not_there(rgss, untouched, study):
+    told = rgss("variants", study, "--project", untouched)
+
+    assert (told.status, told.output) == (2, "")
+    assert ":1:1: error: " in told.complaint
+
+
+def test_ids():
+    assert parse_ids("1,5, 60-62", list(range(1, 73))) == {1, 5, 60, 61, 62}
+    assert parse_ids("7-7,7", [7]) == {7}
+    with pytest.raises(DefinitionError):
+        parse_ids("3", [1, 2, 4])
+    with pytest.raises(DefinitionError):
+        parse_ids("1-4", [1, 2, 4])

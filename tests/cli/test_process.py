@@ -1,0 +1,70 @@
+"""The command line as a process: pipes that break, disks that are full, and Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+RGSS = [sys.executable, "-m", "rgss.cli.main"]
+
+
+@pytest.mark.parametrize("words", [["variants"], ["variants", "--json"], ["check"], ["check", "--json"]])
+def test_a_reader_that_goes_away_is_no_error(untouched, words):
+    command = [*RGSS, *words, "--project", str(untouched)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        errors = process.stderr.read()
+
+    assert (process.returncode, errors) == (0, b"")
+
+
+def test_a_reader_of_one_line(untouched):
+    done = subprocess.run(
+        ["/bin/sh", "-c", '"$0" "$@" | head -n 1', *RGSS, "variants", "--project", str(untouched)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.split()[:2] == ["id", "d1_gripper_fingers"]
+
+
+@pytest.mark.parametrize("words", [["variants"], ["check"]])
+def test_a_full_disk_is_told_in_one_line(untouched, words):
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [*RGSS, *words, "--project", str(untouched)], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
+
+    assert done.returncode == 3
+    assert done.stderr == "rgss: [Errno 28] No space left on device\n"
+
+
+def test_bad_input_and_help_by_exit_status(rgss_process, tmp_path):
+    bad, helped = rgss_process("check", "--project", tmp_path), rgss_process("--help")
+
+    assert (bad.returncode, bad.stdout, len(bad.stderr.splitlines())) == (2, "", 1)
+    assert (helped.returncode, helped.stderr) == (0, "")
+
+
+def test_an_interrupt_before_the_work_begins_is_one_line():
+    script = (
+        "import sys, time; from rgss.cli import main as module; print('ready', flush=True); "
+        "module._parser = lambda: time.sleep(30); sys.exit(module.main())"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(0.2)
+    os.kill(process.pid, signal.SIGINT)
+    output, errors = process.communicate(timeout=10)
+
+    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; what was finished is kept\n")
