@@ -54,7 +54,7 @@ def test_both_engines_need_the_same_joint_torques(comparison, variant):
 @pytest.mark.verifies("SYS-007")
 @pytest.mark.parametrize(("variant", "mass_kg"), [(10, 1.8), (28, 0.8), (28, 1.2)])
 def test_both_engines_close_further_on_a_heavy_cup_and_carry_it(comparison, variant, mass_kg):
-    """At 70 % of the force the margin is too small; three and two fingers hold 1.8 and 1.2 kg with 94 % of the whole."""
+    """At 70 % of the force the margin is too small; 1.8 and 1.2 kg are 94 % of what three and two fingers bear."""
     first, second = comparison.both(variant, mass_kg=mass_kg)
     assert first.success
     assert second.success
