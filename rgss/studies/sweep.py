@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from rgss.errors import SimulationError
 from rgss.evidence import EvidenceStore, Provenance, TrialRecord, trial_key
 from rgss.trials.run import run_shared
-from rgss.trials.spec import TrialSpec, digests_of
+from rgss.trials.spec import TrialDigests, TrialSpec, digests_of
 from rgss.trials.versions import versions
 
 
@@ -47,7 +47,7 @@ _LONGEST_SEARCHES = {"STRIDE": 0, "TRRT": 1}
 
 def key_of(spec: TrialSpec) -> str:
     """What the store knows a trial by: the digest of its inputs, the versions, and its variant."""
-    return trial_key({"trial": digests_of(spec, versions()).trial, "variant": spec.variant})
+    return _key(spec, digests_of(spec, versions()))
 
 
 def sweep(
@@ -133,7 +133,11 @@ def _run_all(batch: Batch) -> list[Result]:
 
 def _run(batch: Batch) -> Iterator[Result]:
     for spec, digests, record in run_shared(batch.specs):
-        yield key_of(spec), record, Provenance(inputs=digests.as_mapping(), versions=versions())
+        yield _key(spec, digests), record, Provenance(inputs=digests.as_mapping(), versions=versions())
+
+
+def _key(spec: TrialSpec, digests: TrialDigests) -> str:
+    return trial_key({"trial": digests.trial, "variant": spec.variant})
 
 
 @contextmanager
