@@ -1,8 +1,56 @@
-"""What all tests share: property tests draw the same examples on every run."""
+"""What all tests share: repeatable examples, and what a test run writes down about itself.
+
+With ``--junitxml=FILE`` each test that is marked ``@pytest.mark.verifies("SYS-…")`` carries its
+requirements into the file, and the run the digests of what was tested; `rgss trace` and
+`rgss check --evidence` read both.
+"""
 
 from __future__ import annotations
 
+from pathlib import Path
+from types import ModuleType
+
+import pytest
 from hypothesis import settings
+
+from . import story as story_module
+
+PROJECT = Path(__file__).parents[1]
 
 settings.register_profile("repeatable", derandomize=True, database=None, deadline=None)
 settings.load_profile("repeatable")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Note on each marked test which requirements it verifies."""
+    for item in items:
+        names = dict.fromkeys(str(name) for mark in item.iter_markers("verifies") for name in mark.args)
+        if names:
+            # Here, so that a run of unmarked tests does not wait for the import.
+            from rgss.trace.junit_file import TEST_ID, VERIFIES
+
+            item.user_properties += [(TEST_ID, item.nodeid), *((VERIFIES, name) for name in names)]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _noted_run(request, record_testsuite_property) -> None:
+    """Note what is tested, where the result is written to a file."""
+    if request.config.option.xmlpath is None:
+        return
+    from rgss.errors import RgssError
+    from rgss.requirements import load_requirements
+    from rgss.trace.software_evidence import run_properties
+
+    try:
+        noted = run_properties(PROJECT, load_requirements(PROJECT / "requirements").system)
+    except RgssError:
+        # A broken project has tests of its own; a run without the note is taken as it is.
+        return
+    for name, value in noted.items():
+        record_testsuite_property(name, value)
+
+
+@pytest.fixture(scope="session")
+def story() -> ModuleType:
+    """A small project with evidence, whose every link is known by heart."""
+    return story_module

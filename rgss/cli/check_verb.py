@@ -1,21 +1,53 @@
-"""``rgss check``: the project's files and their traceability."""
+"""``rgss check``: the project's files, their wording, their traceability and, where asked for, their evidence."""
 
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-HELP = "check the project's files and their traceability, without a simulation"
-EXAMPLE = "rgss check --project ."
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rgss.findings import Finding
+    from rgss.studies.project import Project
+
+HELP = "check the project's files, wording and traceability, without a simulation"
+EXAMPLE = "rgss check --explain wording.R7"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
     parser.add_argument("--all", action="store_true", help="show notes too, not only errors and warnings")
+    parser.add_argument(
+        "--evidence", action="store_true", help="check the stored evidence and the result of the tests too"
+    )
+    parser.add_argument(
+        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+    )
+    parser.add_argument("--explain", nargs="?", const="", metavar="RULE", help="explain a rule, or list all of them")
+    parser.add_argument("--markdown", action="store_true", help="with --explain: write the page of all rules")
+    parser.add_argument(
+        "--review",
+        nargs="+",
+        metavar="ID",
+        help="stamp these elements as reviewed ('all': every requirement), and check nothing",
+    )
+    parser.add_argument("--reviewer", metavar="NAME", help="with --review: who has read them (default: the login name)")
 
 
 def run(options: argparse.Namespace) -> int:
     """Check and report; 1 if there are errors or warnings, 2 if a file cannot be used."""
+    _refuse_idle(options)
+    if options.explain is not None:
+        return _explain(options)
+    if options.review is not None:
+        return _review(options)
+    return _check(options)
+
+
+def _check(options: argparse.Namespace) -> int:
     from rgss.cli.main import BAD_INPUT, CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.errors import DocumentError
@@ -23,39 +55,140 @@ def run(options: argparse.Namespace) -> int:
     from rgss.studies.project import find_project, load_project
 
     folder = find_project(options.project)
+    project: Project | None = None
     try:
         project = load_project(folder, options.study)
-        findings, unusable = project.check(), False
+        findings: Sequence[Finding] = _findings(project, options)
     except DocumentError as error:
-        findings, unusable = error.findings, True
+        findings = error.findings
     grave = [finding for finding in findings if finding.severity is not Severity.INFO]
     if options.json:
-        print_json(
-            {
-                "findings": [
-                    {
-                        "rule": finding.rule,
-                        "severity": finding.severity.value,
-                        "message": finding.message,
-                        "file": finding.file,
-                        "line": finding.line,
-                        "column": finding.column,
-                        "hint": finding.hint,
-                    }
-                    for finding in findings
-                ]
-            }
-        )
+        print_json({"findings": [_as_json(finding) for finding in findings]})
     else:
         for finding in findings if options.all else grave:
             print(finding)
-        if not unusable:
-            notes = len(findings) - len(grave)
-            print(
-                f"{len(project.requirements.stakeholder)} stakeholder and {len(project.requirements.system)} system "
-                f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants: "
-                f"{len(grave)} findings" + (f", {notes} notes (--all shows them)" if notes and not options.all else "")
-            )
-    if unusable:
+        if project is not None:
+            notes = 0 if options.all else len(findings) - len(grave)
+            print(_summary(project, len(grave), notes))
+    if project is None:
         return BAD_INPUT
     return FINDINGS if grave else CLEAN
+
+
+def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, ...]:
+    from rgss.cli.sweep_verb import shown_path
+    from rgss.evidence import EvidenceStore
+    from rgss.studies.evidence_state import evidence_state, project_marks
+    from rgss.studies.recorded_verdicts import read_record
+    from rgss.studies.screening import measure_survivors
+    from rgss.trace import check_trace
+
+    marked = project_marks(project.folder)
+    if not options.evidence:
+        return check_trace(project.requirements, project.measure_traces, marked=marked)
+    recorded = read_record(project.folder)
+    if project.evidence.exists():
+        with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
+            measured, _ = measure_survivors(project, store, recorded=recorded)
+    else:
+        # Then it is a finding of each requirement that its evidence is missing.
+        measured, _ = measure_survivors(project, None, recorded=recorded)
+    state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
+    return check_trace(project.requirements, project.measure_traces, marked=marked, evidence=state)
+
+
+def _explain(options: argparse.Namespace) -> int:
+    from rgss.cli.main import CLEAN
+    from rgss.cli.output import print_json
+    from rgss.trace.explaining import rule_as_json, rule_lines, rules_markdown
+    from rgss.trace.registry import RULES, rule_of
+
+    if options.markdown:
+        print(rules_markdown(), end="")
+        return CLEAN
+    rules = [rule_of(options.explain)] if options.explain else list(RULES)
+    if options.json:
+        print_json({"rules": [rule_as_json(rule) for rule in rules]})
+        return CLEAN
+    for index, rule in enumerate(rules):
+        if index:
+            print()
+        if options.explain:
+            print(*rule_lines(rule), sep="\n")
+        else:
+            print(f"{rule.id} ({rule.severity.value})\n  {rule.explanation}")
+    return CLEAN
+
+
+def _review(options: argparse.Namespace) -> int:
+    from rgss.cli.main import CLEAN
+    from rgss.cli.output import print_json
+    from rgss.cli.sweep_verb import shown_path
+    from rgss.errors import DocumentError
+    from rgss.requirements import load_requirements
+    from rgss.studies.consequences import without_consequences
+    from rgss.studies.project import find_project
+    from rgss.trace.review_stamps import expanded, stamped, write_reviews
+
+    folder = find_project(options.project) / "requirements"
+    try:
+        requirements = load_requirements(folder)
+    except DocumentError as error:
+        raise DocumentError(without_consequences(error.findings)) from error
+    ids = expanded(requirements, options.review)
+    reviews = stamped(requirements, ids, options.reviewer or _login_name())
+    path = shown_path(write_reviews(folder, reviews))
+    if options.json:
+        print_json({"reviewed": list(ids), "reviewer": reviews[ids[0]].reviewer if ids else "", "file": path})
+    else:
+        print(f"Reviewed {len(ids)} elements; {path} has {len(reviews)} reviews.")
+    return CLEAN
+
+
+def _refuse_idle(options: argparse.Namespace) -> None:
+    """Options that would do nothing beside the others are a mistake of whoever gave them.
+
+    Raises:
+        DefinitionError: There is one.
+    """
+    from rgss.errors import DefinitionError
+
+    if options.explain is not None and options.review is not None:
+        raise DefinitionError("--explain and --review exclude each other", hint="give one of them")
+    if options.markdown and options.explain != "":
+        raise DefinitionError("--markdown writes the page of all rules", hint="rgss check --explain --markdown")
+    if options.reviewer is not None and options.review is None:
+        raise DefinitionError("--reviewer goes with --review", hint="rgss check --review ID --reviewer NAME")
+    if options.junit is not None and not options.evidence:
+        raise DefinitionError("--junit goes with --evidence", hint="rgss check --evidence --junit FILE")
+
+
+def _login_name() -> str:
+    import getpass
+
+    from rgss.errors import DefinitionError
+
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError) as error:
+        raise DefinitionError("the login name is not known", hint="give --reviewer NAME") from error
+
+
+def _summary(project: Project, grave: int, notes: int) -> str:
+    return (
+        f"{len(project.requirements.stakeholder)} stakeholder and {len(project.requirements.system)} system "
+        f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants: "
+        f"{grave} findings" + (f", {notes} notes (--all shows them)" if notes else "")
+    )
+
+
+def _as_json(finding: Finding) -> dict[str, Any]:
+    return {
+        "rule": finding.rule,
+        "severity": finding.severity.value,
+        "message": finding.message,
+        "file": finding.file,
+        "line": finding.line,
+        "column": finding.column,
+        "hint": finding.hint,
+    }

@@ -12,7 +12,7 @@ from typing import NoReturn
 
 from rgss.errors import DocumentError, MotionError, RgssError, SimulationError
 
-VERBS = ("check", "variants", "run", "sweep", "replay", "measure", "trade")
+VERBS = ("check", "variants", "run", "sweep", "evidence", "replay", "measure", "trade", "trace", "export", "import")
 CLEAN, FINDINGS, BAD_INPUT, RUN_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 

@@ -30,7 +30,9 @@ def run(options: argparse.Namespace) -> int:
     project = chosen_project(options)
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         stored = find_trial(project, store, options.trial)
-    result = replay(project, stored)
+        known_by = stored.provenance.inputs_digest
+        inputs = store.inputs(known_by) if known_by else None
+    result = replay(project, stored, inputs=inputs)
     if options.json:
         print_json(
             {
@@ -42,6 +44,7 @@ def run(options: argparse.Namespace) -> int:
                 "digest_now": record_digest(result.record),
                 "versions": [_as_json(change) for change in result.versions],
                 "changed_inputs": list(result.inputs),
+                "inputs": [_as_json(change) for change in result.changes],
                 "differences": [_as_json(change) for change in result.differences],
             }
         )
@@ -63,6 +66,8 @@ def _show(result: Any) -> None:
         print(f"  version of {change.name}: {change.then[:12]} then, {change.now[:12]} now")
     if result.inputs:
         print(f"  other inputs than then: {', '.join(result.inputs)}")
+    for change in result.changes:
+        print(f"  {change.name}: {change.then} then, {change.now} now")
     if result.same:
         print(f"The same, bit for bit: {result.stored.content_digest}")
         return

@@ -6,10 +6,21 @@ import argparse
 import os
 import sys
 from collections import Counter
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+from rgss.cli.variants_verb import ONLY_HELP
+
+if TYPE_CHECKING:
+    from rgss.designs import DesignVariant
+    from rgss.evidence import EvidenceStore
+    from rgss.studies.project import Project
+    from rgss.studies.sweep import FinishedTrial, LostTrials, SweepResult, WorkerLimits
+    from rgss.trials.spec import TrialSpec
 
 HELP = "run every trial of a study that has no evidence yet"
 EXAMPLE = "rgss sweep --replicates 10 --jobs 2"
@@ -21,85 +32,186 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_replicates(parser)
     add_fidelity(parser)
     parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
-    parser.add_argument("--only", metavar="IDS", help="only these variants, such as 1,5,60-72")
+    parser.add_argument("--only", action="append", metavar="WHICH", help=ONLY_HELP)
+    parser.add_argument(
+        "--until",
+        choices=("decided",),
+        help="add trials only to variants that can still change the decision or a verdict",
+    )
+    parser.add_argument("--cap", type=int, metavar="N", help="with --until: most trials of a variant (default: 200)")
+    parser.add_argument("--dry-run", action="store_true", help="say what would be made and why, and make nothing")
+    parser.add_argument(
+        "--no-share", action="store_true", help="run every trial by itself: the same records, at many times the cost"
+    )
+    parser.add_argument(
+        "--time-limit", metavar="TIME", help="longest time for one piece, such as '5 min' (default: '5 min')"
+    )
+    parser.add_argument(
+        "--memory-limit", metavar="SIZE", help="most memory of a worker, such as '4 GB' (default: '2 GB')"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run what is missing; progress goes to standard error."""
+    """Run what is missing; progress and failures of the run go to standard error; 3 if there are any."""
+    from rgss.cli.main import CLEAN, RUN_FAILED
     from rgss.cli.output import print_json
+    from rgss.cli.screening_output import screening_as_json, screening_lines
+    from rgss.cli.sweep_output import lost_line, result_as_json, result_lines
+    from rgss.cli.sweep_until import sweep_until_decided
+    from rgss.designs import picked
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.studies.expansion import trial_specs
-    from rgss.studies.sweep import FinishedTrial, sweep
+    from rgss.studies.recording import record_after_sweep
+    from rgss.studies.screening import screen, screening_specs, surviving_specs
 
     project = chosen_project(options)
     jobs = options.jobs if options.jobs is not None else (os.cpu_count() or 1)
     if jobs < 1:
         raise DefinitionError("--jobs must be at least 1", hint="leave it away for one process a core")
-    variants = project.designs.expand()
-    if options.only is not None:
-        chosen = parse_ids(options.only, [variant.id for variant in variants])
-        variants = tuple(variant for variant in variants if variant.id in chosen)
-    specs = trial_specs(project, variants=variants)
+    limits = _limits(options)
+    if options.cap is not None and options.until is None:
+        raise DefinitionError("--cap needs --until decided", hint="--replicates is the fixed number of trials")
+    if options.until is not None:
+        return sweep_until_decided(options, project, jobs=jobs, limits=limits)
+    variants = picked(project.designs, options.only or ())
+    if options.dry_run:
+        return _dry_run(options, project, variants)
+    label = shown_path(project.evidence)
+    screened = None
+    lost: tuple[LostTrials, ...] = ()
+    with EvidenceStore.open(project.evidence, label=label) as store:
+        specs = trial_specs(project, variants=variants)
+        first = screening_specs(project, variants=variants)
+        if first:
+            lost = _swept(options, project, store, first, jobs, limits).result.lost
+            screened = screen(project, store)
+        if screened is not None:
+            specs = surviving_specs(project, screened, variants=variants)
+        swept = _swept(options, project, store, specs, jobs, limits)
+        if swept.run_now:
+            record_after_sweep(project, store, swept.run_now)
+    tally, failures, result = swept.tally, swept.failures, swept.result
+    if options.json:
+        document = result_as_json(len(specs), tally, failures, result, label)
+        print_json(document if screened is None else {**document, "screening": screening_as_json(screened)})
+    else:
+        told = [] if screened is None else screening_lines(screened)
+        print(*told, *result_lines(len(specs), tally, failures, result, label), sep="\n")
+    lost += result.lost
+    for trials in lost:
+        print(f"rgss: {lost_line(trials)}", file=sys.stderr)
+    return RUN_FAILED if lost else CLEAN
+
+
+@dataclass(frozen=True)
+class _Swept:
+    """What came of the trials of one stage."""
+
+    tally: Counter[str]
+    failures: Counter[str]
+    run_now: set[int]
+    result: SweepResult
+
+
+def _swept(
+    options: argparse.Namespace,
+    project: Project,
+    store: EvidenceStore,
+    specs: Sequence[TrialSpec],
+    jobs: int,
+    limits: WorkerLimits,
+) -> _Swept:
+    from rgss.cli.sweep_progress import SweepProgress
+    from rgss.studies.keeping import origin_of
+    from rgss.studies.sweep import sweep
+
     tally: Counter[str] = Counter()
     failures: Counter[str] = Counter()
-    store_label = shown_path(project.evidence)
-    with EvidenceStore.open(project.evidence, label=store_label) as store, _progress(len(specs)) as advance:
+    run_now: set[int] = set()
 
-        def on_finished(trial: FinishedTrial) -> None:
-            record = trial.record
-            tally["run" if trial.fresh else "kept"] += 1
-            tally["succeeded" if record.success else "failed"] += 1
-            if record.failure is not None and record.failed_phase is not None:
-                failures[f"{record.failure.value} at {record.failed_phase.value}"] += 1
-            advance(tally)
+    def on_finished(trial: FinishedTrial) -> None:
+        record = trial.record
+        tally["run" if trial.fresh else "kept"] += 1
+        if trial.fresh:
+            run_now.add(record.variant)
+        tally["succeeded" if record.success else "failed"] += 1
+        if record.failure is not None and record.failed_phase is not None:
+            failures[f"{record.failure.value} at {record.failed_phase.value}"] += 1
+        progress.finished(tally)
 
-        sweep(specs, store, jobs=jobs, on_finished=on_finished)
-    if options.json:
-        print_json(
-            {
-                "trials": len(specs),
-                "run": tally["run"],
-                "from_evidence": tally["kept"],
-                "succeeded": tally["succeeded"],
-                "failed": tally["failed"],
-                "failures": dict(sorted(failures.items())),
-                "evidence": store_label,
-            }
+    with SweepProgress(len(specs)) as progress:
+        result = sweep(
+            specs,
+            store,
+            jobs=jobs,
+            on_finished=on_finished,
+            on_state=progress.state,
+            share=not options.no_share,
+            limits=limits,
+            origin=lambda: origin_of(project.folder),
         )
-        return 0
-    print(
-        f"{len(specs)} trials: {tally['run']} run, {tally['kept']} from evidence; "
-        f"{tally['succeeded']} succeeded, {tally['failed']} failed."
-    )
-    for reason, count in sorted(failures.items(), key=lambda item: (-item[1], item[0])):
-        print(f"  {count} × {reason}")
-    print(f"Evidence: {store_label}")
-    return 0
+    return _Swept(tally=tally, failures=failures, run_now=run_now, result=result)
 
 
-def parse_ids(text: str, known: list[int]) -> set[int]:
-    """Read ids such as ``1,5,60-72``.
+def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[DesignVariant]) -> int:
+    from rgss.cli.main import CLEAN
+    from rgss.cli.output import print_json
+    from rgss.cli.sweep_output import dry_run_as_json, dry_run_lines
+    from rgss.evidence import EvidenceStore
+    from rgss.studies.dry_run import dry_run
+    from rgss.studies.expansion import trial_specs
+    from rgss.studies.screening import screen, screening_specs, surviving_specs
+
+    label = shown_path(project.evidence)
+    with ExitStack() as stack:
+        store = None
+        if project.evidence.exists():
+            store = stack.enter_context(EvidenceStore.open(project.evidence, create=False, label=label))
+        screened = screen(project, store)
+        specs = trial_specs(project, variants=variants)
+        if screened is not None:
+            specs = (
+                *screening_specs(project, variants=variants),
+                *surviving_specs(project, screened, variants=variants),
+            )
+        found = dry_run(specs, store, share=not options.no_share)
+    if options.json:
+        print_json(dry_run_as_json(found, label))
+    else:
+        print(*dry_run_lines(found, label), sep="\n")
+    return CLEAN
+
+
+def _limits(options: argparse.Namespace) -> WorkerLimits:
+    from rgss.studies.sweep import WorkerLimits
+
+    limits = WorkerLimits()
+    time_s, memory_bytes = limits.time_s, limits.memory_bytes
+    if options.time_limit is not None:
+        time_s = _positive("--time-limit", options.time_limit, "s", "5 min")
+    if options.memory_limit is not None:
+        memory_bytes = round(_positive("--memory-limit", options.memory_limit, "byte", "4 GB"))
+    return WorkerLimits(time_s=time_s, memory_bytes=memory_bytes)
+
+
+def _positive(option: str, text: str, unit: str, example: str) -> float:
+    """Read a quantity above zero from an option.
 
     Raises:
-        DefinitionError: The text is no such list, or an id is not there.
+        DefinitionError: It is none.
     """
-    from rgss.errors import DefinitionError
+    from rgss.errors import DefinitionError, QuantityError
+    from rgss.findings import shown
+    from rgss.quantities import parse_quantity
 
-    chosen: set[int] = set()
-    for part in text.split(","):
-        first, dash, last = part.strip().partition("-")
-        if not (first.isdecimal() and (last.isdecimal() if dash else True)):
-            raise DefinitionError(f"--only: {part.strip()!r} is no id or range", hint="write ids such as 1,5,60-72")
-        wanted = range(int(first), int(last if dash else first) + 1)
-        unknown = next((number for number in wanted if number not in known), None)
-        if unknown is not None or not wanted:
-            raise DefinitionError(
-                f"--only: there is no variant {unknown if unknown is not None else part.strip()}",
-                hint=f"ids go from {min(known)} to {max(known)}",
-            )
-        chosen.update(wanted)
-    return chosen
+    try:
+        value = parse_quantity(text, unit)
+    except QuantityError as error:
+        raise DefinitionError(f"{option}: {error.message}", hint=f"write it as '{example}'") from error
+    if value <= 0.0:
+        raise DefinitionError(f"{option}: {shown(text)} is no limit", hint=f"write it as '{example}'")
+    return value
 
 
 def shown_path(path: Path) -> str:
@@ -108,35 +220,3 @@ def shown_path(path: Path) -> str:
         return str(path.resolve().relative_to(Path.cwd()))
     except ValueError:
         return str(path)
-
-
-class _progress:  # noqa: N801 - reads as a function where it is used
-    """A progress bar on standard error; silent where that is not a terminal."""
-
-    def __init__(self, total: int) -> None:
-        self._total = total
-
-    def __enter__(self) -> Any:
-        from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-        self._progress = Progress(
-            TextColumn("Trials"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeRemainingColumn(),
-            TextColumn("{task.fields[state]}"),
-            console=Console(file=sys.stderr),
-            disable=not sys.stderr.isatty(),
-        )
-        self._progress.start()
-        task = self._progress.add_task("trials", total=self._total, state="")
-
-        def advance(tally: Counter[str]) -> None:
-            state = f"{tally['succeeded']} succeeded, {tally['failed']} failed"
-            self._progress.update(task, advance=1, state=state)
-
-        return advance
-
-    def __exit__(self, *_: object) -> None:
-        self._progress.stop()

@@ -1,14 +1,23 @@
-"""``rgss trade``: the decision, and why."""
+"""``rgss trade``: the decision, why, what nearly won, and what would change it."""
 
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
 
-HELP = "decide which variant is best, and say why"
-EXAMPLE = "rgss trade --json > decision.json"
+if TYPE_CHECKING:
+    from rgss.studies.measuring import VariantMeasures
+    from rgss.studies.project import Project
+    from rgss.studies.robustness import Robustness
+    from rgss.studies.what_if import Scenario
+    from rgss.tradeoff import Decision, FleetDecision
+
+HELP = "decide which variant is best, say why, and what would change that"
+EXAMPLE = 'rgss trade --what-if weight.t_e=0.4 --what-if "SYS-012.threshold=0.9 kg"'
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -16,107 +25,126 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_study(parser)
     add_replicates(parser)
     add_fidelity(parser)
+    parser.add_argument(
+        "--what-if",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="suppose another weight.MEASURE, REQUIREMENT.threshold, value.MEASURE.worst (or best …), "
+        "catalogue.COMPONENT.cost (or another property) or measures.CONSTANT, and show before and after; "
+        "may be given several times",
+    )
+    parser.add_argument("--brief", action="store_true", help="only the decision and why")
+    parser.add_argument("--effects", action="store_true", help="also what each level of each factor does to a measure")
+    parser.add_argument("--section", action="store_true", help="print the decision as a section in Markdown")
+    parser.add_argument(
+        "--into", type=Path, metavar="FILE", help="with --section: put it between the file's markers instead"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement."""
     from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.output import print_json
+    from rgss.cli.screening_output import screening_lines
     from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.trade_section import decision_section, text_with_place, with_section
+    from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
-    from rgss.studies.choosing import choose, double_counting
-    from rgss.studies.measuring import measure_variants
-    from rgss.tradeoff import decision_to_json
+    from rgss.studies.choosing import choose
+    from rgss.studies.screening import measure_survivors
+    from rgss.studies.what_if import measured_in, suppose
 
+    if options.into is not None and not options.section:
+        raise DefinitionError("--into needs --section", hint="the section is what goes into the file")
+    if options.section and (options.what_if or options.json):
+        raise DefinitionError("--section is of the study as it is", hint="leave --what-if and --json away")
+    place = None if options.into is None else text_with_place(options.into)
     project = chosen_project(options)
+    scenario = suppose(project, options.what_if) if options.what_if else None
     label = shown_path(project.evidence)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
-        measured = measure_variants(project, store)
-    decision = choose(project, measured)
-    overlaps = double_counting(project)
-    if options.json:
-        document: dict[str, Any] = decision_to_json(decision)
-        document["double_counting"] = [{"whole": overlap.whole, "part": overlap.part} for overlap in overlaps]
-        document["evidence"] = label
-        print_json(document)
+        measured, screened = measure_survivors(project, store)
+        fleet = _fleet(project, store)
+    before = (project, measured, choose(project, measured))
+    now = before
+    if scenario is not None:
+        supposed = measured_in(scenario, measured)
+        now = (scenario.project, supposed, choose(scenario.project, supposed))
+    found = None if options.brief and not options.section else _robustness(now)
+    if options.section and found is not None:
+        section = decision_section(*now, found)
+        if place is None:
+            print(section)
+        else:
+            options.into.write_text(with_section(place, section), encoding="utf-8")
+            print(f"Wrote the decision into {options.into}.")
+    elif options.json:
+        _print_document(now, found, scenario, before[2], fleet, label)
     else:
-        _show(project, measured, decision, overlaps, label)
-    return CLEAN if decision.chosen is not None else FINDINGS
+        _print_page(options, before, now, scenario, found, fleet, label)
+        if screened is not None:
+            print("\n" + "\n".join(screening_lines(screened)))
+    return CLEAN if now[2].chosen is not None else FINDINGS
 
 
-def _show(project: Any, measured: Any, decision: Any, overlaps: Any, evidence: str) -> None:
-    from rgss.cli.output import number, print_table
+def _robustness(side: tuple[Project, Sequence[VariantMeasures], Decision]) -> Robustness:
+    from rgss.studies.robustness import analyse_robustness
 
-    by_id = {entry.variant.id: entry for entry in measured}
-    total = len(measured)
-    trials = sum(len(entry.records) for entry in measured)
-    print(f"Study {project.study.id}: {total} variants, {trials} trials\n")
-    if decision.chosen is None:
-        print("No variant meets every requirement.")
-        conflicts = decision.conflicts
-        rows = [[c.requirement, _criterion(project, c.requirement), str(c.excluded)] for c in conflicts.excluded_by]
-        print_table(["requirement", "asks for", "excludes"], rows, right=(2,))
-        print(f"\nThese cannot be met together: {', '.join(conflicts.minimal_conflict)}.")
-        print(
-            f"Nearest: variant {conflicts.nearest.variant}, which violates {', '.join(conflicts.nearest.requirements)}."
-        )
-        print(f"Evidence: {evidence}")
-        return
-    shown = [variant for variant in (decision.chosen, decision.runner_up) if variant is not None]
-    values = {ranked.variant: ranked.value for ranked in decision.ranking}
-    heads = ["chosen", "runner-up"][: len(shown)]
-    rows = [["variant", "", "", *(str(variant) for variant in shown)]]
-    for definition in project.designs.parameters:
-        cells = [str(by_id[variant].variant.parameters[definition.id]) for variant in shown]
-        varies = len({str(entry.variant.parameters[definition.id]) for entry in measured}) > 1
-        if varies:
-            rows.append([definition.name.replace("_", " "), definition.unit, "", *cells])
-    weights = {anchors.measure: anchors.weight for anchors in project.study.values}
-    for measure, weight in weights.items():
-        estimates = [by_id[variant].estimates[measure] for variant in shown]
-        rows.append([measure, estimates[0].unit, f"{weight:.2f}", *(number(e.value) for e in estimates)])
-    rows.append(["value", "", "", *(f"{values[variant]:.4f}" for variant in shown)])
-    print_table(["", "unit", "weight", *heads], rows, right=(2, 3, 4))
+    return analyse_robustness(*side)
+
+
+def _fleet(project: Project, store: Any) -> FleetDecision | None:
+    """The portfolio that the study asks for, from the evidence of every study that it serves."""
+    if project.study.trade_off.fleet is None:
+        return None
+    from rgss.studies.fleets import choose_fleet, fleet_projects
+    from rgss.studies.screening import measure_survivors
+
+    projects = fleet_projects(project)
+    return choose_fleet(project, {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()})
+
+
+def _print_page(
+    options: argparse.Namespace,
+    before: tuple[Project, Sequence[VariantMeasures], Decision],
+    now: tuple[Project, Sequence[VariantMeasures], Decision],
+    scenario: Scenario | None,
+    found: Robustness | None,
+    fleet: FleetDecision | None,
+    label: str,
+) -> None:
+    from rgss.cli.trade_effects_page import print_effects
+    from rgss.cli.trade_page import print_cautions, print_certificate, print_decision, print_fleet, print_heading
+    from rgss.cli.trade_robustness_page import print_robustness
+    from rgss.cli.trade_what_if_page import print_what_if
+
+    project, measured, decision = now
+    print_heading(project, measured)
+    if scenario is not None:
+        print_what_if(scenario, before, now)
+        print("\nThe decision under these suppositions\n")
+    print_decision(project, measured, decision)
+    if found is not None:
+        print_robustness(project, decision, found)
+        if options.effects:
+            print_effects(project, found.effects)
+    if fleet is not None:
+        print_fleet(fleet)
     print()
-    _explain(project, decision)
-    for overlap in overlaps:
-        print(f"Caution: {overlap.whole} contains {overlap.part}, so {overlap.part} counts twice.")
-    certificate = decision.certificate
-    agrees = "agrees" if certificate.enumeration_agrees else "DISAGREES"
-    print(
-        f"Certificate: {certificate.status.value} by {certificate.solver}, gap {number(certificate.gap)}; "
-        f"enumeration of all {total} variants {agrees}."
-    )
-    print(f"Evidence: {evidence}")
+    if decision.chosen is not None:
+        print_cautions(project, decision)
+    print_certificate(decision, label)
 
 
-def _explain(project: Any, decision: Any) -> None:
-    feasible = len(decision.ranking)
-    print(f"Variant {decision.chosen} has the highest value of the {feasible} variants that meet every requirement.")
-    others = [variant for variant in decision.ties if variant != decision.chosen]
-    if others:
-        print(f"Variants {', '.join(map(str, others))} have the same value; the smallest id is chosen.")
-    if decision.runner_up is not None and decision.runner_up_contributions:
-        gains = sorted(
-            (
-                (mine.contribution - theirs.contribution, mine.measure)
-                for mine, theirs in zip(decision.chosen_contributions, decision.runner_up_contributions, strict=True)
-            ),
-            key=lambda gain: -abs(gain[0]),
-        )
-        told = ", ".join(f"{measure} {gain:+.4f}" for gain, measure in gains if abs(gain) > 5e-5)
-        print(f"It leads the runner-up {decision.runner_up} by: {told or 'less than rounding shows'}.")
-    if decision.excluded_better:
-        better = decision.excluded_better
-        ids = ", ".join(str(entry.variant) for entry in better[:6]) + (" …" if len(better) > 6 else "")
-        print(f"{len(better)} variants would be worth more but violate a requirement: {ids}")
-        for count in decision.deciding_requirements:
-            print(f"  {count.requirement} ({_criterion(project, count.requirement)}) excludes {count.excluded} of them")
-    else:
-        print("No requirement excludes a variant of higher value.")
+def _print_document(
+    now: tuple[Project, Sequence[VariantMeasures], Decision],
+    found: Robustness | None,
+    scenario: Scenario | None,
+    before: Decision,
+    fleet: FleetDecision | None,
+    label: str,
+) -> None:
+    from rgss.cli.output import print_json
+    from rgss.cli.trade_document import trade_document
 
-
-def _criterion(project: Any, requirement: str) -> str:
-    if requirement.startswith("evidence:"):
-        return "evidence"
-    return str(project.requirements.requirement(requirement).criterion)
+    print_json(trade_document(now[0], now[2], found, scenario, before, fleet, label))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import prod
 
 from rgss.designs.components import Component
+from rgss.designs.constraints import Constraint
 from rgss.designs.parameters import ParameterValue
 from rgss.designs.sources import COMPONENT_PREFIX, numbers
 
@@ -67,7 +68,7 @@ class Rule:
     id: str
     rationale: str
     when: Condition
-    require: Condition | Limit | None
+    require: Condition | Limit | Constraint | None
 
     def allows(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
         """Tell whether a combination satisfies the rule."""

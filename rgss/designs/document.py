@@ -6,6 +6,7 @@ from pydantic import Field
 
 from rgss.designs.fields import ConditionsField, ScalarField
 from rgss.designs.parameters import ParameterKind
+from rgss.designs.sampling import SamplingMethod
 from rgss.documents import DocumentModel, Identifier, Text, UnitText
 
 
@@ -30,11 +31,22 @@ class LevelModel(DocumentModel):
 
 
 class FactorModel(DocumentModel):
-    """Parameters that are chosen together."""
+    """Parameters that are chosen together by ``levels``, or one that is chosen from a ``range``."""
 
     id: Identifier
     name: Text
-    levels: tuple[LevelModel, ...]
+    levels: tuple[LevelModel, ...] | None = None
+    parameter: Identifier | None = None
+    range: tuple[ScalarField, ...] | None = None
+    resolution: ScalarField | None = None
+
+
+class SampleModel(DocumentModel):
+    """How designs are sampled, instead of every combination being tried."""
+
+    method: SamplingMethod
+    size: int = Field(ge=1, le=65_536)
+    seed: int = Field(ge=0, le=2**31 - 1)
 
 
 class LimitModel(DocumentModel):
@@ -45,13 +57,14 @@ class LimitModel(DocumentModel):
 
 
 class RuleModel(DocumentModel):
-    """A rule: ``exclude``, or ``require`` with or without ``when``, or ``limit`` likewise."""
+    """A rule: ``exclude``; or ``require``, ``limit`` or ``constraint``, each with or without ``when``."""
 
     id: Identifier
     rationale: Text
     when: ConditionsField | None = None
     require: ConditionsField | None = None
     limit: LimitModel | None = None
+    constraint: Text | None = None
     exclude: ConditionsField | None = None
 
 
@@ -61,4 +74,5 @@ class DesignSpaceModel(DocumentModel):
     parameters: tuple[ParameterModel, ...] = Field(min_length=1)
     constants: dict[Identifier, ScalarField] = Field(default_factory=dict)
     factors: tuple[FactorModel, ...] = ()
+    sample: SampleModel | None = None
     rules: tuple[RuleModel, ...] = ()

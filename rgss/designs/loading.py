@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from rgss.designs.components import Catalogue
 from rgss.designs.document import DesignSpaceModel, FactorModel, LevelModel, ParameterModel
+from rgss.designs.factors import Factor, Level
 from rgss.designs.findings import dotted_findings, duplicate_findings, near_hint, unit_findings
 from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue
+from rgss.designs.ranges import read_sample, read_span, sample_findings
 from rgss.designs.rules import RuleReader
 from rgss.designs.selection import selection_findings
-from rgss.designs.space import DesignSpace, Factor, Level
+from rgss.designs.space import DesignSpace
 from rgss.designs.values import ValueReader
 from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
@@ -35,16 +37,18 @@ def load_design_space(path: Path, catalogue: Catalogue, *, label: str | None = N
             catalogue that only a design space shows.
     """
     loaded = load_document(path, DesignSpaceModel, label=label)
-    return _SpaceReader(loaded.document, loaded.value, catalogue).read()
+    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    return _SpaceReader(loaded.document, loaded.value, catalogue, lines).read()
 
 
 class _SpaceReader:
     """Keeps what is sound while it reads, so that one mistake does not hide the others."""
 
-    def __init__(self, document: Document, model: DesignSpaceModel, catalogue: Catalogue) -> None:
+    def __init__(self, document: Document, model: DesignSpaceModel, catalogue: Catalogue, lines: Sequence[str]) -> None:
         self._document = document
         self._model = model
         self._catalogue = catalogue
+        self._lines = lines
         self._findings: list[Finding] = []
         self._values = ValueReader(parameters={}, names={})
 
@@ -56,16 +60,25 @@ class _SpaceReader:
         constants = self._read_values(self._model.constants, "constants")
         setters: dict[str, str] = dict.fromkeys(self._model.constants, "the constants")
         factors = tuple(self._factor(index, item, setters) for index, item in enumerate(self._model.factors))
-        self._find_unset(parameters, setters)
-        rules = RuleReader(self._document, self._values, self._catalogue, constants, factors).read(self._model.rules)
+        if all(factor.levels or factor.span is not None for factor in factors):
+            # A factor that cannot be read does not say what it sets.
+            self._find_unset(parameters, setters)
+        rules = RuleReader(self._document, self._values, self._catalogue, constants, factors, lines=self._lines).read(
+            self._model.rules
+        )
         self._findings += rules.findings
+        self._findings += sample_findings(self._document, self._model)
+        if self._findings and (self._model.sample is not None or any(factor.span for factor in factors)):
+            # Which points there are follows from every factor, so one mistake makes other designs.
+            raise DocumentError(sorted(set(self._findings)))
         space = DesignSpace(
             parameters=parameters,
             constants=constants,
-            factors=tuple(factor for factor in factors if factor.levels),
+            factors=tuple(factor for factor in factors if factor.levels or factor.span is not None),
             rules=rules.rules,
             catalogue=self._catalogue,
             selectors=selectors,
+            sample=read_sample(self._model, factors),
         )
         if not self._is_too_large(space):
             self._findings += selection_findings(space, self._document, self._model)
@@ -83,7 +96,7 @@ class _SpaceReader:
         self._findings += duplicate_findings(document, ("factors",), model.factors)
         self._findings += duplicate_findings(document, ("rules",), model.rules)
         for index, factor in enumerate(model.factors):
-            self._findings += duplicate_findings(document, ("factors", index, "levels"), factor.levels)
+            self._findings += duplicate_findings(document, ("factors", index, "levels"), factor.levels or ())
 
     def _parameter(self, index: int, model: ParameterModel) -> DesignParameter:
         place = ("parameters", index)
@@ -148,6 +161,13 @@ class _SpaceReader:
 
     def _factor(self, index: int, model: FactorModel, setters: dict[str, str]) -> Factor:
         place = ("factors", index)
+        given = [key for key in ("parameter", "range", "resolution") if getattr(model, key) is not None]
+        if (model.levels is None) == (not given) or (given and not {"parameter", "range"} <= set(given)):
+            hint = "write 'levels'; or 'parameter', 'range' and 'resolution'"
+            self._report("factor", f"factor {model.id!r} has neither just levels nor just a range", *place, hint=hint)
+            return Factor(id=model.id, name=model.name, levels=())
+        if model.levels is None:
+            return self._ranged(model, setters, *place)
         if not model.levels:
             hint = "add a level, or set the parameters under 'constants'"
             self._report("no-levels", f"factor {model.id!r} has no levels", *place, "levels", hint=hint)
@@ -158,6 +178,16 @@ class _SpaceReader:
         setters.update({name: f"factor {model.id!r}" for name in names if name not in taken})
         levels = self._levels(model, taken, *place, "levels")
         return Factor(id=model.id, name=model.name, levels=levels)
+
+    def _ranged(self, model: FactorModel, setters: dict[str, str], *place: str | int) -> Factor:
+        span, findings = read_span(self._document, place, model, self._values.parameters)
+        self._findings += findings
+        name = model.parameter or ""
+        if name in setters:
+            message = f"{name} is set already by {setters[name]}"
+            self._report("set-twice", message, *place, "parameter", hint="set it in one place")
+        setters.setdefault(name, f"factor {model.id!r}")
+        return Factor(id=model.id, name=model.name, levels=(), span=span)
 
     def _check_level(self, level: LevelModel, names: list[str], taken: Mapping[str, str], *place: str | int) -> None:
         if not level.sets:
@@ -174,7 +204,7 @@ class _SpaceReader:
 
     def _levels(self, model: FactorModel, taken: Mapping[str, str], *place: str | int) -> tuple[Level, ...]:
         levels: list[Level] = []
-        for number, level in enumerate(model.levels):
+        for number, level in enumerate(model.levels or ()):
             values = self._read_values(level.sets, *place, number, "sets")
             if len(values) < len(level.sets) or not values:
                 continue
@@ -193,10 +223,12 @@ class _SpaceReader:
                 self._report("never-set", f"{parameter.id} is never set", "parameters", index, "id", hint=hint)
 
     def _is_too_large(self, space: DesignSpace) -> bool:
+        if space.sample is not None:
+            return False
         combinations = 1
         for factor in space.factors:
             combinations *= len(factor.levels)
         if combinations > LARGEST_SPACE:
             message = f"the factors make {combinations} combinations; at most {LARGEST_SPACE} are expanded"
-            self._report("too-large", message, "factors", hint="study fewer factors or levels at once", at_key=True)
+            self._report("too-large", message, "factors", hint="study fewer at once, or add 'sample'", at_key=True)
         return combinations > LARGEST_SPACE

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
@@ -122,6 +122,16 @@ def si_unit(unit: str) -> str:
             continue
         return usual
     return _base_units(unit)
+
+
+def unit_of(powers: Iterable[tuple[str, float]]) -> str:
+    """The SI unit of base dimensions with their exponents, as one writes it; ``"1"`` for none.
+
+    Args:
+        powers: Base dimensions as `rgss.quantities.dimension` names them.
+    """
+    base = "*".join(_BASE_UNITS[name] if power == 1 else f"{_BASE_UNITS[name]}**{power:g}" for name, power in powers)
+    return si_unit(base or "1")
 
 
 def _base_units(unit: str) -> str:

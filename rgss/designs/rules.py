@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rgss.designs.compatibility import Condition, Limit, Rule
 from rgss.designs.components import Catalogue
+from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
+from rgss.designs.constraints import Constraint
 from rgss.designs.document import LimitModel, RuleModel
+from rgss.designs.factors import Factor
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterValue, format_value
 from rgss.designs.sources import COMPONENT_PREFIX, source_units
-from rgss.designs.space import Factor
 from rgss.designs.values import ValueReader
 from rgss.documents import Document
 from rgss.findings import Finding, shown
@@ -36,10 +38,13 @@ class RuleReader:
         catalogue: Catalogue,
         constants: Mapping[str, ParameterValue],
         factors: Sequence[Factor],
+        lines: Sequence[str] = (),
     ) -> None:
         self._document = document
         self._values = values
         self._catalogue = catalogue
+        self._lines = lines
+        self._spans = {factor.span.parameter: factor.span for factor in factors if factor.span is not None}
         self._findings: list[Finding] = []
         settings = [constants, *(level.values for factor in factors for level in factor.levels)]
         self._possible: dict[str, list[ParameterValue]] = {}
@@ -62,18 +67,20 @@ class RuleReader:
 
     def _rule(self, index: int, model: RuleModel) -> Rule:
         place = ("rules", index)
-        given = [key for key in ("exclude", "require", "limit") if getattr(model, key) is not None]
+        given = [key for key in ("exclude", "require", "limit", "constraint") if getattr(model, key) is not None]
         if len(given) != 1 or (model.exclude is not None and model.when is not None):
-            hint = "write 'exclude', or 'require' or 'limit' with or without 'when'"
+            hint = "write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when'"
             self._report("rule", f"rule {model.id!r} does not say one thing", *place, hint=hint)
         when = self._condition(
             model.exclude or model.when or {}, *place, "when" if model.exclude is None else "exclude"
         )
-        require: Condition | Limit | None = None
+        require: Condition | Limit | Constraint | None = None
         if model.require is not None:
             require = self._condition(model.require, *place, "require")
         elif model.limit is not None:
             require = self._limit(model.limit, *place, "limit")
+        elif model.constraint is not None:
+            require = self._constraint(model.constraint, *place, "constraint")
         for key in ("when", "require", "exclude"):
             if getattr(model, key) == {}:
                 self._report("rule", f"{key} names nothing", *place, key, hint=f"name a parameter, or remove {key!r}")
@@ -112,13 +119,35 @@ class RuleReader:
         values, findings = self._values.choices(self._document, place, name, written)
         self._findings += findings
         possible = self._possible.get(name, [])
+        span = self._spans.get(name)
         for index, value in enumerate(values if not findings else ()):
-            if possible and value not in possible:
-                unit = self._values.parameters[name].unit
+            unit = self._values.parameters[name].unit
+            if span is not None and not span.has(value):
+                ends = f"{format_value(span.low, unit)} to {format_value(span.high, unit)}"
+                message = f"{name} is never {format_value(value, unit)}"
+                hint = f"its range: {ends} in {span.steps} steps"
+                self._report("never-holds", message, *place, index, hint=hint)
+            elif possible and value not in possible:
                 known = ", ".join(dict.fromkeys(format_value(item, unit) for item in possible))
                 message = f"{name} is never {format_value(value, unit)}"
                 self._report("never-holds", message, *place, index, hint=f"its values: {known}")
         return values
+
+    def _constraint(self, text: str, *place: str | int) -> Constraint | None:
+        try:
+            return parse_constraint(text, source_units(self._values.parameters.values(), self._catalogue))
+        except ConstraintProblem as problem:
+            finding = self._document.finding(problem.rule, problem.message, place, hint=problem.hint)
+            column = finding.column + self._offset(finding, text, problem.offset)
+            self._findings.append(replace(finding, column=column))
+            return None
+
+    def _offset(self, finding: Finding, text: str, offset: int) -> int:
+        """How far from the value's first character a character of its text stands; 0 where it is folded."""
+        written = self._lines[finding.line - 1][finding.column - 1 :] if self._lines else ""
+        if written.startswith(text):
+            return offset
+        return 1 + offset if written[1:].startswith(text) else 0
 
     def _limit(self, model: LimitModel, *place: str | int) -> Limit:
         known = source_units(self._values.parameters.values(), self._catalogue)

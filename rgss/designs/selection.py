@@ -99,7 +99,9 @@ class _Combination:
     def _location(self, model: DesignSpaceModel) -> tuple[str | int, ...]:
         """Where the innermost factor sets one of the values; else where a constant does."""
         for index, factor in reversed(list(enumerate(model.factors))):
-            for number, level in enumerate(factor.levels):
+            if factor.parameter in self.values:
+                return ("factors", index, "range")
+            for number, level in enumerate(factor.levels or ()):
                 for name in self.values:
                     if self.levels.get(factor.id) == level.id and name in level.sets:
                         return ("factors", index, "levels", number, "sets", name)

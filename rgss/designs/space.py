@@ -1,45 +1,19 @@
-"""The design space: factors whose levels multiply into variants."""
+"""The design space: factors whose levels multiply into variants, or are sampled."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from rgss.designs.compatibility import Rule
 from rgss.designs.components import Catalogue, Component
+from rgss.designs.factors import Factor, Level
 from rgss.designs.parameters import DesignParameter, ParameterValue
+from rgss.designs.sampling import Sample
 from rgss.designs.sources import source_units
 from rgss.designs.variants import DesignVariant
 from rgss.errors import DefinitionError
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Level:
-    """One setting of a factor.
-
-    Attributes:
-        id: Its id within the factor.
-        values: The values that it gives to parameters, in SI, by parameter id.
-    """
-
-    id: str
-    values: Mapping[str, ParameterValue]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Factor:
-    """Parameters that are chosen together.
-
-    Attributes:
-        id: Its id.
-        name: Its name.
-        levels: Its settings, each of the same parameters.
-    """
-
-    id: str
-    name: str
-    levels: tuple[Level, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,6 +42,7 @@ class DesignSpace:
         rules: Which combinations make a design.
         catalogue: The components.
         selectors: The parameter values in SI that select each component, by component id.
+        sample: The points that are tried; None if every combination of levels is.
     """
 
     parameters: tuple[DesignParameter, ...]
@@ -76,6 +51,7 @@ class DesignSpace:
     rules: tuple[Rule, ...]
     catalogue: Catalogue
     selectors: Mapping[str, Mapping[str, tuple[ParameterValue, ...]]]
+    sample: Sample | None = None
 
     def expand(self) -> tuple[DesignVariant, ...]:
         """Every variant that the rules allow, by id."""
@@ -118,13 +94,21 @@ class DesignSpace:
         return source_units(self.parameters, self.catalogue)
 
     def combinations(self) -> Iterator[tuple[int, Mapping[str, str], Mapping[str, ParameterValue]]]:
-        """Every combination of levels: its number from 1, its levels by factor, and its parameters."""
-        for number, levels in enumerate(itertools.product(*(factor.levels for factor in self.factors)), start=1):
+        """Every combination of levels that is looked at: its number, its levels by factor, and its parameters.
+
+        They are the full product, numbered from 1; or the points of the sample that repeat no other.
+        """
+        for number, levels in self._points():
             values = dict(self.constants)
             for level in levels:
                 values.update(level.values)
             ids = {factor.id: level.id for factor, level in zip(self.factors, levels, strict=True)}
             yield number, ids, {item.id: values[item.id] for item in self.parameters if item.id in values}
+
+    def _points(self) -> Iterable[tuple[int, tuple[Level, ...]]]:
+        if self.sample is not None:
+            return self.sample.points.items()
+        return enumerate(itertools.product(*(factor.levels for factor in self.factors)), start=1)
 
     def candidates(self, role: str, parameters: Mapping[str, ParameterValue]) -> tuple[Component, ...]:
         """The components of a role that parameter values select."""

@@ -15,11 +15,12 @@ class DesignVariant:
     """One design of a design space.
 
     Attributes:
-        id: Its position in the full product of the factors, from 1; a rule that excludes
-            other combinations does not change it.
+        id: Its position in the full product of the factors, or among the points of the sample,
+            from 1; a rule that excludes other combinations does not change it.
         parameters: The value of every design parameter, in SI, in the order of the file.
         components: The component that fills each role, by role, in the order of the catalogue.
-        levels: The id of the level that it has of each factor, by factor.
+        levels: The id of the level that it has of each factor, by factor; of a range its value
+            with the unit, such as ``0.47 m/s``.
         definitions: What each of its parameters is.
     """
 

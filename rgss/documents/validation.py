@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import UnionType
@@ -14,7 +14,10 @@ from pydantic import BaseModel, ValidationError
 
 from rgss.documents.fields import IDENTIFIER_PATTERN
 from rgss.documents.model import DocumentModel
+from rgss.documents.positions import Location
+from rgss.documents.problems import first_problems
 from rgss.documents.reader import Document, read_document
+from rgss.documents.refusals import MOST_PROBLEMS, cut_short
 from rgss.errors import DocumentError
 from rgss.findings import Finding, shown
 
@@ -49,19 +52,41 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
     try:
         value = model.model_validate_json(json.dumps(document.data))
     except ValidationError as error:
-        findings = {_finding(document, model, problem) for problem in _own_problems(error, model)}
-        raise DocumentError(sorted(findings)) from error
+        problems = _own_problems(first_problems(document, model, error), model)
+        findings = {_finding(document, model, problem) for problem in problems}
+        raise DocumentError(cut_short(document.label, [*findings])) from error
     return LoadedDocument(value=value, document=document)
 
 
-def _own_problems(error: ValidationError, model: type[BaseModel]) -> list[Any]:
+def validated(data: Any, model: type[Model]) -> tuple[Model | None, tuple[tuple[Location, str], ...]]:
+    """Plain data that comes from no YAML file as a typed model.
+
+    Args:
+        data: Mappings, lists, texts, numbers, truth values and None.
+        model: What the data should be.
+
+    Returns:
+        The model, None if the data are not that; and each problem with where in the data it is.
+    """
+    try:
+        return model.model_validate_json(json.dumps(data)), ()
+    except ValidationError as error:
+        problems = error.errors(include_url=False)[:MOST_PROBLEMS]
+        return None, tuple((problem["loc"], _plain_words(problem)) for problem in problems)
+
+
+def _plain_words(problem: Any) -> str:
+    missing = problem["type"] == "missing" and isinstance(problem["loc"][-1], str)
+    return "is missing" if missing else _in_our_words(problem["type"], problem)
+
+
+def _own_problems(problems: Sequence[Any], model: type[BaseModel]) -> list[Any]:
     """The problems without those that only follow from another.
 
     A tuple whose entries are wrong is also called too short, because no valid entry is in it; a key that
     is misspelt is unknown, and then the right one is missing.
     """
-    problems: list[Any] = list(error.errors(include_url=False))
-    locations = [problem["loc"] for problem in problems]
+    around = {problem["loc"][:length] for problem in problems for length in range(len(problem["loc"]))}
     misspelt = {
         (*problem["loc"][:-1], near)
         for problem in problems
@@ -70,12 +95,9 @@ def _own_problems(error: ValidationError, model: type[BaseModel]) -> list[Any]:
     }
 
     def is_own(problem: Any) -> bool:
-        place = problem["loc"]
         if problem["type"] == "missing":
-            return place not in misspelt
-        return problem["type"] != "too_short" or not any(
-            len(other) > len(place) and other[: len(place)] == place for other in locations
-        )
+            return problem["loc"] not in misspelt
+        return problem["type"] != "too_short" or problem["loc"] not in around
 
     return [problem for problem in problems if is_own(problem)]
 

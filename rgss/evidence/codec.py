@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import json
 import math
-import types
-from collections.abc import Mapping
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
-from enum import Enum
 from functools import lru_cache
-from typing import Any, NoReturn, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, NoReturn, TypeVar
 
 from rgss.documents.digests import canonical_json
 from rgss.errors import DefinitionError, EvidenceError
+from rgss.evidence.packing import LARGEST_TEXT
+from rgss.evidence.readers import MismatchError, reader_of
 from rgss.evidence.records import TrialRecord
-from rgss.findings import shown
 
-LARGEST_TEXT = 16 * 1024 * 1024
-"""Characters of the longest text that is read."""
+_LONGEST_INTEGER = 1000
+"""Digits of the longest integer that is read: the time for it grows with their square."""
 
 Value = TypeVar("Value")
 
@@ -61,103 +60,65 @@ def read_json(text: str, kind: type[Value], name: str) -> Value:
     Raises:
         EvidenceError: It is something else.
     """
+    # That its floats are finite is for the type to say, which knows where they stand.
+    return read_plain(_loaded(text, name, float), kind, name)
+
+
+def read_plain(data: Any, kind: type[Value], name: str) -> Value:
+    """Read plain data, as JSON gives it, as a type; see `read_json`.
+
+    Raises:
+        EvidenceError: It is something else.
+    """
+    try:
+        return reader_of(kind)(data)  # type: ignore[no-any-return, arg-type]
+    except MismatchError as error:
+        raise error.as_error(name) from None
+
+
+def plain_json(text: str, name: str) -> Any:
+    """Read a JSON text as plain data: its numbers finite, no key twice.
+
+    Args:
+        text: The text.
+        name: What to call it in messages.
+
+    Raises:
+        EvidenceError: It is too long or no such JSON.
+    """
+    return _loaded(text, name, _finite_number)
+
+
+def _loaded(text: str, name: str, parse_float: Callable[[str], float]) -> Any:
     if len(text) > LARGEST_TEXT:
         raise EvidenceError(f"the {name} has {len(text)} characters; at most {LARGEST_TEXT} are read")
     try:
-        data = json.loads(text, object_pairs_hook=_without_duplicates, parse_constant=_refuse_constant)
+        return _decoder(parse_float).decode(text)
     except (ValueError, RecursionError) as error:
         raise EvidenceError(f"the {name} is not JSON: {str(error).splitlines()[0][:100]}") from error
-    return _read(data, kind, name)  # type: ignore[no-any-return]
+
+
+@lru_cache(maxsize=2)
+def _decoder(parse_float: Callable[[str], float]) -> json.JSONDecoder:
+    return json.JSONDecoder(
+        object_pairs_hook=_without_duplicates,
+        parse_constant=_refuse_constant,
+        parse_int=_bounded_integer,
+        parse_float=parse_float,
+    )
 
 
 def _plain(value: Any) -> Any:
     if is_dataclass(value) and not isinstance(value, type):
-        return {field.name: _plain(getattr(value, field.name)) for field in fields(value)}
+        return {name: _plain(getattr(value, name)) for name in _field_names(type(value))}
     if isinstance(value, (tuple, list)):
         return [_plain(item) for item in value]
     return value
 
 
-def _read(data: Any, kind: Any, where: str) -> Any:
-    origin = get_origin(kind)
-    if origin in (Union, types.UnionType):
-        return _read_union(data, get_args(kind), where)
-    if origin is tuple:
-        if not isinstance(data, list):
-            raise _refusal(where, "a list", data)
-        return tuple(_read(item, get_args(kind)[0], f"{where}[{index}]") for index, item in enumerate(data))
-    if origin is Mapping:
-        if not isinstance(data, dict):
-            raise _refusal(where, "a mapping", data)
-        return {key: _read(item, get_args(kind)[1], f"{where}.{key}") for key, item in data.items()}
-    if is_dataclass(kind):
-        return _read_dataclass(data, kind, where)
-    if isinstance(kind, type) and issubclass(kind, Enum):
-        return _read_enum(data, kind, where)
-    return _read_plain(data, kind, where)
-
-
-def _read_dataclass(data: Any, kind: Any, where: str) -> Any:
-    if not isinstance(data, dict):
-        raise _refusal(where, "a mapping", data)
-    kinds = _field_kinds(kind)
-    wrong = [f"lacks {name!r}" for name in kinds if name not in data]
-    wrong += [f"has an unknown {shown(name)}" for name in data if name not in kinds]
-    if wrong:
-        raise EvidenceError(f"{where} {wrong[0]}")
-    return kind(**{name: _read(data[name], field, f"{where}.{name}") for name, field in kinds.items()})
-
-
 @lru_cache(maxsize=64)
-def _field_kinds(kind: type) -> Mapping[str, Any]:
-    hints = get_type_hints(kind)
-    return {field.name: hints[field.name] for field in fields(kind)}
-
-
-def _read_union(data: Any, kinds: tuple[Any, ...], where: str) -> Any:
-    for kind in kinds:
-        if _could_be(data, kind):
-            return _read(data, kind, where)
-    if type(data) is int and float in kinds:
-        return data
-    raise _refusal(where, "one of " + ", ".join(_name(kind) for kind in kinds), data)
-
-
-def _could_be(data: Any, kind: Any) -> bool:
-    """Tell whether a value has the outer type of a kind; what is within it is read later."""
-    if get_origin(kind) is tuple:
-        return isinstance(data, list)
-    if isinstance(kind, type) and issubclass(kind, Enum):
-        return isinstance(data, str)
-    if get_origin(kind) is Mapping or is_dataclass(kind):
-        return isinstance(data, dict)
-    return type(data) is kind
-
-
-def _read_enum(data: Any, kind: type[Enum], where: str) -> Enum:
-    for member in kind:
-        if type(data) is type(member.value) and data == member.value:
-            return member
-    raise _refusal(where, f"a {kind.__name__}", data)
-
-
-def _read_plain(data: Any, kind: Any, where: str) -> Any:
-    # A whole number may stand for a float; it stays one, for the digest tells 0 from 0.0.
-    if type(data) is not kind and not (kind is float and type(data) is int):
-        raise _refusal(where, _name(kind), data)
-    if isinstance(data, float) and not math.isfinite(data):
-        raise _refusal(where, "a finite number", data)
-    return data
-
-
-def _name(kind: Any) -> str:
-    if get_origin(kind) is tuple:
-        return "list"
-    return "none" if kind is type(None) else str(kind.__name__)
-
-
-def _refusal(where: str, expected: str, data: Any) -> EvidenceError:
-    return EvidenceError(f"{where} is not {expected}: {shown(data)}")
+def _field_names(kind: type) -> tuple[str, ...]:
+    return tuple(field.name for field in fields(kind))
 
 
 def _without_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -165,6 +126,19 @@ def _without_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(mapping) < len(pairs):
         raise ValueError("a key stands twice")
     return mapping
+
+
+def _bounded_integer(text: str) -> int:
+    if len(text) > _LONGEST_INTEGER:
+        raise ValueError(f"an integer has {len(text)} digits")
+    return int(text)
+
+
+def _finite_number(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        _refuse_constant(text[:20])
+    return number
 
 
 def _refuse_constant(text: str) -> NoReturn:

@@ -3,25 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 
 from rgss.documents.digests import canonical_json
 from rgss.errors import DefinitionError, EvidenceError
-from rgss.evidence.codec import read_json
+from rgss.evidence.codec import plain_json, read_plain
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Provenance:
-    """What went into a trial.
+    """What went into a trial, and what made it.
+
+    None of this but the digests of the pieces enters a trial's key or the digest of its record.
 
     Attributes:
-        inputs: SHA-256 of each of its inputs by name: ``plan``, ``timing``, ``execution``,
-            ``variant``.
+        inputs: SHA-256 of each of its pieces' inputs by name: ``plan``, ``timing``, ``execution``,
+            ``trial``.
         versions: Version of the code and of each engine by name.
+        inputs_digest: What the store knows the trial's named inputs by, to say later which of
+            them changed; empty if they were not kept.
+        files: SHA-256 of each input file by its name in the project.
+        revision: Revision of the code in its version control; empty if it is not known.
+        machine: What it ran on: system, processor, Python; empty if it is not known.
     """
 
     inputs: Mapping[str, str]
     versions: Mapping[str, str]
+    inputs_digest: str = ""
+    files: Mapping[str, str] = field(default_factory=dict)
+    revision: str = ""
+    machine: str = ""
+
+
+_FIRST_FIELDS = {"inputs", "versions"}
+"""What a provenance of schema 1 says."""
 
 
 def provenance_to_json(provenance: Provenance) -> str:
@@ -31,7 +46,7 @@ def provenance_to_json(provenance: Provenance) -> str:
         EvidenceError: It holds something else than texts.
     """
     try:
-        text = canonical_json({"inputs": provenance.inputs, "versions": provenance.versions})
+        text = canonical_json({each.name: getattr(provenance, each.name) for each in fields(provenance)})
     except DefinitionError as error:
         raise EvidenceError(f"the provenance cannot be written: {error.message}", hint=error.hint) from error
     provenance_from_json(text)
@@ -39,9 +54,12 @@ def provenance_to_json(provenance: Provenance) -> str:
 
 
 def provenance_from_json(text: str) -> Provenance:
-    """Read a provenance that `provenance_to_json` wrote.
+    """Read a provenance that `provenance_to_json` wrote, or that of schema 1 did.
 
     Raises:
         EvidenceError: The text is no such provenance.
     """
-    return read_json(text, Provenance, "provenance")
+    data = plain_json(text, "provenance")
+    if isinstance(data, dict) and data.keys() == _FIRST_FIELDS:
+        data |= {"inputs_digest": "", "files": {}, "revision": "", "machine": ""}
+    return read_plain(data, Provenance, "provenance")

@@ -4,30 +4,68 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from collections.abc import Sequence
 
 from rgss.errors import EvidenceError
+from rgss.evidence import connection as connecting
+from rgss.evidence.migration import FIRST_TABLE, migrate_from_first
 
 APPLICATION_ID = 0x72677373
 """``rgss`` in ASCII, in the header of the file."""
 
-SCHEMA_VERSION = 1
-
-BUSY_TIMEOUT_S = 30.0
-"""How long a connection waits for another process that is writing."""
+SCHEMA_VERSION = 2
 
 _PAUSE_S = 0.02
 
-_TABLE = """CREATE TABLE trials (
+_TABLES: Sequence[tuple[str, str]] = (
+    (
+        "trials",
+        """CREATE TABLE trials (
     key TEXT NOT NULL PRIMARY KEY,
+    variant INTEGER NOT NULL,
+    seed INTEGER NOT NULL,
+    fidelity TEXT NOT NULL,
     content_digest TEXT NOT NULL,
     seal TEXT NOT NULL,
-    record TEXT NOT NULL,
-    provenance TEXT NOT NULL
-)"""
+    record BLOB NOT NULL,
+    provenance BLOB NOT NULL
+)""",
+    ),
+    (
+        "pieces",
+        """CREATE TABLE pieces (
+    digest TEXT NOT NULL PRIMARY KEY,
+    kind TEXT NOT NULL,
+    content_digest TEXT NOT NULL,
+    seal TEXT NOT NULL,
+    content BLOB NOT NULL
+)""",
+    ),
+    (
+        "inputs",
+        """CREATE TABLE inputs (
+    digest TEXT NOT NULL PRIMARY KEY,
+    content BLOB NOT NULL
+)""",
+    ),
+    (
+        "failures",
+        """CREATE TABLE failures (
+    key TEXT NOT NULL PRIMARY KEY,
+    what TEXT NOT NULL,
+    kind TEXT NOT NULL,
+    detail TEXT NOT NULL,
+    attempts INTEGER NOT NULL,
+    seal TEXT NOT NULL
+)""",
+    ),
+)
+
+_INDEX = ("trials_by_variant", "CREATE INDEX trials_by_variant ON trials (variant, seed, fidelity)")
 
 
 def prepare(connection: sqlite3.Connection, name: str) -> None:
-    """Make an empty database a store, or check that it is one that this version can read.
+    """Make an empty database a store, bring one of schema 1 to this one, or check that it is one.
 
     Args:
         connection: An open database, in autocommit mode.
@@ -38,16 +76,33 @@ def prepare(connection: sqlite3.Connection, name: str) -> None:
             given views, triggers or other tables.
         sqlite3.Error: It is no database, is damaged, or cannot be written.
     """
-    # Nothing that a foreign file defines in its schema may call functions.
-    connection.execute("PRAGMA trusted_schema = OFF")
-    connection.execute("PRAGMA cell_size_check = ON")
     if _is_empty(connection):
         _create(connection)
-    _check(connection, name)
-    _check_pages(connection, name)
+    version = _version(connection, name)
+    if version == 1:
+        _migrate(connection, name)
+    require_own_schema(connection, name)
     _log_ahead(connection)
-    # A committed trial survives a loss of power as well as the end of the process.
-    connection.execute("PRAGMA synchronous = FULL")
+
+
+def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
+    """Make sure that a database has the tables of a store and nothing else.
+
+    Raises:
+        EvidenceError: It has others, or views or triggers.
+        sqlite3.Error: It cannot be read.
+    """
+    _check_schema(connection, name, _TABLES, [_INDEX])
+
+
+def require_sound_pages(connection: sqlite3.Connection, name: str) -> None:
+    """Make sure that a file is whole before anything is written to it; some milliseconds for ten thousand trials.
+
+    Raises:
+        EvidenceError: It is not.
+        sqlite3.Error: It cannot be read.
+    """
+    _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' tells what is left of it")
 
 
 def _is_empty(connection: sqlite3.Connection) -> bool:
@@ -60,18 +115,74 @@ def _create(connection: sqlite3.Connection) -> None:
     try:
         # Another process may have done it since this one looked.
         if _is_empty(connection):
-            connection.execute(_TABLE)
             connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-            connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
+            _make_tables(connection)
         connection.execute("COMMIT")
     except BaseException:
-        connection.execute("ROLLBACK")
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
         raise
+
+
+def _make_tables(connection: sqlite3.Connection) -> None:
+    for _, statement in (*_TABLES, _INDEX):
+        connection.execute(statement)
+    connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
+
+
+def _migrate(connection: sqlite3.Connection, name: str) -> None:
+    """Bring a store of schema 1 to this one, all in one transaction."""
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        # Another process may have done it since this one looked.
+        if _version(connection, name) == 1:
+            _check_schema(connection, name, [("trials", FIRST_TABLE)], [])
+            # Wholly, for what is left behind now is gone.
+            _require_sound(connection, name, "integrity_check(1)", "move the file away and run the sweep again")
+            migrate_from_first(connection, _make_tables)
+        connection.execute("COMMIT")
+    except BaseException:
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+        raise
+
+
+def _version(connection: sqlite3.Connection, name: str) -> int:
+    if _pragma(connection, "application_id") != APPLICATION_ID:
+        raise EvidenceError(f"{name} is not an evidence store", hint="choose another file; this one is left as it is")
+    version = _pragma(connection, "user_version")
+    if version not in (1, SCHEMA_VERSION):
+        age = "newer" if isinstance(version, int) and version > SCHEMA_VERSION else "unknown"
+        hint = "use the rgss that wrote it, or another file"
+        raise EvidenceError(f"{name} has the {age} schema {version}; this rgss reads {SCHEMA_VERSION}", hint=hint)
+    return int(str(version))
+
+
+def _check_schema(
+    connection: sqlite3.Connection,
+    name: str,
+    tables: Sequence[tuple[str, str]],
+    indices: Sequence[tuple[str, str]],
+) -> None:
+    expected: list[tuple[str, str, str, str | None]] = [("table", table, table, text) for table, text in tables]
+    expected += [("index", f"sqlite_autoindex_{table}_1", table, None) for table, _ in tables]
+    expected += [("index", index, "trials", text) for index, text in indices]
+    found = connection.execute("SELECT type, name, tbl_name, sql FROM sqlite_master").fetchmany(len(expected) + 1)
+    if sorted(found, key=repr) != sorted(expected, key=repr):
+        raise EvidenceError(
+            f"{name} has a schema that is not its own", hint="move the file away and run the sweep again"
+        )
+
+
+def _require_sound(connection: sqlite3.Connection, name: str, check: str, hint: str) -> None:
+    problem = _pragma(connection, check)
+    if problem != "ok":
+        raise EvidenceError(f"{name} is damaged: {' '.join(str(problem).split())[-120:]}", hint=hint)
 
 
 def _log_ahead(connection: sqlite3.Connection) -> None:
     """Switch the file to write-ahead logging, which it then keeps."""
-    attempts_left = int(BUSY_TIMEOUT_S / _PAUSE_S)
+    attempts_left = int(connecting.BUSY_TIMEOUT_S / _PAUSE_S)
     while not _is_logging_ahead(connection, may_fail=attempts_left > 0):
         attempts_left -= 1
         time.sleep(_PAUSE_S)
@@ -86,28 +197,6 @@ def _is_logging_ahead(connection: sqlite3.Connection, *, may_fail: bool) -> bool
             return False
         raise
     return True
-
-
-def _check(connection: sqlite3.Connection, name: str) -> None:
-    if _pragma(connection, "application_id") != APPLICATION_ID:
-        raise EvidenceError(f"{name} is not an evidence store", hint="choose another file; this one is left as it is")
-    version = _pragma(connection, "user_version")
-    if version != SCHEMA_VERSION:
-        age = "newer" if isinstance(version, int) and version > SCHEMA_VERSION else "unknown"
-        hint = "use the rgss that wrote it, or another file"
-        raise EvidenceError(f"{name} has the {age} schema {version}; this rgss reads {SCHEMA_VERSION}", hint=hint)
-    found = connection.execute("SELECT type, name, sql FROM sqlite_master ORDER BY name").fetchall()
-    if [row for row in found if not str(row[1]).startswith("sqlite_")] != [("table", "trials", _TABLE)]:
-        raise EvidenceError(
-            f"{name} has a schema that is not its own", hint="move the file away and run the sweep again"
-        )
-
-
-def _check_pages(connection: sqlite3.Connection, name: str) -> None:
-    problem = _pragma(connection, "quick_check(1)")
-    if problem != "ok":
-        first = str(problem).splitlines()[-1][:120]
-        raise EvidenceError(f"{name} is damaged: {first}", hint="move the file away and run the sweep again")
 
 
 def _pragma(connection: sqlite3.Connection, name: str) -> object:

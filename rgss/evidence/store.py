@@ -1,57 +1,48 @@
-"""The evidence store: one SQLite file, one row a trial."""
+"""The evidence store: one SQLite file with trials, the pieces that they share, and what could not be made."""
 
 from __future__ import annotations
 
-import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
+from typing import Any, TypeVar
 
-from rgss.documents.digests import digest
 from rgss.errors import EvidenceError
-from rgss.evidence.codec import record_from_json, record_to_json
-from rgss.evidence.digests import is_digest, text_digest
-from rgss.evidence.provenance import Provenance, provenance_from_json, provenance_to_json
+from rgss.evidence.connection import Database, Row, connect, in_our_words
+from rgss.evidence.outcomes import Fidelity
+from rgss.evidence.pieces import Piece, piece_row
+from rgss.evidence.provenance import Provenance
 from rgss.evidence.records import TrialRecord
-from rgss.evidence.schema import BUSY_TIMEOUT_S, prepare
-from rgss.findings import shown
+from rgss.evidence.run_failures import RunFailure, failure_row
+from rgss.evidence.schema import prepare, require_sound_pages
+from rgss.evidence.tables import FAILURES, INPUTS, PIECES, TRIALS, Table, brief
+from rgss.evidence.trial_inputs import inputs_row
+from rgss.evidence.trial_rows import StoredTrial, require_key, trial_row
 
+Value = TypeVar("Value")
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StoredTrial:
-    """A row of the store.
-
-    Attributes:
-        key: SHA-256 of what went into the trial.
-        content_digest: SHA-256 of the record's canonical JSON.
-        record: What came out of it.
-        provenance: Where it comes from.
-    """
-
-    key: str
-    content_digest: str
-    record: TrialRecord
-    provenance: Provenance
+_AT_ONCE = 16
+"""Rows of one step of an iteration: enough to be quick, few enough to be small."""
 
 
 class EvidenceStore:
     """Trials by the digest of their inputs, in a file that several processes may share.
 
-    Every write is a transaction: a process that is killed leaves the trials that it has put
-    and no part of another. Every read checks the digests of the row. A store belongs to the
-    process and thread that opened it; workers hand their records to it.
+    Every write is a transaction: a process that is killed leaves what it has put and no part of
+    anything else. Every read checks the digests of the row. A store belongs to the process and
+    thread that opened it; workers hand their results to it.
+
+    Attributes:
+        database: The file, for what looks at it as a whole.
     """
 
-    def __init__(self, connection: sqlite3.Connection, name: str) -> None:
+    def __init__(self, database: Database) -> None:
         """Use `EvidenceStore.open` instead."""
-        self._connection = connection
-        self._name = name
+        self.database = database
 
     @classmethod
     def open(cls, path: Path, *, create: bool = True, label: str | None = None) -> EvidenceStore:
-        """Open a store.
+        """Open a store; one of an older schema is brought to the present one.
 
         Args:
             path: The file.
@@ -70,15 +61,15 @@ class EvidenceStore:
         except OSError as error:
             hint = "choose a folder that can be written"
             raise EvidenceError(f"the folder of {name} cannot be made: {error.strerror}", hint=hint) from error
-        with _in_our_words(name):
-            # In autocommit mode, so that transactions begin and end where this class says.
-            connection = sqlite3.connect(path, timeout=BUSY_TIMEOUT_S, isolation_level=None)
+        with in_our_words(name):
+            connection = connect(path)
             try:
                 prepare(connection, name)
+                require_sound_pages(connection, name)
             except BaseException:
                 connection.close()
                 raise
-        return cls(connection, name)
+        return cls(Database(connection, name))
 
     def __enter__(self) -> EvidenceStore:
         return self
@@ -90,36 +81,102 @@ class EvidenceStore:
 
     def close(self) -> None:
         """Close the file; a second time does nothing."""
-        with _in_our_words(self._name):
-            self._connection.close()
+        self.database.close()
 
     def put(self, key: str, record: TrialRecord, provenance: Provenance) -> bool:
-        """Keep a trial, on disk when this returns.
-
-        Args:
-            key: SHA-256 of what went into the trial.
-            record: What came out of it.
-            provenance: Where it comes from.
+        """Keep a trial, on disk when this returns; see `put_many`.
 
         Returns:
             Whether it is new; False if the same trial with the same result was there.
+        """
+        return self.put_many(trials=[(key, record, provenance)]) == 1
+
+    def put_piece(self, piece: Piece) -> bool:
+        """Keep a piece, on disk when this returns; see `put_many`.
+
+        Returns:
+            Whether it is new; False if the same piece with the same content was there.
+        """
+        return self.put_many(pieces=[piece]) == 1
+
+    def put_inputs(self, inputs: Mapping[str, Any]) -> str:
+        """Keep the named inputs of trials, once by content; returns the digest that they are known by.
 
         Raises:
-            EvidenceError: The key is there with another result, the key or the record is
-                malformed, or the file cannot be written.
+            EvidenceError: They are not plain data, or the file cannot be written.
         """
-        self._checked([key])
-        text, origin = record_to_json(record), provenance_to_json(provenance)
-        content = text_digest(text)
-        row = (key, content, _seal(key, content, origin), text, origin)
-        with self._transaction("IMMEDIATE"):
-            inserted = self._connection.execute("INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?, ?)", row).rowcount
-            there = self._connection.execute("SELECT content_digest FROM trials WHERE key = ?", (key,)).fetchone()
-        if there[0] != content:
-            message = f"trial {key[:12]} of variant {record.variant}, seed {record.seed} has another result than before"
-            hint = f"the same inputs must give the same record; {_brief(there[0])} is kept, {content[:12]} is not"
-            raise EvidenceError(f"non-determinism: {message}", hint=hint)
-        return inserted == 1
+        row = inputs_row(inputs)
+        if not self._is_there(INPUTS, row[0]):
+            with self.database.transaction():
+                self.database.change(INPUTS.put, row)
+        return row[0]
+
+    def put_many(
+        self,
+        *,
+        trials: Iterable[tuple[str, TrialRecord, Provenance]] = (),
+        pieces: Iterable[Piece] = (),
+        inputs: Iterable[Mapping[str, Any]] = (),
+    ) -> int:
+        """Keep trials, pieces and named inputs: all of them, on disk when this returns, or none.
+
+        What is kept of a trial or piece that could not be made before, its failure, is taken away.
+
+        Args:
+            trials: Key, record and provenance of each.
+            pieces: The pieces.
+            inputs: Named inputs, which the trials may refer to.
+
+        Returns:
+            How many of the trials and pieces are new; the others were there with the same content.
+
+        Raises:
+            EvidenceError: A trial or piece is there with another content, a trial refers to named
+                inputs that are not there, something is malformed, or the file cannot be written.
+        """
+        inputs_rows = [inputs_row(each) for each in inputs]
+        piece_rows = [piece_row(piece) for piece in pieces]
+        trial_rows = [(trial_row(key, record, origin), origin.inputs_digest) for key, record, origin in trials]
+        if not (inputs_rows or piece_rows or trial_rows):
+            return 0
+        with self.database.transaction():
+            for inputs_put in inputs_rows:
+                self.database.change(INPUTS.put, inputs_put)
+            new = sum(self._put(PIECES, piece, f"{piece[1]} {piece[0][:12]}") for piece in piece_rows)
+            for row, needed in trial_rows:
+                what = f"trial {row[0][:12]} of variant {row[1]}, seed {row[2]}"
+                if needed and not self._is_there(INPUTS, needed):
+                    raise EvidenceError(f"{what} refers to inputs that are not kept", hint="put its inputs first")
+                new += self._put(TRIALS, row, what)
+        return new
+
+    def put_failure(self, failure: RunFailure) -> bool:
+        """Keep a failure of the run, in place of an earlier one of the same trial or piece.
+
+        Returns:
+            Whether it was kept; False if the trial or piece has been made meanwhile.
+
+        Raises:
+            EvidenceError: It is malformed, or the file cannot be written.
+        """
+        row = failure_row(failure)
+        with self.database.transaction():
+            made = self._is_there(TRIALS, row[0]) or self._is_there(PIECES, row[0])
+            if not made:
+                self.database.change(FAILURES.put, row)
+        return not made
+
+    def clear_failures(self, keys: Iterable[str]) -> int:
+        """Forget the failures of trials and pieces, so that they are tried again; returns their number.
+
+        Raises:
+            EvidenceError: A key is malformed, or the file cannot be written.
+        """
+        wanted = list(keys)
+        for key in wanted:
+            require_key(key)
+        with self.database.transaction():
+            return sum(self._forget(key) for key in wanted)
 
     def get(self, key: str) -> StoredTrial | None:
         """The trial with a key; None if there is none.
@@ -127,10 +184,32 @@ class EvidenceStore:
         Raises:
             EvidenceError: Its row is damaged, or the file cannot be read.
         """
-        self._checked([key])
-        with _in_our_words(self._name):
-            row = self._connection.execute(_SELECT + " WHERE key = ?", (key,)).fetchone()
-        return None if row is None else self._read(row)
+        return self._get(TRIALS, key)
+
+    def piece(self, digest: str) -> Piece | None:
+        """The piece with a digest; None if there is none.
+
+        Raises:
+            EvidenceError: Its row is damaged, or the file cannot be read.
+        """
+        return self._get(PIECES, digest)
+
+    def inputs(self, digest: str) -> Mapping[str, Any] | None:
+        """The named inputs with a digest; None if there are none.
+
+        Raises:
+            EvidenceError: Their row is damaged, or the file cannot be read.
+        """
+        found = self._get(INPUTS, digest)
+        return None if found is None else found.values
+
+    def failures(self, keys: Iterable[str]) -> Mapping[str, RunFailure]:
+        """Those of the trials or pieces that could not be made, with what happened, in the order of the keys.
+
+        Raises:
+            EvidenceError: A row is damaged, or the file cannot be read.
+        """
+        return self._those(FAILURES, keys)
 
     def has(self, keys: Iterable[str]) -> set[str]:
         """Those of the keys whose trials are in the store.
@@ -138,12 +217,15 @@ class EvidenceStore:
         Raises:
             EvidenceError: The file cannot be read.
         """
-        wanted, found = self._checked(keys), set()
-        with self._transaction("DEFERRED"):
-            for key in wanted:
-                if self._connection.execute("SELECT 1 FROM trials WHERE key = ?", (key,)).fetchone():
-                    found.add(key)
-        return found
+        return self._those_there(TRIALS, keys)
+
+    def has_pieces(self, digests: Iterable[str]) -> set[str]:
+        """Those of the digests whose pieces are in the store.
+
+        Raises:
+            EvidenceError: The file cannot be read.
+        """
+        return self._those_there(PIECES, digests)
 
     def records(self, keys: Iterable[str]) -> Mapping[str, TrialRecord]:
         """The records of those of the keys that are in the store, in the order of the keys.
@@ -151,94 +233,76 @@ class EvidenceStore:
         Raises:
             EvidenceError: A row is damaged, or the file cannot be read.
         """
-        wanted, found = self._checked(keys), {}
-        with self._transaction("DEFERRED"):
-            for key in wanted:
-                trial = self.get(key)
-                if trial is not None:
-                    found[key] = trial.record
-        return found
+        return {key: trial.record for key, trial in self._those(TRIALS, keys).items()}
 
-    def all(self) -> tuple[StoredTrial, ...]:
-        """Every trial, in the order of keys, whatever the order in which they came.
+    def trials_of(self, variant: int, seed: int, fidelity: Fidelity) -> tuple[StoredTrial, ...]:
+        """All trials of a variant with a seed, whatever else went into them.
+
+        Those that say what their named inputs were come first, and among equals the key decides.
 
         Raises:
             EvidenceError: A row is damaged, or the file cannot be read.
         """
-        with _in_our_words(self._name):
-            rows = self._connection.execute(_SELECT + " ORDER BY key").fetchall()
-        return tuple(self._read(row) for row in rows)
+        statement = f"{TRIALS.select} WHERE variant = ? AND seed = ? AND fidelity = ? ORDER BY key"
+        rows = self.database.rows(statement, [variant, seed, Fidelity(fidelity).value])
+        found = [TRIALS.value(row, self.database.name) for row in rows]
+        return tuple(sorted(found, key=lambda trial: (not trial.provenance.inputs_digest, trial.key)))
+
+    def iterate(self) -> Iterator[StoredTrial]:
+        """Every trial in the order of keys, a few at a time; writing meanwhile does no harm.
+
+        Raises:
+            EvidenceError: A row is damaged, or the file cannot be read.
+        """
+        last = ""
+        while True:
+            rows = self.database.rows(f"{TRIALS.select} WHERE key > ? ORDER BY key LIMIT {_AT_ONCE}", [last])
+            for row in rows:
+                trial = TRIALS.value(row, self.database.name)
+                last = trial.key
+                yield trial
+            if len(rows) < _AT_ONCE:
+                return
+
+    def all(self) -> tuple[StoredTrial, ...]:
+        """Every trial, in the order of keys, whatever the order in which they came; see `iterate`."""
+        return tuple(self.iterate())
 
     def __len__(self) -> int:
-        with _in_our_words(self._name):
-            (count,) = self._connection.execute("SELECT count(*) FROM trials").fetchone()
-        return int(count)
+        (row,) = self.database.rows("SELECT count(*) FROM trials")
+        return int(row[0])
 
-    @contextmanager
-    def _transaction(self, kind: str) -> Iterator[None]:
-        with _in_our_words(self._name):
-            self._connection.execute(f"BEGIN {kind}")
-            try:
-                yield
-                self._connection.execute("COMMIT")
-            except BaseException:
-                if self._connection.in_transaction:
-                    self._connection.execute("ROLLBACK")
-                raise
+    def _put(self, table: Table[Value], row: Row, what: str) -> bool:
+        """Put a row whose content is told by a digest; what was there may differ from it in nothing."""
+        self._forget(row[0])
+        if self.database.change(table.put, row) == 1:
+            return True
+        there = self.database.one(table.by_key, [row[0]])
+        if there is not None and there[table.content or 0] != row[table.content or 0]:
+            kept, other = brief(there[table.content or 0]), brief(row[table.content or 0])
+            hint = f"the same inputs must give the same content; {kept} is kept, {other} is not"
+            raise EvidenceError(f"non-determinism: {what} has another result than before", hint=hint)
+        return False
 
-    def _checked(self, keys: Iterable[str]) -> list[str]:
+    def _forget(self, key: str) -> int:
+        return self.database.change(f"{FAILURES.delete} WHERE key = ?", [key])
+
+    def _get(self, table: Table[Value], key: str) -> Value | None:
+        require_key(key)
+        row = self.database.one(table.by_key, [key])
+        return None if row is None else table.value(row, self.database.name)
+
+    def _those(self, table: Table[Value], keys: Iterable[str]) -> dict[str, Value]:
+        wanted = list(keys)
+        with self.database.transaction("DEFERRED"):
+            return {key: value for key in wanted if (value := self._get(table, key)) is not None}
+
+    def _those_there(self, table: Table[Value], keys: Iterable[str]) -> set[str]:
         wanted = list(keys)
         for key in wanted:
-            if not is_digest(key):
-                raise EvidenceError(f"{_brief(key)} is not the key of a trial", hint="keys are made by trial_key")
-        return wanted
+            require_key(key)
+        with self.database.transaction("DEFERRED"):
+            return {key for key in wanted if self._is_there(table, key)}
 
-    def _read(self, row: tuple[object, ...]) -> StoredTrial:
-        key, content, seal, text, origin = row
-        hint = "delete the store and run the sweep again"
-        where = f"{self._name}: row {_brief(key)} is damaged"
-        if not (is_digest(key) and isinstance(key, str) and isinstance(text, str) and isinstance(origin, str)):
-            raise EvidenceError(f"{where}: it is not of texts", hint=hint)
-        if text_digest(text) != content:
-            raise EvidenceError(f"{where}: its record is not the one that was put", hint=hint)
-        if _seal(key, str(content), origin) != seal:
-            raise EvidenceError(f"{where}: its record or provenance belongs to another row", hint=hint)
-        try:
-            record, provenance = record_from_json(text), provenance_from_json(origin)
-        except EvidenceError as error:
-            raise EvidenceError(f"{where}: {error.message}", hint=hint) from error
-        return StoredTrial(key=key, content_digest=str(content), record=record, provenance=provenance)
-
-
-_SELECT = "SELECT key, content_digest, seal, record, provenance FROM trials"
-
-
-def _seal(key: str, content: str, provenance: str) -> str:
-    """Binds the parts of a row to each other, so that rows cannot be mixed up."""
-    return digest([key, content, provenance])
-
-
-def _brief(key: object) -> str:
-    return key[:12] if isinstance(key, str) and is_digest(key) else shown(key)
-
-
-_HINTS: Mapping[str, str] = {
-    "locked": "another process is writing; try again when it is done",
-    "readonly": "choose a file and a folder that can be written",
-    "unable to open": "check that it is a file in a folder that can be written",
-    "not a database": "choose another file; this one is left as it is",
-    "malformed": "the file is damaged: move it away and run the sweep again",
-    "full": "free some space on the disk",
-    "closed": "open the store again",
-    "thread": "open the store in the thread that uses it",
-}
-
-
-@contextmanager
-def _in_our_words(name: str) -> Iterator[None]:
-    try:
-        yield
-    except sqlite3.Error as error:
-        problem = str(error).splitlines()[0][:200] if str(error) else type(error).__name__
-        hint = next((hint for words, hint in _HINTS.items() if words in problem), "move the file away and try again")
-        raise EvidenceError(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error
+    def _is_there(self, table: Table[Value], key: str) -> bool:
+        return self.database.one(table.is_there, [key]) is not None

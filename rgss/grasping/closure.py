@@ -9,16 +9,11 @@ import numpy as np
 
 from rgss.errors import DefinitionError
 from rgss.grasping.contact import Matrix, Vector3
+from rgss.grasping.feasibility import BALANCED, RANK_TOLERANCE, STRICTLY_POSITIVE
 from rgss.grasping.grasp import Grasp
 from rgss.grasping.grasp_map import PrimitiveWrenches, plane_rows, primitive_wrenches
 from rgss.grasping.linear import maximise
 from rgss.grasping.screws import Wrench
-
-RANK_TOLERANCE = 1e-9
-"""A singular value below this share of the greatest counts as zero."""
-
-_BALANCED = 1e-8
-_STRICTLY_POSITIVE = 1e-7
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,12 +48,7 @@ def equilibrium(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | No
     Raises:
         DefinitionError: The pyramids are ill defined, or the solver failed.
     """
-    edges = primitive_wrenches(grasp, cone_edges=cone_edges, plane_normal=plane_normal)
-    residual = _smallest_net_wrench(edges.matrix)
-    if residual > _BALANCED:
-        return ClosureVerdict(holds=False, margin=-residual)
-    share = _most_even_share(edges, len(grasp.contacts))
-    return ClosureVerdict(holds=True, margin=share if share > _STRICTLY_POSITIVE else 0.0)
+    return balance(primitive_wrenches(grasp, cone_edges=cone_edges, plane_normal=plane_normal), len(grasp.contacts))
 
 
 def force_closure(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None) -> ClosureVerdict:
@@ -123,14 +113,55 @@ def wrench_resistance(
         DefinitionError: The load is not finite or the limit not positive; the pyramids are ill defined, or the solver
             failed.
     """
+    edges = primitive_wrenches(grasp, cone_edges=cone_edges, plane_normal=plane_normal)
+    rows = None if plane_normal is None else plane_rows(plane_normal)
+    return resistance(grasp, edges, external, finger_force_limit_n=finger_force_limit_n, rows=rows)
+
+
+def balance(edges: PrimitiveWrenches, contacts: int) -> ClosureVerdict:
+    """The verdict of `equilibrium` from the edges of the friction pyramids.
+
+    Args:
+        edges: The edges.
+        contacts: Number of contacts to which they belong.
+
+    Raises:
+        DefinitionError: The solver failed.
+    """
+    residual = _smallest_net_wrench(edges.matrix)
+    if residual > BALANCED:
+        return ClosureVerdict(holds=False, margin=-residual)
+    share = _most_even_share(edges, contacts)
+    return ClosureVerdict(holds=True, margin=share if share > STRICTLY_POSITIVE else 0.0)
+
+
+def resistance(
+    grasp: Grasp,
+    edges: PrimitiveWrenches,
+    external: Wrench,
+    *,
+    finger_force_limit_n: float,
+    rows: Matrix | None = None,
+) -> ClosureVerdict:
+    """The verdict of `wrench_resistance` from the edges of the friction pyramids.
+
+    Args:
+        grasp: The grasp.
+        edges: The edges.
+        external: The outer load about the centre of mass.
+        finger_force_limit_n: Greatest normal force of a finger.
+        rows: What picks the wrenches of a plane out of those of space; None for a grasp in space.
+
+    Raises:
+        DefinitionError: The load is not finite or the limit not positive; or the solver failed.
+    """
     require_force_limit(finger_force_limit_n)
     numbers = (*external.force_n, *external.torque_n_m)
     if not all(map(math.isfinite, numbers)):
         raise DefinitionError(f"a load with the components {numbers} cannot be resisted", hint="give finite numbers")
-    edges = primitive_wrenches(grasp, cone_edges=cone_edges, plane_normal=plane_normal)
     load = np.concatenate([external.force_n, np.array(external.torque_n_m) / grasp.characteristic_length_m])
-    if plane_normal is not None:
-        load = plane_rows(plane_normal) @ load
+    if rows is not None:
+        load = rows @ load
     size = float(np.linalg.norm(load))
     if size == 0.0:
         return ClosureVerdict(holds=True, margin=math.inf)
@@ -142,7 +173,7 @@ def wrench_resistance(
         at_most=(np.hstack([fingers, np.zeros((len(fingers), 1))]), np.ones(len(fingers))),
     )
     factor = 0.0 if best is None else float(best[-1]) * finger_force_limit_n / size
-    return ClosureVerdict(holds=factor >= 1.0 - _BALANCED, margin=factor - 1.0)
+    return ClosureVerdict(holds=factor >= 1.0 - BALANCED, margin=factor - 1.0)
 
 
 def positive_span(wrenches: Matrix) -> ClosureVerdict:
@@ -167,7 +198,7 @@ def positive_span(wrenches: Matrix) -> ClosureVerdict:
         ),
     )
     margin = 0.0 if best is None else columns * float(best[-1])
-    holds = margin > _STRICTLY_POSITIVE
+    holds = margin > STRICTLY_POSITIVE
     return ClosureVerdict(holds=holds, margin=min(margin, 1.0) if holds else 0.0)
 
 
@@ -203,7 +234,7 @@ def _most_even_share(edges: PrimitiveWrenches, count: int) -> float:
         equal=(np.append(np.ones(columns), 0.0)[None], np.ones(1)),
         at_most=(
             np.vstack([np.hstack([-members, np.ones((count, 1))]), balance, -balance]),
-            np.concatenate([np.zeros(count), np.full(2 * rows, 2.0 * _BALANCED)]),
+            np.concatenate([np.zeros(count), np.full(2 * rows, 2.0 * BALANCED)]),
         ),
     )
     return 0.0 if best is None else min(1.0, count * float(best[-1]))

@@ -101,10 +101,20 @@ class ContactPoint:
 
     def axes(self) -> Matrix:
         """The contact's frame: unit normal and two unit tangents as rows, right-handed, shape (3, 3)."""
-        normal = np.array(self.normal) / math.hypot(*self.normal)
+        # In plain numbers, since a grasp asks for many of these and arrays of three are slow.
+        normal = _unit(self.normal)
         towards = self.tangent
         if towards is None:
             towards = (0.0, 0.0, 1.0) if abs(normal[2]) <= _NEARLY_VERTICAL else (1.0, 0.0, 0.0)
-        second = np.cross(normal, towards)
-        second /= np.linalg.norm(second)
-        return np.array([normal, np.cross(second, normal), second])
+        second = _unit(_cross(normal, towards))
+        return np.array([normal, _cross(second, normal), second])
+
+
+def _unit(vector: Vector3) -> Vector3:
+    length = math.hypot(*vector)
+    return vector[0] / length, vector[1] / length, vector[2] / length
+
+
+def _cross(first: Vector3, second: Vector3) -> Vector3:
+    (ax, ay, az), (bx, by, bz) = first, second
+    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx

@@ -42,18 +42,15 @@ def partial_wrench_basis(grasp: Grasp, index: int) -> Matrix:
     Returns:
         Shape (6, 1), (6, 3) or (6, 4); no units.
     """
-    contact = grasp.contacts[index]
-    axes, arm = contact.axes(), grasp.arms_m()[index]
-    forces = axes[:1] if contact.kind is ContactKind.FRICTIONLESS else axes
-    columns: Matrix = np.hstack([forces, np.cross(arm, forces) / grasp.characteristic_length_m]).T
-    if contact.kind is ContactKind.SOFT:
-        columns = np.hstack([columns, np.concatenate([np.zeros(3), axes[0]])[:, None]])
-    return columns
+    return _basis(grasp.contacts[index], grasp.arms_m()[index], grasp.characteristic_length_m)
 
 
 def grasp_matrix(grasp: Grasp) -> Matrix:
     """The grasp matrix G, shape (6, m): from the contacts' intensities to the wrench on the object (sec. 3.4.2)."""
-    return np.hstack([partial_wrench_basis(grasp, index) for index in range(len(grasp.contacts))])
+    length = grasp.characteristic_length_m
+    return np.hstack(
+        [_basis(contact, arm, length) for contact, arm in zip(grasp.contacts, grasp.arms_m(), strict=True)]
+    )
 
 
 def grasp_map(grasp: Grasp, intensities: Sequence[Sequence[float]]) -> Wrench:
@@ -133,7 +130,7 @@ def primitive_wrenches(
     for index, contact in enumerate(grasp.contacts):
         kind = ContactKind.FRICTIONLESS if frictionless else contact.kind
         forces = _edge_forces(contact, kind, cone_edges, plane_normal)
-        torques = np.cross(arms[index], forces) / grasp.characteristic_length_m
+        torques = _moments(arms[index], forces) / grasp.characteristic_length_m
         twisting = contact.torsional_friction_m / grasp.characteristic_length_m
         if kind is ContactKind.SOFT and twisting > 0.0:
             spin = twisting * contact.axes()[0]
@@ -144,6 +141,22 @@ def primitive_wrenches(
     if plane_normal is not None:
         matrix = plane_rows(plane_normal) @ matrix
     return PrimitiveWrenches(matrix=matrix, contacts=np.array(owners))
+
+
+def _basis(contact: ContactPoint, arm_m: Matrix, length_m: float) -> Matrix:
+    axes = contact.axes()
+    forces = axes[:1] if contact.kind is ContactKind.FRICTIONLESS else axes
+    columns: Matrix = np.hstack([forces, _moments(arm_m, forces) / length_m]).T
+    if contact.kind is ContactKind.SOFT:
+        columns = np.hstack([columns, np.concatenate([np.zeros(3), axes[0]])[:, None]])
+    return columns
+
+
+def _moments(arm_m: Matrix, forces: Matrix) -> Matrix:
+    """Moments arm × force of forces at one point, shape (n, 3); several times as fast as NumPy's for few of them."""
+    x, y, z = arm_m.tolist()
+    moments: Matrix = forces @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+    return moments
 
 
 def _edge_forces(contact: ContactPoint, kind: ContactKind, cone_edges: int, plane_normal: Vector3 | None) -> Matrix:

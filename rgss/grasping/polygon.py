@@ -50,9 +50,8 @@ def grasp_polygon(grasp: Grasp, grasp_axis: Vector3 | None = None) -> GraspPolyg
     """
     corners = _finger_points(grasp)
     mean = corners.mean(axis=0)
-    # Right singular vectors: the directions in which the corners spread, greatest first.
-    directions = np.linalg.svd(corners - mean)[2]
-    axis = np.array(_unit(grasp_axis)) if grasp_axis is not None else directions[2]
+    # The last right singular vector is the direction in which the corners spread least.
+    axis = np.array(_unit(grasp_axis)) if grasp_axis is not None else np.linalg.svd(corners - mean)[2][2]
     plane = ContactPoint(position_m=(0.0, 0.0, 0.0), normal=tuple(axis.tolist())).axes()[1:]
     centre = plane @ mean
     ring = _ring(corners @ plane.T, centre, _COINCIDENT * grasp.characteristic_length_m)

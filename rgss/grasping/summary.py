@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import NamedTuple
 
 from rgss.evidence.records import Metric
-from rgss.grasping.closure import equilibrium, force_closure, form_closure, wrench_resistance
+from rgss.grasping.closure import balance, positive_span, require_force_limit, resistance
 from rgss.grasping.contact import ContactPoint, Vector3
+from rgss.grasping.feasibility import can_balance, positively_span
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import grasp_matrix, net_wrench
+from rgss.grasping.grasp_map import PrimitiveWrenches, grasp_matrix, net_wrench, primitive_wrenches
 from rgss.grasping.polygon import grasp_polygon
-from rgss.grasping.quality import q_diff_m, q_gii, q_gpri, q_msv, q_smw_n, q_voe
+from rgss.grasping.quality import ball_radius, q_diff_m, q_gii, q_gpri, q_msv, q_voe
 from rgss.grasping.rigid_body import wrench_norm_n
 from rgss.grasping.screws import Wrench
 
@@ -26,7 +28,8 @@ class GraspQuality:
         finger_count: Number of fingers that they belong to.
         characteristic_length_m: What torques are divided by.
         equilibrium: Tells whether a squeeze can balance itself.
-        equilibrium_margin_1: See `rgss.grasping.closure.equilibrium`.
+        equilibrium_margin_1: See `rgss.grasping.closure.equilibrium`; None, like the other two, if margins were not
+            asked for.
         force_closure: Tells whether every wrench can be resisted.
         force_closure_margin_1: See `rgss.grasping.closure.force_closure`.
         form_closure: Tells whether the normals alone immobilise the object.
@@ -36,7 +39,7 @@ class GraspQuality:
         q_gii_1: Isotropy of the ellipsoid of wrenches.
         q_gpri_1: Irregularity of the grasp polygon; None for fewer than three corners.
         q_diff_m: Distance from the polygon's centroid to the centre of mass.
-        q_smw_n: Smallest maximum wrench.
+        q_smw_n: Smallest maximum wrench; None, like the load factor, if strength was not asked for.
         net_wrench_n: Norm of the contacts' present net wrench.
         wrench_resistance: Tells whether the given load can be resisted; None if none was given.
         load_factor_1: The greatest multiple of that load; None if none was given, or a load of zero.
@@ -46,17 +49,17 @@ class GraspQuality:
     finger_count: int
     characteristic_length_m: float
     equilibrium: bool
-    equilibrium_margin_1: float
+    equilibrium_margin_1: float | None
     force_closure: bool
-    force_closure_margin_1: float
+    force_closure_margin_1: float | None
     form_closure: bool
-    form_closure_margin_1: float
+    form_closure_margin_1: float | None
     q_msv_1: float
     q_voe_1: float
     q_gii_1: float
     q_gpri_1: float | None
     q_diff_m: float
-    q_smw_n: float
+    q_smw_n: float | None
     net_wrench_n: float
     wrench_resistance: bool | None
     load_factor_1: float | None
@@ -76,6 +79,8 @@ def analyse_grasp(
     characteristic_length_m: float | None = None,
     external_wrench: Wrench | None = None,
     cone_edges: int = 8,
+    with_margins: bool = True,
+    with_strength: bool = True,
 ) -> GraspQuality:
     """Analyse the grasp that contacts make.
 
@@ -89,26 +94,30 @@ def analyse_grasp(
             centre of mass. Give one length wherever grasps are compared.
         external_wrench: A load about the centre of mass that is to be resisted, such as the weight.
         cone_edges: Edges of each friction pyramid.
+        with_margins: Whether to say how well the verdicts hold, by linear programs; the verdicts are the same without.
+        with_strength: Whether to say what the grasp resists: the smallest maximum wrench, by a hull, and the load, by
+            a linear program. Without margins and strength an analysis takes a few times less than with either.
 
     Raises:
         DefinitionError: The contacts, the limit, the axis, the length or the load make no sense, or a solver failed.
     """
     grasp = Grasp.of(contacts, centre_of_mass_m, characteristic_length_m)
+    require_force_limit(finger_force_limit_n)
     matrix, polygon = grasp_matrix(grasp), grasp_polygon(grasp, grasp_axis)
-    balance = equilibrium(grasp, cone_edges=cone_edges)
-    force, form = force_closure(grasp, cone_edges=cone_edges), form_closure(grasp)
-    resistance = (
-        wrench_resistance(grasp, external_wrench, finger_force_limit_n=finger_force_limit_n, cone_edges=cone_edges)
-        if external_wrench is not None
+    edges = primitive_wrenches(grasp, cone_edges=cone_edges)
+    squeeze, force, form = _verdicts(grasp, edges, with_margins=with_margins)
+    load = (
+        resistance(grasp, edges, external_wrench, finger_force_limit_n=finger_force_limit_n)
+        if external_wrench is not None and with_strength
         else None
     )
-    is_loaded = resistance is not None and math.isfinite(resistance.margin)
+    is_loaded = load is not None and math.isfinite(load.margin)
     return GraspQuality(
         contact_count=len(grasp.contacts),
         finger_count=len(grasp.fingers()),
         characteristic_length_m=grasp.characteristic_length_m,
-        equilibrium=balance.holds,
-        equilibrium_margin_1=balance.margin,
+        equilibrium=squeeze.holds,
+        equilibrium_margin_1=squeeze.margin,
         force_closure=force.holds,
         force_closure_margin_1=force.margin,
         form_closure=form.holds,
@@ -118,8 +127,30 @@ def analyse_grasp(
         q_gii_1=q_gii(matrix),
         q_gpri_1=q_gpri(polygon),
         q_diff_m=q_diff_m(polygon),
-        q_smw_n=q_smw_n(grasp, finger_force_limit_n=finger_force_limit_n, cone_edges=cone_edges),
+        q_smw_n=_smallest_maximum(edges, finger_force_limit_n, is_closed=force.holds) if with_strength else None,
         net_wrench_n=wrench_norm_n(net_wrench(grasp), grasp.characteristic_length_m),
-        wrench_resistance=None if resistance is None else resistance.holds,
-        load_factor_1=resistance.margin + 1.0 if resistance is not None and is_loaded else None,
+        wrench_resistance=None if load is None else load.holds,
+        load_factor_1=load.margin + 1.0 if load is not None and is_loaded else None,
     )
+
+
+def _smallest_maximum(edges: PrimitiveWrenches, finger_force_limit_n: float, *, is_closed: bool) -> float:
+    return finger_force_limit_n * ball_radius(edges.matrix) if is_closed else 0.0
+
+
+class _Verdict(NamedTuple):
+    holds: bool
+    margin: float | None
+
+
+def _verdicts(grasp: Grasp, edges: PrimitiveWrenches, *, with_margins: bool) -> tuple[_Verdict, _Verdict, _Verdict]:
+    """Equilibrium, force closure and form closure."""
+    normals = primitive_wrenches(grasp, frictionless=True).matrix
+    if with_margins:
+        found = balance(edges, len(grasp.contacts)), positive_span(edges.matrix), positive_span(normals)
+        first, second, third = (_Verdict(verdict.holds, verdict.margin) for verdict in found)
+        return first, second, third
+    closed = positively_span(edges.matrix)
+    # Wrenches that span their space balance; only the others need to be asked.
+    squeezed = closed or can_balance(edges.matrix)
+    return _Verdict(squeezed, None), _Verdict(closed, None), _Verdict(positively_span(normals), None)

@@ -1,5 +1,6 @@
 """Measures of performance and effectiveness: definitions, expressions, estimates, verdicts."""
 
+from rgss.measures.definition_digest import definition_digest
 from rgss.measures.definitions import (
     Assumption,
     Constant,
@@ -18,7 +19,7 @@ from rgss.measures.document import MeasuresDocument
 from rgss.measures.estimates import Estimate
 from rgss.measures.evaluation import design_values, evaluate, trial_values
 from rgss.measures.loading import load_measures
-from rgss.measures.verdicts import Verdict, judge, meets
+from rgss.measures.verdicts import StaleCause, Verdict, judge, meets
 
 __all__ = [
     "Assumption",
@@ -34,8 +35,10 @@ __all__ = [
     "MeasureSet",
     "MeasuresDocument",
     "Population",
+    "StaleCause",
     "Summary",
     "Verdict",
+    "definition_digest",
     "design_values",
     "evaluate",
     "judge",

@@ -22,6 +22,21 @@ class Verdict(str, Enum):
     STALE = "stale"
 
 
+class StaleCause(str, Enum):
+    """What changed since the evidence was made, so that it is evidence for something else."""
+
+    REQUIREMENT = "requirement"
+    """The requirement: its sentence, its criterion or how it is verified."""
+    MEASURE = "measure"
+    """The definition of its measure, or of anything that the measure is computed from."""
+    MODEL = "model"
+    """What is simulated: the design, the scene, the study's settings."""
+    CODE = "code"
+    """The source of rgss that makes trials."""
+    ENGINES = "engines"
+    """The version of an engine."""
+
+
 def meets(criterion: Criterion, value: float, unit: str) -> bool:
     """Tell whether one value satisfies a criterion, whatever its statistic.
 
@@ -55,16 +70,18 @@ def judge(criterion: Criterion, estimate: Estimate, *, stale: bool = False) -> V
 
     Args:
         criterion: The criterion.
-        estimate: The estimate of its measure.
-        stale: Whether the evidence is older than what it is evidence for.
+        estimate: The estimate of its measure from the evidence that holds now.
+        stale: Whether there is evidence that the verdict should stand on, but something that it
+            depends on changed since; see `StaleCause`. Such a verdict is stale, whatever else
+            is known; without any evidence, old or new, it is not run.
 
     Raises:
         DefinitionError: The estimate's unit measures something else than the threshold's.
     """
-    if estimate.value is None:
-        return Verdict.NOT_RUN
     if stale:
         return Verdict.STALE
+    if estimate.value is None:
+        return Verdict.NOT_RUN
     bounds = {
         Statistic.VALUE: (estimate.value, estimate.low, estimate.high),
         Statistic.LOW: (estimate.low,),

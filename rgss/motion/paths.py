@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -60,6 +61,7 @@ def segment_states(start: Vector, end: Vector, resolution_rad: float, *, density
     return states
 
 
+@lru_cache(maxsize=1024)
 def coarse_to_fine(count: int) -> tuple[int, ...]:
     """The indices 0..count-1, the last first and then by halving, so that a bad segment is found out early.
 

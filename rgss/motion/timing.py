@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import MotionError
 from rgss.motion.blending import BlendedPath, SmoothPath, blend
+from rgss.motion.derivatives import PathDerivatives, path_derivatives
 from rgss.motion.limits import MotionLimits
 from rgss.motion.parametrization import RateConstraints, fastest_rates
 from rgss.motion.paths import JointPath
@@ -138,31 +139,13 @@ class _Run:
     tool_acceleration_m_s2: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Derivatives:
-    """Derivatives with respect to the parameter, at points of the path: of the joints and of the tool centre."""
-
-    first: Vector
-    second: Vector
-    tool_first: Vector
-    tool_second: Vector
-
-    def every(self, stride: int) -> _Derivatives:
-        return _Derivatives(
-            first=self.first[::stride],
-            second=self.second[::stride],
-            tool_first=self.tool_first[::stride],
-            tool_second=self.tool_second[::stride],
-        )
-
-
 def _timed_run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, limits: MotionLimits) -> _Run | None:
     for refinement in range(_REFINEMENTS + 1):
         grid = _grid(path, first, last, 2**refinement)
         fine = np.append(
             (grid[:-1, None] + np.diff(grid)[:, None] * np.arange(_POINTS_OF_CELL) / _POINTS_OF_CELL).ravel(), grid[-1]
         )
-        derivatives = _derivatives(path, fine, tool)
+        derivatives = path_derivatives(path, fine, tool)
         at_grid = derivatives.every(_POINTS_OF_CELL)
         rates = fastest_rates(grid, _largest_squares(at_grid, limits), _constraints(at_grid, limits))
         if rates is None:
@@ -193,18 +176,7 @@ def _grid(path: SmoothPath, first: int, last: int, refinement: int) -> Vector:
     return np.append(np.concatenate(parts), breaks[-1])
 
 
-def _derivatives(path: SmoothPath, parameters: Vector, tool: ToolKinematics) -> _Derivatives:
-    first = path(parameters, 1)
-    tool_first = np.array([tool.tool_jacobian(q)[:3] @ step for q, step in zip(path(parameters), first, strict=True)])
-    return _Derivatives(
-        first=first,
-        second=path(parameters, 2),
-        tool_first=tool_first,
-        tool_second=np.gradient(tool_first, parameters, axis=0, edge_order=2),
-    )
-
-
-def _largest_squares(at: _Derivatives, limits: MotionLimits) -> Vector:
+def _largest_squares(at: PathDerivatives, limits: MotionLimits) -> Vector:
     """The greatest (ds/dt)² that keeps the speeds of joints and tool."""
     joints = np.max(np.abs(at.first) / np.array(limits.speed_rad_s), axis=1)
     tool = np.linalg.norm(at.tool_first, axis=1) / limits.tool_speed_m_s
@@ -212,7 +184,7 @@ def _largest_squares(at: _Derivatives, limits: MotionLimits) -> Vector:
     return squares
 
 
-def _constraints(at: _Derivatives, limits: MotionLimits) -> list[RateConstraints]:
+def _constraints(at: PathDerivatives, limits: MotionLimits) -> list[RateConstraints]:
     joints = len(limits.acceleration_rad_s2)
     identity = np.eye(joints)
     result = [
@@ -237,7 +209,7 @@ def _constraints(at: _Derivatives, limits: MotionLimits) -> list[RateConstraints
     return result
 
 
-def _along_and_across(at: _Derivatives) -> tuple[Vector, Vector]:
+def _along_and_across(at: PathDerivatives) -> tuple[Vector, Vector]:
     """The tool's second derivative along its direction, and its magnitude across it."""
     speed = np.linalg.norm(at.tool_first, axis=1)
     direction = at.tool_first / np.where(speed > 0.0, speed, 1.0)[:, None]
@@ -246,7 +218,7 @@ def _along_and_across(at: _Derivatives) -> tuple[Vector, Vector]:
     return along, across
 
 
-def _verify(grid: Vector, rates: Vector, fine: _Derivatives, limits: MotionLimits) -> tuple[float, float, float]:
+def _verify(grid: Vector, rates: Vector, fine: PathDerivatives, limits: MotionLimits) -> tuple[float, float, float]:
     """By what factor must the motion slow down? And the peak speed and acceleration of the tool."""
     squares = rates**2
     accelerations = np.diff(squares) / (2 * np.diff(grid))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rgss.physics.contacts import Contacts, FingerContact
+from rgss.scenes import Pose
 
 
 class ContactReader:
@@ -85,9 +87,15 @@ class ContactReader:
             workpiece_bodies=tuple(dict.fromkeys(workpiece_bodies)),
         )
 
-    def finger_contacts(self) -> tuple[FingerContact, ...]:
-        """The points at which fingers press on the workpiece after the last step."""
+    def finger_contacts(self, step_s: float) -> tuple[FingerContact, ...]:
+        """The points at which fingers press on the workpiece after the last step.
+
+        Args:
+            step_s: Length of that step, at whose start the engine found them.
+        """
         found = []
+        transform = self._workpiece_pose_before(step_s).inverse()
+        turn = Pose(quaternion_xyzw=transform.quaternion_xyzw)
         for point in self._engine.getContactPoints(physicsClientId=self._client):
             bodies = (point[1], point[2])
             if self._workpiece not in bodies or self._robot not in bodies or point[9] <= 0.0:
@@ -98,40 +106,30 @@ class ContactReader:
                 continue
             # The engine's normal points from body B to body A, its friction acts on A.
             sign = 1.0 if workpiece_is_a else -1.0
-            normal = tuple(sign * value for value in point[7])
-            friction = tuple(
-                sign * (point[10] * first + point[12] * second)
-                for first, second in zip(point[11], point[13], strict=True)
-            )
-            position = tuple(point[5 if workpiece_is_a else 6])
+            nx, ny, nz = point[7]
+            first, (ax, ay, az), second, (bx, by, bz) = sign * point[10], point[11], sign * point[12], point[13]
             found.append(
                 FingerContact(
-                    finger, position, normal, point[8], point[9], friction, self._relative_velocity(finger, position)
+                    finger,
+                    (transform @ Pose(position_m=point[5 if workpiece_is_a else 6])).position_m,
+                    turn.rotate((sign * nx, sign * ny, sign * nz)),
+                    point[8],
+                    point[9],
+                    turn.rotate((first * ax + second * bx, first * ay + second * by, first * az + second * bz)),
                 )
             )
         return tuple(found)
 
-    def _relative_velocity(self, finger: int, point_m: Sequence[float]) -> tuple[float, float, float]:
-        """Velocity of the workpiece at a point of the world relative to a finger's."""
+    def _workpiece_pose_before(self, step_s: float) -> Pose:
+        """Where the workpiece was before a step: the engine moves a body with the velocity that it has afterwards."""
         engine, client = self._engine, self._client
-        centre, _ = engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=client)
-        linear, angular = engine.getBaseVelocity(self._workpiece, physicsClientId=client)
-        state = engine.getLinkState(
-            self._robot,
-            self._finger_joints[finger],
-            computeLinkVelocity=1,
-            computeForwardKinematics=1,
-            physicsClientId=client,
+        (x, y, z), turned = engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=client)
+        (vx, vy, vz), (wx, wy, wz) = engine.getBaseVelocity(self._workpiece, physicsClientId=client)
+        spin = math.sqrt(wx * wx + wy * wy + wz * wz)
+        half = spin * step_s / 2
+        share = -math.sin(half) / spin if spin > 0.0 else 0.0
+        back = Pose(quaternion_xyzw=(share * wx, share * wy, share * wz, math.cos(half)))
+        before = back @ Pose(quaternion_xyzw=turned)
+        return Pose(
+            position_m=(x - vx * step_s, y - vy * step_s, z - vz * step_s), quaternion_xyzw=before.quaternion_xyzw
         )
-        one = _velocity_at(point_m, centre, linear, angular)
-        other = _velocity_at(point_m, state[0], state[6], state[7])
-        return (one[0] - other[0], one[1] - other[1], one[2] - other[2])
-
-
-def _velocity_at(
-    point_m: Sequence[float], centre_m: Sequence[float], linear: Sequence[float], angular: Sequence[float]
-) -> tuple[float, float, float]:
-    """Velocity of a rigid body at a point of the world: v + ω × (p - c)."""
-    x, y, z = (p - c for p, c in zip(point_m, centre_m, strict=True))
-    wx, wy, wz = angular
-    return linear[0] + wy * z - wz * y, linear[1] + wz * x - wx * z, linear[2] + wx * y - wy * x

@@ -36,16 +36,19 @@ class Contacts:
 
 @dataclass(frozen=True, slots=True)
 class FingerContact:
-    """One point at which a finger presses on the workpiece, in the world.
+    """One point at which a finger presses on the workpiece, in the frame of the workpiece.
+
+    The engine finds contacts at the start of a step and then moves the bodies, so that places in the
+    world are of a moment ago; in the frame of the workpiece as it stood then they are what they were.
 
     Attributes:
         finger: Index of the finger.
         position_m: The point on the workpiece.
-        normal: Unit normal into the workpiece.
+        normal: Unit normal into the workpiece, as the engine has it: while a contact lasts it keeps
+            its direction in the world, however the workpiece is turned.
         gap_m: Distance of the surfaces along the normal, negative where they penetrate.
         normal_force_n: Force along the normal.
         friction_n: Friction force on the workpiece.
-        relative_velocity_m_s: Velocity of the workpiece's point relative to the finger's.
     """
 
     finger: int
@@ -54,4 +57,3 @@ class FingerContact:
     gap_m: float
     normal_force_n: float
     friction_n: tuple[float, float, float]
-    relative_velocity_m_s: tuple[float, float, float]

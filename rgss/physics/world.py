@@ -153,6 +153,11 @@ class World:
         states = self._engine.getJointStates(self._robot, self._arm_joints, physicsClientId=self._client)
         return tuple(s[0] for s in states), tuple(s[1] for s in states), tuple(s[3] for s in states)
 
+    def motor_torques_n_m(self) -> tuple[float, ...]:
+        """Torque that each joint of the arm was driven with in the last step; its limit where that did not suffice."""
+        states = self._engine.getJointStates(self._robot, self._arm_joints, physicsClientId=self._client)
+        return tuple([state[3] for state in states])
+
     def finger_travel_m(self) -> tuple[float, ...]:
         """How far each finger has closed from its open end."""
         states = self._engine.getJointStates(self._robot, self._finger_joints, physicsClientId=self._client)
@@ -169,6 +174,20 @@ class World:
         """Linear (m/s) and angular (rad/s) speed of the workpiece."""
         linear, angular = self._engine.getBaseVelocity(self._workpiece, physicsClientId=self._client)
         return sum(v * v for v in linear) ** 0.5, sum(w * w for w in angular) ** 0.5
+
+    def tool_velocity(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Where the grasp centre is (m) and how fast it moves (m/s) in the world.
+
+        The velocity is the engine's own: positions have too few digits for differences from step to step.
+        """
+        centre, _, _, _, (x, y, z), turned, (vx, vy, vz), (wx, wy, wz) = self._engine.getLinkState(
+            self._robot, self._flange, computeLinkVelocity=1, computeForwardKinematics=1, physicsClientId=self._client
+        )
+        dx, dy, dz = Pose(quaternion_xyzw=turned).rotate(self.gripper.geometry.grasp_centre.position_m)
+        x, y, z = x + dx, y + dy, z + dz
+        # The engine's velocity is that of the link's centre of mass.
+        dx, dy, dz = x - centre[0], y - centre[1], z - centre[2]
+        return (x, y, z), (vx + wy * dz - wz * dy, vy + wz * dx - wx * dz, vz + wx * dy - wy * dx)
 
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world as the arm really stands."""
@@ -187,7 +206,7 @@ class World:
 
     def finger_contacts(self) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step."""
-        return self._reader.finger_contacts()
+        return self._reader.finger_contacts(self.settings.step_s)
 
     def _renew_contacts_after_rotation(self) -> None:
         _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=self._client)

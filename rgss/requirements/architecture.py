@@ -5,6 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from rgss.requirements.activity import Flow
+from rgss.requirements.exemption import Exemption
+from rgss.requirements.interaction import Interaction
+from rgss.requirements.state_machine import StateMachine
+
 
 class BlockLevel(str, Enum):
     """How far down the decomposition a block stands."""
@@ -27,6 +32,8 @@ class BehaviourKind(str, Enum):
 
     USE_CASE = "use_case"
     ACTIVITY = "activity"
+    SEQUENCE = "sequence"
+    STATE_MACHINE = "state_machine"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,6 +47,8 @@ class Block:
         parent: Id of the block that contains it; None at the top.
         relation: Whether it is a part or a kind of its parent.
         text: What it is.
+        actor: It stands outside and takes part in use cases.
+        exemptions: The rules that it may break, and why.
     """
 
     id: str
@@ -48,6 +57,8 @@ class Block:
     parent: str | None
     relation: BlockRelation
     text: str
+    actor: bool = False
+    exemptions: tuple[Exemption, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,11 +68,16 @@ class Behaviour:
     Attributes:
         id: Its id, such as ``ACT-grasp``.
         name: What it is called.
-        kind: Use case or activity.
+        kind: Use case, activity, sequence or state machine.
         allocated_to: Ids of the blocks that do it.
-        refines: Ids of the behaviours that it spells out.
+        refines: Ids of the behaviours, needs and requirements that it spells out.
         includes: Ids of the behaviours that always run as part of it.
         text: What happens.
+        actors: Of a use case, ids of the blocks that take part in it from outside.
+        flow: Of an activity, its actions and their order; None while that is open.
+        interaction: Of a sequence, its messages; None while that is open.
+        machine: Of a state machine, its states; None while that is open.
+        exemptions: The rules that it may break, and why.
     """
 
     id: str
@@ -71,6 +87,11 @@ class Behaviour:
     refines: tuple[str, ...]
     includes: tuple[str, ...]
     text: str
+    actors: tuple[str, ...] = ()
+    flow: Flow | None = None
+    interaction: Interaction | None = None
+    machine: StateMachine | None = None
+    exemptions: tuple[Exemption, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

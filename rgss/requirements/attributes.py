@@ -40,6 +40,15 @@ class VerificationMethod(str, Enum):
     TEST = "test"
 
 
+class VerificationPhase(str, Enum):
+    """When it is shown that a requirement is met (NASA Systems Engineering Handbook, table D-1)."""
+
+    DEVELOPMENT = "development"
+    QUALIFICATION = "qualification"
+    ACCEPTANCE = "acceptance"
+    OPERATION = "operation"
+
+
 class Priority(str, Enum):
     """How much it matters that a requirement is met."""
 

@@ -62,7 +62,9 @@ class Criterion:
 
     def __str__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
-        return f"{self.measure} {self.comparison.value} {self.threshold:g}{unit}"
+        plain = self.statistic is Statistic.VALUE
+        number = self.measure if plain else f"{self.statistic.value}({self.measure})"
+        return f"{number} {self.comparison.value} {self.threshold:g}{unit}"
 
 
 _OPERATORS: Mapping[Comparison, Callable[[float, float], bool]] = MappingProxyType(

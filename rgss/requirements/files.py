@@ -1,17 +1,24 @@
-"""What the three YAML files of the requirements folder look like."""
+"""What the YAML files of requirements look like; those of the architecture are in `architecture_files`."""
 
 from __future__ import annotations
 
 import re
 from typing import Annotated, Any, TypeVar
 
-from pydantic import AfterValidator, BeforeValidator, WithJsonSchema, model_validator
+from pydantic import AfterValidator, BeforeValidator, StringConstraints, WithJsonSchema, model_validator
 
 from rgss.documents import DocumentModel, Identifier, QuantityText, Text
 from rgss.errors import QuantityError
+from rgss.findings import Severity
 from rgss.quantities import parse_quantity
-from rgss.requirements.architecture import BehaviourKind, BlockLevel, BlockRelation
-from rgss.requirements.attributes import NeedKind, Priority, RequirementGroup, Status, VerificationMethod
+from rgss.requirements.attributes import (
+    NeedKind,
+    Priority,
+    RequirementGroup,
+    Status,
+    VerificationMethod,
+    VerificationPhase,
+)
 from rgss.requirements.criterion import Comparison, Statistic
 
 _Entry = TypeVar("_Entry")
@@ -54,7 +61,8 @@ def _not_empty(entries: tuple[_Entry, ...]) -> tuple[_Entry, ...]:
     return entries
 
 
-_Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty)]
+Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty)]
+"""A list that is not empty."""
 
 ThresholdText = Annotated[
     QuantityText,
@@ -65,23 +73,32 @@ ThresholdText = Annotated[
 """A quantity whose unit the measure decides, such as ``"0.8 kg"``; a pure number may be bare."""
 
 
+class ExemptionFile(DocumentModel):
+    """An element's leave to break a rule."""
+
+    rule: Identifier
+    reason: Text
+
+
 class NeedFile(DocumentModel):
     """A stakeholder requirement in ``stakeholder.yaml``."""
 
     id: Identifier
     kind: NeedKind
+    parent: Identifier | None = None
     text: Text
     rationale: Text
     source: Text
     priority: Priority
     status: Status
     owner: Text
+    exempt: tuple[ExemptionFile, ...] = ()
 
 
 class StakeholderFile(DocumentModel):
     """The file ``stakeholder.yaml``."""
 
-    requirements: _Entries[NeedFile]
+    requirements: Entries[NeedFile]
 
 
 class CriterionFile(DocumentModel):
@@ -98,56 +115,68 @@ class RequirementFile(DocumentModel):
 
     id: Identifier
     group: RequirementGroup
+    parent: Identifier | None = None
     text: Text
     rationale: Text
     source: Text
     derived_from: tuple[Identifier, ...] = ()
+    traces: tuple[Identifier, ...] = ()
     satisfied_by: tuple[Identifier, ...] = ()
     verification: VerificationMethod | None = None
+    facility: Text | None = None
+    phase: VerificationPhase | None = None
     criterion: CriterionFile | None = None
     criterion_exemption: Text | None = None
+    success: Text | None = None
     priority: Priority
     status: Status
     owner: Text
+    exempt: tuple[ExemptionFile, ...] = ()
 
     @model_validator(mode="after")
     def _criterion_or_exemption(self) -> RequirementFile:
         if self.criterion is not None and self.criterion_exemption is not None:
             raise ValueError("a criterion and an exemption from it exclude each other")
+        if self.criterion is not None and self.success is not None:
+            raise ValueError("a criterion and a success criterion in words exclude each other")
         return self
 
 
 class SystemFile(DocumentModel):
     """The file ``system.yaml``."""
 
-    requirements: _Entries[RequirementFile]
+    requirements: Entries[RequirementFile]
 
 
-class BlockFile(DocumentModel):
-    """A block in ``architecture.yaml``."""
+class RuleSettingFile(DocumentModel):
+    """How one rule is to be applied, in ``rules.yaml``."""
 
-    id: Identifier
-    name: Text
-    level: BlockLevel
-    parent: Identifier | None = None
-    relation: BlockRelation = BlockRelation.PART
-    text: Text
-
-
-class BehaviourFile(DocumentModel):
-    """A behaviour in ``architecture.yaml``."""
-
-    id: Identifier
-    name: Text
-    kind: BehaviourKind
-    allocated_to: tuple[Identifier, ...] = ()
-    refines: tuple[Identifier, ...] = ()
-    includes: tuple[Identifier, ...] = ()
-    text: Text
+    severity: Severity | None = None
+    enabled: bool = True
+    terms_added: tuple[Text, ...] = ()
+    terms_removed: tuple[Text, ...] = ()
+    reason: Text
 
 
-class ArchitectureFile(DocumentModel):
-    """The file ``architecture.yaml``."""
+class RulesFile(DocumentModel):
+    """The file ``rules.yaml``."""
 
-    blocks: _Entries[BlockFile]
-    behaviours: tuple[BehaviourFile, ...] = ()
+    rules: dict[Identifier, RuleSettingFile]
+
+
+DigestText = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+"""A SHA-256 in hexadecimal digits."""
+
+
+class ReviewFile(DocumentModel):
+    """The review of one element, in ``reviews.yaml``."""
+
+    digest: DigestText
+    reviewer: Text
+    upstream: dict[Identifier, DigestText]
+
+
+class ReviewsFile(DocumentModel):
+    """The file ``reviews.yaml``, which only a review writes."""
+
+    reviews: dict[Identifier, ReviewFile]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rgss.requirements.attributes import NeedKind, Priority, Status
+from rgss.requirements.exemption import Exemption
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,6 +21,8 @@ class StakeholderNeed:
         priority: How much it matters.
         status: How far it has come.
         owner: The role that answers for it.
+        parent: Id of the stakeholder requirement that contains it; None at the top.
+        exemptions: The rules that it may break, and why.
     """
 
     id: str
@@ -30,3 +33,5 @@ class StakeholderNeed:
     priority: Priority
     status: Status
     owner: str
+    parent: str | None = None
+    exemptions: tuple[Exemption, ...] = ()

@@ -1,4 +1,4 @@
-"""Ids across the three files: declared once, naming what is there, resting on no cycle."""
+"""Ids across all files: declared once, naming what is there, resting on no cycle."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from enum import Enum
 
 from rgss.documents import Document
 from rgss.findings import Finding
-from rgss.requirements.requirement_set import nearest
+from rgss.requirements.hints import Hints
+
+_LONGEST_CHAIN = 10
 
 
 class ElementKind(Enum):
@@ -25,46 +27,62 @@ class Reference:
     """An element's mention of another element.
 
     Attributes:
-        field: The key that it stands under.
-        index: Its index in the list there; None if it is not in a list.
+        at: The part of the element where it stands.
         target: The id that it names.
         kinds: What that id may be.
         ordering: The elements linked under this key must not rest on themselves.
     """
 
-    field: str
-    index: int | None
+    at: tuple[str | int, ...]
     target: str
     kinds: tuple[ElementKind, ...]
     ordering: bool = True
 
     @property
-    def at(self) -> tuple[str | int, ...]:
-        """The part of the element where it stands."""
-        return (self.field,) if self.index is None else (self.field, self.index)
+    def field(self) -> str:
+        """The key that it stands under."""
+        return str(self.at[-2] if self.in_list else self.at[-1])
+
+    @property
+    def in_list(self) -> bool:
+        """It is an entry of a list, which should not name it twice."""
+        return isinstance(self.at[-1], int)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declaration:
-    """An id, what it names, where it is declared and what the element refers to."""
+    """An id, what it names, where it is declared, and what the element says of others and of rules.
+
+    Attributes:
+        id: The id.
+        kind: What it names.
+        document: The file.
+        location: Keys and indices from the top of the file to the element.
+        references: What the element refers to.
+        exempt: The rules that it is exempt from.
+    """
 
     id: str
     kind: ElementKind
     document: Document
     location: tuple[str | int, ...]
     references: tuple[Reference, ...] = ()
+    exempt: tuple[str, ...] = ()
 
     def finding(self, rule: str, message: str, at: Sequence[str | int], *, hint: str = "") -> Finding:
         """A finding at a part of the element."""
         return self.document.finding(f"requirements.{rule}", message, (*self.location, *at), hint=hint)
 
 
-def check_references(declarations: Sequence[Declaration], *, known: Iterable[ElementKind]) -> Iterator[Finding]:
+def check_references(
+    declarations: Sequence[Declaration], *, known: Iterable[ElementKind], hints: Hints
+) -> Iterator[Finding]:
     """Find ids declared twice, references to nothing, and elements that rest on themselves.
 
     Args:
         declarations: Everything declared, in the order of files and lines.
-        known: The kinds whose file could be read; a reference to another kind is left alone.
+        known: The kinds whose files could all be read; a reference to another kind is left alone.
+        hints: Names what was probably meant.
     """
     first: dict[str, Declaration] = {}
     for declaration in declarations:
@@ -72,9 +90,23 @@ def check_references(declarations: Sequence[Declaration], *, known: Iterable[Ele
             yield _duplicate(declaration, first[declaration.id])
         else:
             first[declaration.id] = declaration
+    names: dict[ElementKind, list[str]] = {kind: [] for kind in ElementKind}
+    for declaration in first.values():
+        names[declaration.kind].append(declaration.id)
     readable = frozenset(known)
     for declaration in declarations:
-        yield from _wrong_references(declaration, first, readable)
+        yield from _repetitions(declaration)
+        for reference in declaration.references:
+            target = first.get(reference.target)
+            if target is None and readable.issuperset(reference.kinds):
+                message = f"{reference.field}: {reference.target!r} is not declared"
+                hint = hints.nearest(reference.target, [name for kind in reference.kinds for name in names[kind]])
+                yield declaration.finding("dangling-id", message, reference.at, hint=hint)
+            elif target is not None and target.kind not in reference.kinds:
+                *others, last = (kind.value for kind in reference.kinds)
+                wanted = f"{', '.join(others)} or {last}" if others else last
+                message = f"{reference.field}: {reference.target!r} is a {target.kind.value}, not a {wanted}"
+                yield declaration.finding("wrong-kind", message, reference.at)
     yield from _cycles(first)
 
 
@@ -84,24 +116,21 @@ def _duplicate(again: Declaration, first: Declaration) -> Finding:
     return again.finding("duplicate-id", message, ("id",), hint="give it an id of its own")
 
 
-def _wrong_references(
-    declaration: Declaration, first: Mapping[str, Declaration], known: frozenset[ElementKind]
-) -> Iterator[Finding]:
+def _repetitions(declaration: Declaration) -> Iterator[Finding]:
     seen: set[tuple[str, str]] = set()
     for reference in declaration.references:
-        target = first.get(reference.target)
-        if (reference.field, reference.target) in seen:
-            message = f"{reference.field}: {reference.target!r} is named twice"
-            yield declaration.finding("repeated-id", message, reference.at, hint="keep one")
-        elif target is None and known.issuperset(reference.kinds):
-            names = [name for name, other in first.items() if other.kind in reference.kinds]
-            message = f"{reference.field}: {reference.target!r} is not declared"
-            yield declaration.finding("dangling-id", message, reference.at, hint=nearest(reference.target, names))
-        elif target is not None and target.kind not in reference.kinds:
-            wanted = " or ".join(kind.value for kind in reference.kinds)
-            message = f"{reference.field}: {reference.target!r} is a {target.kind.value}, not a {wanted}"
-            yield declaration.finding("wrong-kind", message, reference.at)
-        seen.add((reference.field, reference.target))
+        if reference.in_list:
+            yield from _repetition(declaration, reference.field, reference.target, reference.at, seen)
+    for index, rule in enumerate(declaration.exempt):
+        yield from _repetition(declaration, "exempt", rule, ("exempt", index, "rule"), seen)
+
+
+def _repetition(
+    declaration: Declaration, field: str, named: str, at: Sequence[str | int], seen: set[tuple[str, str]]
+) -> Iterator[Finding]:
+    if (field, named) in seen:
+        yield declaration.finding("repeated-id", f"{field}: {named!r} is named twice", at, hint="keep one")
+    seen.add((field, named))
 
 
 def _cycles(first: Mapping[str, Declaration]) -> Iterator[Finding]:
@@ -116,11 +145,22 @@ def _cycles(first: Mapping[str, Declaration]) -> Iterator[Finding]:
                 finished.add(name)
                 walk.pop(name)
             elif reference.target in walk:
-                names = list(walk)
-                chain = " → ".join([name, *names[names.index(reference.target) :]])
+                chain = _chain(walk, reference.target)
                 yield first[name].finding("cycle", f"{name!r} rests on itself: {chain}", reference.at, hint="cut it")
             elif reference.target not in finished:
                 walk[reference.target] = _orderings(first, reference.target)
+
+
+def _chain(walk: dict[str, Iterator[Reference]], start: str) -> str:
+    """The end of a walk from its end to a start and on to its end again; its middle is left out if it is long."""
+    backwards: list[str] = []
+    for name in reversed(walk):
+        backwards.append(name)
+        if name == start or len(backwards) > _LONGEST_CHAIN:
+            break
+    whole = backwards[-1] == start
+    onward = backwards[::-1] if whole else [start, "…", *backwards[_LONGEST_CHAIN // 2 :: -1]]
+    return " → ".join([backwards[0], *onward])
 
 
 def _orderings(first: Mapping[str, Declaration], name: str) -> Iterator[Reference]:

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.requirements.attributes import Priority, RequirementGroup, Status, VerificationMethod
+from rgss.requirements.attributes import (
+    Priority,
+    RequirementGroup,
+    Status,
+    VerificationMethod,
+    VerificationPhase,
+)
 from rgss.requirements.criterion import Criterion
+from rgss.requirements.exemption import Exemption
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +33,12 @@ class Requirement:
         priority: How much it matters.
         status: How far it has come.
         owner: The role that answers for it.
+        parent: Id of the system requirement that contains it; None at the top.
+        traces: Ids of needs and requirements that it goes back to without deriving from them.
+        success: The success criterion in words, where no measure decides; empty where one does.
+        facility: Where it is verified; empty while that is open.
+        phase: When it is verified; None while that is open.
+        exemptions: The rules that it may break, and why.
     """
 
     id: str
@@ -41,3 +54,9 @@ class Requirement:
     priority: Priority
     status: Status
     owner: str
+    parent: str | None = None
+    traces: tuple[str, ...] = ()
+    success: str = ""
+    facility: str = ""
+    phase: VerificationPhase | None = None
+    exemptions: tuple[Exemption, ...] = ()

@@ -2,30 +2,57 @@
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
 
 from rgss.documents import Document
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.requirements.architecture import Architecture
+from rgss.requirements.architecture import Architecture, Behaviour
+from rgss.requirements.content import Element, content_digest_of
+from rgss.requirements.hints import Hints
 from rgss.requirements.links import LinkKind, TraceLink
 from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.requirement import Requirement
+from rgss.requirements.review import Review
+from rgss.requirements.rule_settings import RuleSetting
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """Where an element is declared.
+    """Where something is declared.
 
     Attributes:
         document: The file.
-        location: Keys and indices from the top of the file to the element.
+        location: Keys and indices from the top of the file to it.
     """
 
     document: Document
     location: tuple[str | int, ...]
+
+    def finding(
+        self,
+        rule: str,
+        message: str,
+        *,
+        at: Sequence[str | int] = (),
+        hint: str = "",
+        severity: Severity = Severity.ERROR,
+        at_key: bool = False,
+    ) -> Finding:
+        """A finding at it, or at a part of it.
+
+        Args:
+            rule: The id of the broken rule.
+            message: What is wrong.
+            at: The part to point at, such as ``("criterion", "threshold")``.
+            hint: How to mend it.
+            severity: How much it matters.
+            at_key: Point at the key instead of its value.
+        """
+        location = (*self.location, *at)
+        return self.document.finding(rule, message, location, hint=hint, severity=severity, at_key=at_key)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,23 +67,58 @@ class RequirementSet:
         system: The system requirements, in the file's order.
         architecture: The model of the system.
         places: Where each element is declared, by its id.
+        reviews: The review of each element that was reviewed, by its id, which need not be there any more.
+        review_places: Where each review stands.
+        settings: How the project wants rules to be applied, by the rule's id, which need not be a rule's.
+        setting_places: Where each setting stands.
     """
 
     stakeholder: tuple[StakeholderNeed, ...]
     system: tuple[Requirement, ...]
     architecture: Architecture
     places: Mapping[str, Place]
+    reviews: Mapping[str, Review] = field(default_factory=lambda: MappingProxyType({}))
+    review_places: Mapping[str, Place] = field(default_factory=lambda: MappingProxyType({}))
+    settings: Mapping[str, RuleSetting] = field(default_factory=lambda: MappingProxyType({}))
+    setting_places: Mapping[str, Place] = field(default_factory=lambda: MappingProxyType({}))
+    _by_id: Mapping[str, Element] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        # Backwards, so that of two elements with one id the first is found.
+        object.__setattr__(self, "_by_id", {element.id: element for element in reversed(self.elements)})
+
+    @property
+    def elements(self) -> tuple[Element, ...]:
+        """Stakeholder requirements, system requirements, blocks, behaviours: everything that has an id."""
+        return (*self.stakeholder, *self.system, *self.architecture.elements)
 
     @property
     def links(self) -> tuple[TraceLink, ...]:
-        """Every link that the three files state, in their order."""
-        links = [_link(item.id, parent, LinkKind.DERIVE) for item in self.system for parent in item.derived_from]
-        links += [_link(element, item.id, LinkKind.SATISFY) for item in self.system for element in item.satisfied_by]
-        links += [_link(item.id, item.parent, LinkKind.CONTAINMENT) for item in self.architecture.blocks if item.parent]
-        for behaviour in self.architecture.behaviours:
-            links += [_link(behaviour.id, block, LinkKind.ALLOCATE) for block in behaviour.allocated_to]
-            links += [_link(behaviour.id, other, LinkKind.REFINE) for other in behaviour.refines]
-        return tuple(links)
+        """Every link that an element states, in the order of `elements`.
+
+        A requirement states who satisfies it, so that link's source is another element. Behaviours
+        that run as part of others, and criteria, which measures verify, are no links of this list.
+        """
+        return tuple(link for element in self.elements for link in _links_of(element))
+
+    def element(self, element_id: str) -> Element:
+        """The element of an id.
+
+        Raises:
+            DefinitionError: There is none; the hint names the nearest id.
+        """
+        element = self._by_id.get(element_id)
+        if element is None:
+            raise self._unknown(element_id)
+        return element
+
+    def content_digest(self, element_id: str) -> str:
+        """The digest of what a reader judges of an element; see `content_digest_of`.
+
+        Raises:
+            DefinitionError: There is no such element; the hint names the nearest id.
+        """
+        return content_digest_of(self.element(element_id))
 
     def requirement(self, requirement_id: str) -> Requirement:
         """The system requirement of an id.
@@ -64,9 +126,9 @@ class RequirementSet:
         Raises:
             DefinitionError: There is none; the hint names the nearest id.
         """
-        for requirement in self.system:
-            if requirement.id == requirement_id:
-                return requirement
+        element = self._by_id.get(requirement_id)
+        if isinstance(element, Requirement):
+            return element
         raise DefinitionError(
             f"{requirement_id!r} is no system requirement",
             hint=nearest(requirement_id, [requirement.id for requirement in self.system]),
@@ -97,16 +159,33 @@ class RequirementSet:
         """
         place = self.places.get(element_id)
         if place is None:
-            raise DefinitionError(
-                f"{element_id!r} is no element of the requirements", hint=nearest(element_id, self.places)
-            )
-        return place.document.finding(rule, message, (*place.location, *at), hint=hint, severity=severity)
+            raise self._unknown(element_id)
+        return place.finding(rule, message, at=at, hint=hint, severity=severity)
+
+    def _unknown(self, element_id: str) -> DefinitionError:
+        hint = nearest(element_id, self._by_id)
+        return DefinitionError(f"{element_id!r} is no element of the requirements", hint=hint)
 
 
-def nearest(name: str, names: Sequence[str] | Mapping[str, object]) -> str:
+def nearest(name: str, names: Collection[str]) -> str:
     """A hint that names the id most like a wrong one; empty if none is like it."""
-    near = difflib.get_close_matches(name, list(names), n=1)
-    return f"did you mean {near[0]!r}?" if near else ""
+    return Hints().nearest(name, names)
+
+
+def _links_of(element: Element) -> Iterator[TraceLink]:
+    parent = None if isinstance(element, Behaviour) else element.parent
+    if parent is not None:
+        yield _link(element.id, parent, LinkKind.CONTAINMENT)
+    if isinstance(element, Requirement):
+        yield from (_link(element.id, other, LinkKind.DERIVE) for other in element.derived_from)
+        yield from (_link(element.id, other, LinkKind.TRACE) for other in element.traces)
+        yield from (_link(other, element.id, LinkKind.SATISFY) for other in element.satisfied_by)
+    elif isinstance(element, Behaviour):
+        yield from (_link(element.id, block, LinkKind.ALLOCATE) for block in element.allocated_to)
+        yield from (_link(element.id, other, LinkKind.REFINE) for other in element.refines)
+        if element.interaction is not None:
+            bounds = dict.fromkeys(timing.criterion_of for timing in element.interaction.timings)
+            yield from (_link(element.id, other, LinkKind.TRACE) for other in bounds)
 
 
 def _link(source: str, target: str, kind: LinkKind) -> TraceLink:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
-from rgss.documents import load_document
+from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
+from rgss.findings import Finding
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import is_file, missing_file, not_positive
 from rgss.scenes.pose import Pose
@@ -31,6 +33,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
         for index, joint in enumerate(entry.joints)
         if joint.range[0] >= joint.range[1]
     ]
+    findings.extend(_repeated_joints(entry, document))
     findings.extend(
         not_positive(
             document,
@@ -77,3 +80,17 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
         tool_acceleration_m_s2=entry.tool_acceleration,
         home_rad=entry.home,
     )
+
+
+def _repeated_joints(entry: RobotDocument, document: Document) -> Iterable[Finding]:
+    """A finding at each joint that stands twice: the arm would have a joint less than it has limits."""
+    seen: set[str] = set()
+    for index, joint in enumerate(entry.joints):
+        if joint.name in seen:
+            yield document.finding(
+                "scene.duplicate-id",
+                f"joint {joint.name!r} stands already above",
+                ("joints", index, "name"),
+                hint="name each joint of the arm once, from the base to the flange",
+            )
+        seen.add(joint.name)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic_core import PydanticCustomError
 
 from rgss.documents import (
     Dimensionless,
@@ -12,14 +13,47 @@ from rgss.documents import (
     Hertz,
     Identifier,
     Metres,
-    QuantityText,
     Radians,
     Seconds,
     Text,
 )
+from rgss.findings import shown
+from rgss.studies.trade_off_document import TradeOffEntry
 
 MOST_REPLICATES = 10_000
 """Trials of each variant that a study may have."""
+
+_FIDELITIES = ("kinematic", "dynamic", "contact")
+
+
+def _read_fidelity(value: Any) -> tuple[str, ...]:
+    if value in _FIDELITIES:
+        return (str(value),)
+    if isinstance(value, list) and len(value) == 2 and value[0] == "kinematic" and value[1] in _FIDELITIES[1:]:
+        return tuple(value)
+    known = ", ".join(f"'{name}'" for name in _FIDELITIES)
+    message = f"{shown(str(value))} is not one of {known}, nor [kinematic, contact]"
+    raise PydanticCustomError("quantity", "{message}", {"message": message, "hint": "write 'contact'"})
+
+
+FidelityField = Annotated[
+    tuple[str, ...],
+    PlainValidator(_read_fidelity),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"enum": list(_FIDELITIES)},
+                {
+                    "type": "array",
+                    "prefixItems": [{"const": "kinematic"}, {"enum": list(_FIDELITIES[1:])}],
+                    "minItems": 2,
+                },
+            ],
+            "description": "How much physics a trial has; of two, the first screens and the second decides.",
+        }
+    ),
+]
+"""One fidelity, or that which screens and that which decides."""
 
 
 class PlanningEntry(DocumentModel):
@@ -39,19 +73,12 @@ class PhysicsEntry(DocumentModel):
     solver_iterations: Annotated[int, Field(ge=1, le=10_000)]
 
 
-class ValueEntry(DocumentModel):
-    """What a measure is worth: its weight, and the quantities worth 0 and 1."""
+class PromotionEntry(DocumentModel):
+    """Which designs go on from screening; one that cannot meet a requirement never does."""
 
-    measure: Identifier
-    weight: Dimensionless
-    worst: QuantityText | float | int
-    best: QuantityText | float | int
-
-
-class TradeOffEntry(DocumentModel):
-    """How designs are compared."""
-
-    values: Annotated[tuple[ValueEntry, ...], Field(min_length=1)]
+    requirements: Literal["possible"] | None = None
+    keep: Annotated[int, Field(ge=1)] | None = None
+    within: Dimensionless | None = None
 
 
 class AssumptionEntry(DocumentModel):
@@ -70,7 +97,8 @@ class StudyDocument(DocumentModel):
     scene: Text
     seed: Annotated[int, Field(ge=0, le=2**31 - 1)]
     replicates: Annotated[int, Field(ge=1, le=MOST_REPLICATES)]
-    fidelity: Literal["kinematic", "dynamic", "contact"] = "contact"
+    fidelity: FidelityField = ("contact",)
+    promotion: PromotionEntry | None = None
     planning: PlanningEntry
     physics: PhysicsEntry
     trade_off: TradeOffEntry

@@ -54,6 +54,9 @@ def trial_settings(project: Project) -> TrialSettings:
     """How the study plans and simulates; searches are as long as the longest limit of any design."""
     study = project.study
     limits = [_number(variant, PLANNING_LIMIT) for variant in project.designs.expand()]
+    # A sample that grows must not make the searches longer, which would plan all anew.
+    spans = [factor.span for factor in project.designs.factors if factor.span is not None]
+    limits += [span.high for span in spans if span.parameter == PLANNING_LIMIT]
     return TrialSettings(
         planning=PlanningSettings(
             clock=PlanningClock(

@@ -67,7 +67,7 @@ class Project:
         return check_trace(self.requirements, self.measure_traces)
 
     def with_fidelity(self, fidelity: str) -> Project:
-        """The same project with another fidelity.
+        """The same project with another fidelity for every design, and so without screening.
 
         Raises:
             DefinitionError: There is no such fidelity.
@@ -75,7 +75,7 @@ class Project:
         known = [choice.value for choice in Fidelity]
         if fidelity not in known:
             raise DefinitionError(f"there is no fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
-        return replace(self, study=replace(self.study, fidelity=Fidelity(fidelity)))
+        return replace(self, study=replace(self.study, fidelity=Fidelity(fidelity), screening=None))
 
     def with_replicates(self, replicates: int) -> Project:
         """The same project with another number of replicates."""

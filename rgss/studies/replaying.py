@@ -2,33 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, StoredTrial, TrialRecord, record_digest
+from rgss.studies.changes import ABSENT, Change, changes_between
 from rgss.studies.expansion import trial_specs
+from rgss.studies.named_inputs import CODE, named_inputs
 from rgss.studies.project import Project
+from rgss.trials.plain import plain
 from rgss.trials.run import run_trial
-from rgss.trials.spec import TrialSpec, digests_of, plain
-from rgss.trials.versions import versions
+from rgss.trials.spec import TrialSpec, digests_of
+from rgss.trials.versions import are_of_this_kind, versions
 
 _SHORTEST_PREFIX = 6
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Change:
-    """Something that differs between then and now.
-
-    Attributes:
-        name: What it is.
-        then: What it was, as text.
-        now: What it is.
-    """
-
-    name: str
-    then: str
-    now: str
+_MOST_DIGITS = 18
+_BEYOND = 2**62
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,6 +31,7 @@ class Replay:
         record: The record of the new run.
         versions: Versions of code and engines that differ.
         inputs: Pieces whose inputs differ beyond the versions, such as ``plan``.
+        changes: The inputs that differ, by name, as far as the store says what they were.
         differences: Where the records differ, in their order; empty if every bit is the same.
     """
 
@@ -47,6 +39,7 @@ class Replay:
     record: TrialRecord
     versions: tuple[Change, ...]
     inputs: tuple[str, ...]
+    changes: tuple[Change, ...]
     differences: tuple[Change, ...]
 
     @property
@@ -71,11 +64,7 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
         if not (variant.isdecimal() and seed.isdecimal()):
             raise EvidenceError(f"{name!r} names no trial", hint="write a variant and a seed, such as 28/1")
         fidelity = project.study.fidelity
-        found = [
-            trial
-            for trial in store.all()
-            if (trial.record.variant, trial.record.seed, trial.record.fidelity) == (int(variant), int(seed), fidelity)
-        ]
+        found = list(store.trials_of(_number(variant), _number(seed), fidelity))
         current = [trial for trial in found if dict(trial.provenance.versions) == versions()]
         found = current or found
     else:
@@ -83,7 +72,7 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
             raise EvidenceError(
                 f"{name!r} names no trial", hint=f"give {_SHORTEST_PREFIX} digits of its key or more, or 28/1"
             )
-        found = [trial for trial in store.all() if trial.key.startswith(name)]
+        found = [trial for trial in store.iterate() if trial.key.startswith(name)]
     if not found:
         raise EvidenceError(f"there is no trial {name!r} in the evidence", hint="run 'rgss sweep' first")
     if len(found) > 1:
@@ -92,12 +81,13 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
     return found[0]
 
 
-def replay(project: Project, stored: StoredTrial) -> Replay:
+def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] | None = None) -> Replay:
     """Run a stored trial again with the project, the code and the engines as they are now.
 
     Args:
         project: The project with its study.
         stored: The trial.
+        inputs: Its named inputs as the store has them; None if it has not.
 
     Raises:
         DefinitionError: The variant is no longer there.
@@ -109,7 +99,7 @@ def replay(project: Project, stored: StoredTrial) -> Replay:
     again = run_trial(spec)
     then, now = dict(stored.provenance.versions), versions()
     changed = tuple(
-        Change(name=name, then=then.get(name, "–"), now=now.get(name, "–"))
+        Change(name=name, then=then.get(name, ABSENT), now=now.get(name, ABSENT))
         for name in sorted({*then, *now})
         if then.get(name) != now.get(name)
     )
@@ -117,37 +107,28 @@ def replay(project: Project, stored: StoredTrial) -> Replay:
         stored=stored,
         record=again,
         versions=changed,
-        inputs=_changed_inputs(spec, stored),
-        differences=() if record_digest(again) == stored.content_digest else _differences(record, again),
+        inputs=_changed_pieces(spec, stored),
+        changes=()
+        if inputs is None
+        else changes_between(_without_code(inputs), _without_code(named_inputs(spec).values)),
+        differences=()
+        if record_digest(again) == stored.content_digest
+        else changes_between(plain(record), plain(again)),
     )
 
 
-def _changed_inputs(spec: TrialSpec, stored: StoredTrial) -> tuple[str, ...]:
+def _changed_pieces(spec: TrialSpec, stored: StoredTrial) -> tuple[str, ...]:
     """The first piece whose inputs differ apart from the versions, and those after it."""
+    if not are_of_this_kind(stored.provenance.versions):
+        return ()
     then = digests_of(spec, stored.provenance.versions).as_mapping()
     return tuple(name for name, digest in then.items() if stored.provenance.inputs.get(name) != digest)
 
 
-def _differences(then: TrialRecord, now: TrialRecord) -> tuple[Change, ...]:
-    before, after = dict(_leaves(plain(then), "")), dict(_leaves(plain(now), ""))
-    return tuple(
-        Change(name=name, then=before.get(name, "–"), now=after.get(name, "–"))
-        for name in dict.fromkeys([*before, *after])
-        if before.get(name) != after.get(name)
-    )
+def _without_code(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in inputs.items() if name != CODE}
 
 
-def _leaves(value: Any, name: str) -> list[tuple[str, str]]:
-    """Every value within, by where it is; what is empty is a value too, so that no difference is lost."""
-    if value and isinstance(value, dict):
-        return [leaf for key, item in value.items() for leaf in _leaves(item, f"{name}.{key}" if name else key)]
-    if value and isinstance(value, (list, tuple)):
-        return [leaf for index, item in enumerate(value) for leaf in _leaves(item, f"{name}[{_title(item, index)}]")]
-    return [(name, repr(value))]
-
-
-def _title(item: Any, index: int) -> str:
-    """A phase or a planned move goes by its name, anything else by its position."""
-    if isinstance(item, dict):
-        return str(item.get("phase", item.get("subtask", index)))
-    return str(index)
+def _number(digits: str) -> int:
+    """A number that the store can look for; one too great names nothing."""
+    return int(digits) if len(digits) <= _MOST_DIGITS else _BEYOND

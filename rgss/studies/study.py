@@ -7,13 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 from rgss.documents import Document, load_document
-from rgss.errors import DocumentError, QuantityError, TradeoffError
+from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
-from rgss.quantities import parse_quantity
-from rgss.studies.document import StudyDocument, ValueEntry
-from rgss.tradeoff import ValueFunction, Weighting
+from rgss.requirements import RequirementSet, load_requirements
+from rgss.studies.document import StudyDocument
+from rgss.studies.promotion import Screening, read_screening
+from rgss.studies.trade_off import TradeOff
+from rgss.studies.trade_off_places import TradeOffPlaces
+from rgss.studies.trade_off_reading import read_trade_off
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,8 +44,8 @@ class ValueAnchors:
 
     Attributes:
         measure: The measure.
-        weight: Its share of the value.
-        worst: The quantity worth 0.
+        weight: Its share of the value, in the whole.
+        worst: The quantity worth 0; of a target, what is too low.
         best: The quantity worth 1.
     """
 
@@ -64,11 +67,13 @@ class Study:
         scene: The scene file.
         seed: The master seed: replicate r of every variant has the seed ``seed + r``.
         replicates: Trials of each variant.
-        fidelity: How much physics a trial has.
+        fidelity: How much physics a trial has that decides.
         planning: How moves are planned.
         rate_hz: Physics steps a second.
         solver_iterations: Iterations of the constraint solver in a step.
-        values: What each measure is worth.
+        values: What each measure is worth, with requirements' thresholds put in.
+        trade_off: How designs are compared.
+        screening: The trials that come first, and which designs go on from them; None if all do.
     """
 
     id: str
@@ -83,6 +88,8 @@ class Study:
     rate_hz: float
     solver_iterations: int
     values: tuple[ValueAnchors, ...]
+    trade_off: TradeOff
+    screening: Screening | None = None
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -90,7 +97,14 @@ class Study:
         return tuple(range(self.seed, self.seed + self.replicates))
 
 
-def read_study(path: Path, measures: MeasureSet | None, *, project: Path, label: str) -> Study:
+def read_study(
+    path: Path,
+    measures: MeasureSet | None,
+    *,
+    project: Path,
+    label: str,
+    requirements: RequirementSet | None = None,
+) -> Study:
     """Read a study.
 
     Args:
@@ -99,6 +113,8 @@ def read_study(path: Path, measures: MeasureSet | None, *, project: Path, label:
             and then what it says of them is not looked at.
         project: The project's folder, which the files that it names are relative to.
         label: The file's name in messages.
+        requirements: The project's requirements; read from its folder if the file names one and
+            they are not given.
 
     Raises:
         DocumentError: The file is wrong; with every problem in it.
@@ -120,14 +136,13 @@ def read_study(path: Path, measures: MeasureSet | None, *, project: Path, label:
         findings.append(document.finding("study.negative", "clearance must not be negative", ("planning", "clearance")))
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
-    values: list[ValueAnchors] = []
-    if measures is not None:
-        units = {measure.id: measure.unit for measure in measures.measures}
-        for index, valued in enumerate(entry.trade_off.values):
-            values.extend(_anchors(document, index, valued, units, findings))
-    findings.extend(_repeated(document, entry.trade_off.values))
-    findings.extend(_weight_findings(document, entry.trade_off.values))
-    if findings:
+    screening = read_screening(entry, document, findings)
+    places = TradeOffPlaces(
+        document, measures, lambda: _requirements(project) if requirements is None else requirements
+    )
+    trade_off = read_trade_off(entry.trade_off, places)
+    findings.extend(places.findings)
+    if findings or trade_off is None:
         raise DocumentError(sorted(findings))
     planning = entry.planning
     return Study(
@@ -138,7 +153,7 @@ def read_study(path: Path, measures: MeasureSet | None, *, project: Path, label:
         scene=entry.scene,
         seed=entry.seed,
         replicates=entry.replicates,
-        fidelity=Fidelity(entry.fidelity),
+        fidelity=Fidelity(entry.fidelity[-1]),
         planning=PlanningChoice(
             counted=planning.clock == "counted",
             charge_per_check_s=planning.charge_per_check,
@@ -148,7 +163,9 @@ def read_study(path: Path, measures: MeasureSet | None, *, project: Path, label:
         ),
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
-        values=tuple(values),
+        values=_values(trade_off, places),
+        trade_off=trade_off,
+        screening=screening,
     )
 
 
@@ -188,77 +205,29 @@ def _file_findings(document: Document, named: Mapping[str, str], project: Path) 
     return findings
 
 
-def _anchors(
-    document: Document, index: int, entry: ValueEntry, units: Mapping[str, str], findings: list[Finding]
-) -> list[ValueAnchors]:
-    where = ("trade_off", "values", index)
-    if entry.measure not in units:
-        findings.append(
-            document.finding(
-                "study.unknown-measure",
-                f"no measure {entry.measure!r} is defined",
-                (*where, "measure"),
-                hint=f"measures: {', '.join(units)}",
-            )
-        )
-        return []
-    ends = [
-        _end(document, text, units[entry.measure], (*where, key), findings)
-        for key, text in (("worst", entry.worst), ("best", entry.best))
-    ]
-    worst, best = ends
-    if worst is None or best is None:
-        return []
+def _requirements(project: Path) -> RequirementSet | None:
+    """The project's requirements; None if they cannot be read, which is told where they are."""
     try:
-        ValueFunction(measure=entry.measure, worst=worst, best=best)
-    except TradeoffError as error:
-        findings.append(document.finding("study.value", error.message, (*where, "best"), hint=error.hint))
-    return [ValueAnchors(measure=entry.measure, weight=entry.weight, worst=worst, best=best)]
-
-
-def _end(
-    document: Document,
-    text: str | float,
-    unit: str,
-    where: tuple[str | int, ...],
-    findings: list[Finding],
-) -> float | None:
-    try:
-        return parse_quantity(str(text), unit)
-    except QuantityError as error:
-        findings.append(document.finding("study.quantity", error.message, where, hint=error.hint))
+        return load_requirements(project / "requirements")
+    except DocumentError:
         return None
 
 
-def _repeated(document: Document, entries: tuple[ValueEntry, ...]) -> list[Finding]:
-    seen: set[str] = set()
-    findings = []
-    for index, entry in enumerate(entries):
-        if entry.measure in seen:
-            findings.append(
-                document.finding(
-                    "study.repeated",
-                    f"measure {entry.measure!r} is valued twice",
-                    ("trade_off", "values", index, "measure"),
-                    hint="keep one",
+def _values(trade_off: TradeOff, places: TradeOffPlaces) -> tuple[ValueAnchors, ...]:
+    weights = trade_off.weighting.weights
+    found = []
+    for valued in trade_off.valued:
+        worst, best = (valued.too_low, valued.target) if valued.target is not None else (valued.worst, valued.best)
+        if worst is not None and best is not None:
+            found.append(
+                ValueAnchors(
+                    measure=valued.measure,
+                    weight=weights[valued.measure],
+                    worst=places.quantity_of(worst, valued.measure),
+                    best=places.quantity_of(best, valued.measure),
                 )
             )
-        seen.add(entry.measure)
-    return findings
-
-
-def _weight_findings(document: Document, entries: tuple[ValueEntry, ...]) -> list[Finding]:
-    """What is wrong with the weights; those of a measure that is valued twice are not summed."""
-    weights = {entry.measure: entry.weight for entry in entries}
-    if len(weights) < len(entries):
-        return []
-    try:
-        Weighting(weights=weights)
-    except TradeoffError as error:
-        index = next((index for index, entry in enumerate(entries) if not entry.weight >= 0.0), None)
-        at = ("trade_off", "values") if index is None else ("trade_off", "values", index, "weight")
-        return [document.finding("study.weights", error.message, at, hint=error.hint)]
-    return []
+    return tuple(found)
 
 
 def _not_positive(document: Document, location: tuple[str, str]) -> Finding:

@@ -1,20 +1,42 @@
-"""Running the trials of a study on several processes, into one evidence store."""
+"""Running the trials of a study: every piece once, on several processes, into one evidence store."""
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+import time
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from rgss.errors import SimulationError
-from rgss.evidence import EvidenceStore, Provenance, TrialRecord, trial_key
-from rgss.trials.run import run_shared
-from rgss.trials.spec import TrialDigests, TrialSpec, digests_of
+from rgss.errors import EvidenceError
+from rgss.evidence import EvidenceStore, Piece, RunFailure, TrialRecord, trial_key
+from rgss.studies.inline_workers import InlineWorkers
+from rgss.studies.keeping import Keeper, Origin
+from rgss.studies.work import Trial, Work
+from rgss.studies.workers import Ended, Trouble, WorkerPool, Workers
+from rgss.trials.making import Task, TrialTask, make, record_of
+from rgss.trials.run import require_search
+from rgss.trials.spec import TrialSpec, digests_of
 from rgss.trials.versions import versions
+
+Maker = Callable[[Task, Mapping[str, Piece]], Piece | TrialRecord]
+
+MOST_ATTEMPTS = 2
+"""How often a task is tried whose worker crashed, hung or ran out of memory."""
+
+_MIB = 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkerLimits:
+    """What a worker may use for one task.
+
+    Attributes:
+        time_s: Greatest time by the wall clock: a hundred times what the longest search needs.
+        memory_bytes: Greatest size of a worker's data; 0 for no limit.
+    """
+
+    time_s: float = 300.0
+    memory_bytes: int = 2048 * _MIB
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +46,7 @@ class FinishedTrial:
     Attributes:
         key: What the store knows it by.
         record: What came out of it.
-        fresh: Whether it was run now; the store had it otherwise.
+        fresh: Whether it was put together now; the store had it otherwise.
     """
 
     key: str
@@ -33,21 +55,76 @@ class FinishedTrial:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Batch:
-    """Trials that share a plan, run one after another by one worker."""
+class LostTrials:
+    """A failure of the run, and the trials that have no record for it.
 
-    specs: tuple[TrialSpec, ...]
+    Attributes:
+        failure: What could not be made, and why.
+        trials: Variant and seed of each trial that needed it.
+    """
+
+    failure: RunFailure
+    trials: tuple[tuple[int, int], ...]
 
 
-Result = tuple[str, TrialRecord, Provenance]
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepState:
+    """How far a sweep is.
 
-_LONGEST_SEARCHES = {"STRIDE": 0, "TRRT": 1}
-"""The planners whose searches take longest, in their order."""
+    Attributes:
+        elapsed_s: Time since it began.
+        remaining_s: Time that what is left is expected to take; None before anything is known.
+        tasks_left: How many pieces (or trials, if nothing is shared) are still to be made.
+        made: How many pieces of each kind were made.
+        reused: How many pieces of each kind came from the store.
+        saved: How many pieces more the trials that are done would have needed without sharing.
+    """
+
+    elapsed_s: float
+    remaining_s: float | None
+    tasks_left: int
+    made: Mapping[str, int]
+    reused: Mapping[str, int]
+    saved: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepResult:
+    """What a sweep did.
+
+    Attributes:
+        made: How many pieces of each kind were made; ``trial`` where nothing was shared.
+        reused: How many pieces of each kind came from the store.
+        lost: What could not be made; empty if all trials have records.
+        elapsed_s: Time from the first task to the last, workers' start included.
+        busy_s: Time that the workers spent on tasks, summed over them.
+    """
+
+    made: Mapping[str, int]
+    reused: Mapping[str, int]
+    lost: tuple[LostTrials, ...]
+    elapsed_s: float = 0.0
+    busy_s: float = 0.0
 
 
 def key_of(spec: TrialSpec) -> str:
     """What the store knows a trial by: the digest of its inputs, the versions, and its variant."""
-    return _key(spec, digests_of(spec, versions()))
+    return _trial(spec, versions()).key
+
+
+def trials_of(specs: Sequence[TrialSpec]) -> tuple[Trial, ...]:
+    """The trials with their keys and digests, each once.
+
+    Args:
+        specs: The trials.
+
+    Raises:
+        DefinitionError: A planning limit is longer than the search.
+    """
+    found = versions()
+    for spec in specs:
+        require_search(spec)
+    return tuple({trial.key: trial for trial in (_trial(spec, found) for spec in specs)}.values())
 
 
 def sweep(
@@ -56,99 +133,208 @@ def sweep(
     *,
     jobs: int,
     on_finished: Callable[[FinishedTrial], None],
-) -> None:
-    """Run what the store has not, and keep each result as soon as its batch ends.
+    on_state: Callable[[SweepState], None] | None = None,
+    share: bool = True,
+    limits: WorkerLimits | None = None,
+    origin: Callable[[], Origin] = Origin,
+    maker: Maker = make,
+) -> SweepResult:
+    """Make what the store has not, and keep each result within about a second.
 
-    Records do not depend on the number of processes or the order of the trials. When it is
-    interrupted, what was finished is kept, and the next sweep goes on from there.
+    Records depend neither on the number of processes nor on the order of the work, nor on whether
+    pieces are shared. When it is interrupted, what was finished is kept, and the next sweep goes on
+    from there. A task whose worker crashes, hangs or runs out of memory is tried once more; then it
+    is recorded as a failure of the run, and the sweep goes on without it.
 
     Args:
         specs: The trials.
         store: Where evidence is kept.
-        jobs: Number of worker processes; with 1 the trials run in this process.
-        on_finished: Called for every trial, also for those that the store had.
+        jobs: Number of worker processes; with 0 everything is done in this process, nothing isolated.
+        on_finished: Called for every trial that has a record, also for those that the store had.
+        on_state: Called whenever something has ended.
+        share: Whether pieces are shared between trials and taken from the store.
+        limits: What a worker may use for one task.
+        origin: Tells where the trials come from, for their provenance; asked only if there are any to run.
+        maker: What carries out a task: a function of a module, which the workers import by its name.
 
     Raises:
-        EvidenceError: The store cannot be read or written.
-        SimulationError: A worker died.
+        DefinitionError: A planning limit is longer than the search.
+        EvidenceError: The store cannot be read or written, or had another result for the same inputs.
+        SimulationError: A worker process cannot be started.
     """
-    keys = {key_of(spec): spec for spec in specs}
-    there = store.has(keys)
-    for key in keys:
-        if key in there:
-            found = store.get(key)
-            if found is not None:
-                on_finished(FinishedTrial(key=key, record=found.record, fresh=False))
-    batches = batches_of([spec for key, spec in keys.items() if key not in there])
-    for results in _results(batches, jobs):
-        for key, record, provenance in results:
-            store.put(key, record, provenance)
-            on_finished(FinishedTrial(key=key, record=record, fresh=True))
+    trials = trials_of(specs)
+    there = store.has(trial.key for trial in trials)
+    for trial in trials:
+        found = store.get(trial.key) if trial.key in there else None
+        if found is not None:
+            on_finished(FinishedTrial(key=trial.key, record=found.record, fresh=False))
+    missing = [trial for trial in trials if trial.key not in there]
+    stored: set[str] = set()
+    if share and missing:
+        stored = store.has_pieces({digest for trial in missing for digest in trial.pieces.values()})
+    keeper = Keeper(
+        store,
+        origin,
+        on_kept=lambda key, record: on_finished(FinishedTrial(key=key, record=record, fresh=True)),
+    )
+    work = Work(missing, stored=stored, share=share)
+    limits = limits or WorkerLimits()
+    workers: Workers = InlineWorkers(maker)
+    if jobs > 0:
+        workers = WorkerPool(maker, size=jobs, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes)
+    return _Sweep(work, store, keeper, workers, on_state=on_state).run()
 
 
-def batches_of(specs: Sequence[TrialSpec]) -> list[Batch]:
-    """Trials by the plan that they share; those whose planner searches longest come first."""
-    groups: dict[str, list[TrialSpec]] = {}
-    for spec in specs:
-        groups.setdefault(digests_of(spec, versions()).plan, []).append(spec)
-    batches = [Batch(specs=tuple(group)) for group in groups.values()]
-    # A long batch at the end would leave the other processes idle.
-    return sorted(batches, key=lambda batch: _LONGEST_SEARCHES.get(batch.specs[0].planner, 2))
+class _Sweep:
+    """One sweep while it runs."""
+
+    def __init__(
+        self,
+        work: Work,
+        store: EvidenceStore,
+        keeper: Keeper,
+        workers: Workers,
+        *,
+        on_state: Callable[[SweepState], None] | None,
+    ) -> None:
+        self._work = work
+        self._store = store
+        self._keeper = keeper
+        self._workers = workers
+        self._on_state = on_state
+        self._begun = time.monotonic()
+        self._held: dict[str, Piece] = {}
+        self._running: dict[str, Task] = {}
+        self._attempts: Counter[str] = Counter()
+        self._made: Counter[str] = Counter()
+        self._reused: Counter[str] = Counter()
+        self._lost: list[LostTrials] = []
+        self._used = 0
+        self._busy_s = 0.0
+
+    def run(self) -> SweepResult:
+        """Do the work until nothing is left."""
+        try:
+            self._put_together()
+            while self._work.left:
+                self._workers.want(self._work.ready + len(self._running))
+                self._begin_tasks()
+                for ended in self._workers.wait(self._keeper.due_s()):
+                    # Others can begin what this one makes ready before it is written down.
+                    self._take_in(ended)
+                    self._begin_tasks()
+                self._put_together()
+                self._keeper.flush_if_due()
+                self._tell()
+        except EvidenceError:
+            self._workers.close()
+            raise
+        except BaseException:
+            self._workers.close()
+            self._keeper.flush()
+            raise
+        elapsed_s = time.monotonic() - self._begun
+        self._workers.close()
+        self._keeper.flush()
+        return SweepResult(
+            made=dict(self._made),
+            reused=dict(self._reused),
+            lost=tuple(self._lost),
+            elapsed_s=elapsed_s,
+            busy_s=self._busy_s,
+        )
+
+    def _begin_tasks(self) -> None:
+        while self._workers.free and self._work.ready:
+            task = self._work.take()
+            needed = {digest: self._piece(digest) for digest in task.needs}
+            self._running[task.digest] = task
+            self._attempts[task.digest] += 1
+            self._workers.begin(task.digest, (task, needed))
+
+    def _take_in(self, ended: Ended) -> None:
+        task = self._running.pop(ended.key)
+        if ended.trouble is not None:
+            self._lament(task, ended.trouble)
+            return
+        del self._attempts[task.digest]
+        self._busy_s += ended.took_s
+        if isinstance(ended.result, Piece):
+            self._made[ended.result.kind.value] += 1
+            self._held[task.digest] = ended.result
+            self._keeper.keep_piece(ended.result)
+        else:
+            self._made["trial"] += 1
+        self._work.done(task.digest, took_s=ended.took_s)
+        for digest in task.needs:
+            self._release(digest)
+        if isinstance(task, TrialTask):
+            for trial in self._work.complete():
+                self._keeper.keep_trial(trial, ended.result)
+
+    def _put_together(self) -> None:
+        """Put the records together whose pieces are all there."""
+        for trial in self._work.complete():
+            pieces = {kind: self._piece(digest) for kind, digest in trial.pieces.items()}
+            self._keeper.keep_trial(trial, record_of(trial.spec, pieces))
+            self._used += len(pieces)
+            for digest in trial.pieces.values():
+                self._release(digest)
+            self._keeper.flush_if_due()
+
+    def _lament(self, task: Task, trouble: Trouble) -> None:
+        attempts = self._attempts[task.digest]
+        if trouble.may_pass and attempts < MOST_ATTEMPTS:
+            self._work.give_back(task)
+            return
+        failure = RunFailure(
+            key=task.digest,
+            what="trial" if isinstance(task, TrialTask) else task.kind.value,
+            kind=trouble.kind,
+            detail=trouble.detail,
+            attempts=attempts,
+        )
+        self._store.put_failure(failure)
+        lost = self._work.give_up(task.digest)
+        self._held = {digest: piece for digest, piece in self._held.items() if self._work.is_used(digest)}
+        self._lost.append(
+            LostTrials(failure=failure, trials=tuple((trial.spec.variant, trial.spec.seed) for trial in lost))
+        )
+
+    def _piece(self, digest: str) -> Piece:
+        """A piece that was made now, or before, and is needed now."""
+        if digest not in self._held:
+            piece = self._store.piece(digest)
+            if piece is None:
+                raise EvidenceError(
+                    f"piece {digest[:12]} has gone from the store during the sweep", hint="run the sweep again"
+                )
+            self._held[digest] = piece
+            self._reused[piece.kind.value] += 1
+        return self._held[digest]
+
+    def _release(self, digest: str) -> None:
+        self._work.release(digest)
+        if not self._work.is_used(digest):
+            self._held.pop(digest, None)
+
+    def _tell(self) -> None:
+        if self._on_state is None:
+            return
+        left_s = self._work.remaining_s() / self._workers.size
+        self._on_state(
+            SweepState(
+                elapsed_s=time.monotonic() - self._begun,
+                remaining_s=left_s if self._made else None,
+                tasks_left=self._work.left,
+                made=dict(self._made),
+                reused=dict(self._reused),
+                saved=max(0, self._used - sum(self._made.values()) - sum(self._reused.values())),
+            )
+        )
 
 
-def _results(batches: Sequence[Batch], jobs: int) -> Iterator[list[Result]]:
-    if jobs <= 1 or len(batches) <= 1:
-        for batch in batches:
-            yield from ([result] for result in _run(batch))
-        return
-    # Engines keep state that must not be forked, so each worker is a fresh interpreter.
-    context = multiprocessing.get_context("spawn")
-    executor = ProcessPoolExecutor(max_workers=min(jobs, len(batches)), mp_context=context)
-    pending: set[Future[list[Result]]] = set()
-    try:
-        with _interrupts_held_back():
-            pending = {executor.submit(_run_all, batch) for batch in batches}
-        while pending:
-            done, pending = wait(pending, return_when=FIRST_COMPLETED)
-            for future in done:
-                yield future.result()
-    except BrokenProcessPool as error:
-        raise SimulationError(
-            "a worker process died in the middle of a trial",
-            hint="finished trials are kept; run again, with --jobs 1 to see which trial it is",
-        ) from error
-    finally:
-        for future in pending:
-            future.cancel()
-        # Only an interrupted or failed sweep still has work here; its workers are not waited for.
-        if pending:
-            for process in list((executor._processes or {}).values()):  # noqa: SLF001 - no public way to stop at once
-                process.terminate()
-        executor.shutdown(wait=True, cancel_futures=True)
-
-
-def _run_all(batch: Batch) -> list[Result]:
-    return list(_run(batch))
-
-
-def _run(batch: Batch) -> Iterator[Result]:
-    for spec, digests, record in run_shared(batch.specs):
-        yield _key(spec, digests), record, Provenance(inputs=digests.as_mapping(), versions=versions())
-
-
-def _key(spec: TrialSpec, digests: TrialDigests) -> str:
-    return trial_key({"trial": digests.trial, "variant": spec.variant})
-
-
-@contextmanager
-def _interrupts_held_back() -> Iterator[None]:
-    """Start processes that never see Ctrl-C; in this one it takes effect at the end of the block.
-
-    Ctrl-C reaches the whole process group, and only the parent answers it. What is blocked here
-    stays blocked in the processes that are started here, from their first instruction on.
-    """
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+def _trial(spec: TrialSpec, found: Mapping[str, str]) -> Trial:
+    digests = digests_of(spec, found)
+    key = trial_key({"trial": digests.trial, "variant": spec.variant})
+    return Trial(key=key, spec=spec, digests=digests)

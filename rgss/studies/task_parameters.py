@@ -31,6 +31,9 @@ _UNITS: Mapping[str, str] = MappingProxyType(
 )
 """The unit of each parameter that a trial is made of; empty for a name."""
 
+_SLOWEST_M_S = 1.0e-3
+_SPEEDS = frozenset({FINGER_VELOCITY, TOOL_SPEED})
+
 _Location = tuple["str | int", ...]
 
 
@@ -73,6 +76,10 @@ def _value_findings(designs: DesignSpace, document: Document) -> Iterator[Findin
         elif _UNITS.get(name) and not isinstance(value, str) and not value > 0:
             message = f"{name} must be greater than zero"
             yield document.finding("design.not-positive", message, location)
+        elif name in _SPEEDS and not isinstance(value, str) and value < _SLOWEST_M_S:
+            message = f"{name} must be at least 1 mm/s"
+            hint = "a slower arm or hand would need hours for the task"
+            yield document.finding("design.too-slow", message, location, hint=hint)
 
 
 def _settings(designs: DesignSpace) -> Iterator[tuple[_Location, str, float | int | str]]:
@@ -80,6 +87,9 @@ def _settings(designs: DesignSpace) -> Iterator[tuple[_Location, str, float | in
     for name, value in designs.constants.items():
         yield ("constants", name), name, value
     for number, factor in enumerate(designs.factors):
+        if factor.span is not None:
+            for end, bound in enumerate((factor.span.low, factor.span.high)):
+                yield ("factors", number, "range", end), factor.span.parameter, bound
         for place, level in enumerate(factor.levels):
             for name, value in level.values.items():
                 yield ("factors", number, "levels", place, "sets", name), name, value

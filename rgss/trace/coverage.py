@@ -8,12 +8,13 @@ from rgss.findings import Severity
 from rgss.requirements import LinkKind
 from rgss.trace.measure_trace import MeasureKind, MeasureTrace
 from rgss.trace.model import TraceModel
-from rgss.trace.rule import Breach, Rule
+from rgss.trace.rule import Breach, ModelRule
 
 
 def _orphans(model: TraceModel) -> Iterator[Breach]:
+    answering = _derived_from_needs(model)
     for requirement in model.requirements.system:
-        if not model.origins(requirement.id):
+        if requirement.id not in answering:
             message = f"system requirement {requirement.id!r} derives from no stakeholder requirement"
             yield Breach(subject=requirement.id, message=message, hint="name its parent under 'derived_from'")
 
@@ -63,30 +64,48 @@ def _unallocated(model: TraceModel) -> Iterator[Breach]:
             yield Breach(subject=requirement.id, message=message, hint="name one under 'satisfied_by'")
 
 
+def _unallocated_behaviours(model: TraceModel) -> Iterator[Breach]:
+    for behaviour in model.requirements.architecture.behaviours:
+        if not behaviour.allocated_to:
+            message = f"behaviour {behaviour.id!r} is done by no block"
+            yield Breach(subject=behaviour.id, message=message, hint="name one under 'allocated_to'")
+
+
 def _idle_elements(model: TraceModel) -> Iterator[Breach]:
     for element in model.requirements.architecture.elements:
         if not model.targets(element.id, LinkKind.SATISFY):
             yield Breach(subject=element.id, message=f"{element.id!r} satisfies no system requirement")
 
 
+def _derived_from_needs(model: TraceModel) -> set[str]:
+    """Everything that derives from a need over any number of steps, found from the needs downwards."""
+    reached = {need.id for need in model.requirements.stakeholder}
+    queue = list(reached)
+    while queue:
+        fresh = [source for source in model.sources(queue.pop(), LinkKind.DERIVE) if source not in reached]
+        reached.update(fresh)
+        queue.extend(fresh)
+    return reached
+
+
 def _of_kind(model: TraceModel, kind: MeasureKind) -> Iterator[MeasureTrace]:
     return (measure for measure in model.measures if measure.kind is kind)
 
 
-RULES: tuple[Rule, ...] = (
-    Rule(
+RULES: tuple[ModelRule, ...] = (
+    ModelRule(
         id="trace.orphan",
         severity=Severity.ERROR,
         explanation="A system requirement derives from a stakeholder requirement; otherwise nobody asked for it.",
         check=_orphans,
     ),
-    Rule(
+    ModelRule(
         id="trace.childless",
         severity=Severity.ERROR,
         explanation="A system requirement derives from each stakeholder requirement; otherwise nobody answers it.",
         check=_childless,
     ),
-    Rule(
+    ModelRule(
         id="trace.no-moe",
         severity=Severity.ERROR,
         explanation=(
@@ -95,8 +114,9 @@ RULES: tuple[Rule, ...] = (
         ),
         check=_unmeasured,
     ),
-    Rule(
+    ModelRule(
         id="trace.moe-without-need",
+        of_elements=False,
         severity=Severity.ERROR,
         explanation=(
             "A measure of effectiveness traces to a stakeholder requirement; otherwise designs are "
@@ -104,8 +124,9 @@ RULES: tuple[Rule, ...] = (
         ),
         check=_aimless,
     ),
-    Rule(
+    ModelRule(
         id="trace.moe-without-mop",
+        of_elements=False,
         severity=Severity.ERROR,
         explanation=(
             "A measure of effectiveness is computed from a measure of performance, or observed in the trials "
@@ -113,19 +134,26 @@ RULES: tuple[Rule, ...] = (
         ),
         check=_without_performance,
     ),
-    Rule(
+    ModelRule(
         id="trace.mop-without-moe",
+        of_elements=False,
         severity=Severity.WARNING,
         explanation="A measure of performance contributes to a measure of effectiveness; otherwise it decides nothing.",
         check=_contributing_to_nothing,
     ),
-    Rule(
+    ModelRule(
         id="trace.unallocated",
         severity=Severity.ERROR,
         explanation="A block or a behaviour satisfies each system requirement; otherwise nothing brings it about.",
         check=_unallocated,
     ),
-    Rule(
+    ModelRule(
+        id="trace.unallocated-behaviour",
+        severity=Severity.WARNING,
+        explanation="A block does each behaviour; otherwise the model says what happens, but not what does it.",
+        check=_unallocated_behaviours,
+    ),
+    ModelRule(
         id="trace.idle-element",
         severity=Severity.INFO,
         explanation="A block or a behaviour that satisfies no requirement is allowed, and listed.",

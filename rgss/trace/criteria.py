@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from rgss.errors import QuantityError
 from rgss.findings import Severity
 from rgss.quantities import conversion_factor, same_dimension
-from rgss.requirements import Criterion, Requirement, VerificationMethod
+from rgss.requirements import Comparison, Criterion, Requirement, VerificationMethod
 from rgss.trace.measure_trace import MeasureTrace
 from rgss.trace.model import TraceModel
-from rgss.trace.rule import Breach, Rule
-from rgss.trace.text_quantities import TextQuantity, quantities_in
+from rgss.trace.rule import Breach, ModelRule
+from rgss.trace.text_quantities import TextQuantity, bound_before, quantities_in
 
 
 def _without_method(model: TraceModel) -> Iterator[Breach]:
@@ -32,8 +32,31 @@ def _without_criterion(model: TraceModel) -> Iterator[Breach]:
             yield Breach(subject=requirement.id, message=message, hint=hint, at=("verification",))
 
 
+def _without_success(model: TraceModel) -> Iterator[Breach]:
+    for requirement in model.requirements.system:
+        decided = requirement.criterion is not None or requirement.success or requirement.criterion_exemption
+        method = requirement.verification
+        if not decided and method is not None and method is not VerificationMethod.ANALYSIS:
+            message = (
+                f"system requirement {requirement.id!r} is verified by {method.value}, but has no success criterion"
+            )
+            hint = "say under 'success' what is to be seen, or give it a 'criterion'"
+            yield Breach(subject=requirement.id, message=message, hint=hint, at=("verification",))
+
+
+def _unplanned(model: TraceModel) -> Iterator[Breach]:
+    for requirement in model.requirements.system:
+        missing = [
+            name for name, value in (("facility", requirement.facility), ("phase", requirement.phase)) if not value
+        ]
+        if missing and requirement.verification is not None:
+            message = f"the verification of {requirement.id!r} has no {' and no '.join(missing)}"
+            hint = "the verification matrix says where and when"
+            yield Breach(subject=requirement.id, message=message, hint=hint, at=("verification",))
+
+
 def _unknown_measures(model: TraceModel) -> Iterator[Breach]:
-    known = [measure.id for measure in model.measures]
+    known = {measure.id: None for measure in model.measures}
     for requirement, criterion in _criteria(model):
         if criterion.measure not in known:
             message = f"criterion of {requirement.id!r} bounds {criterion.measure!r}, which is no measure"
@@ -65,6 +88,22 @@ def _contradicting_numbers(model: TraceModel) -> Iterator[Breach]:
             yield Breach(subject=requirement.id, message=message, hint="make them agree", at=("text",))
 
 
+def _contradicting_comparisons(model: TraceModel) -> Iterator[Breach]:
+    for requirement, criterion in _criteria(model):
+        is_lower_bound = criterion.comparison in (Comparison.AT_LEAST, Comparison.ABOVE)
+        for quantity in quantities_in(requirement.text):
+            if not same_dimension(quantity.unit, criterion.unit) or not _equal(quantity, criterion):
+                continue
+            words = bound_before(requirement.text, quantity.start)
+            if words is not None and words.is_lower is not is_lower_bound:
+                message = (
+                    f"text of {requirement.id!r} says '{words.text} {quantity.text}', "
+                    f"but its criterion says {str(criterion)!r}"
+                )
+                yield Breach(subject=requirement.id, message=message, hint="make them agree", at=("text",))
+                break
+
+
 def _criteria(model: TraceModel) -> Iterator[tuple[Requirement, Criterion]]:
     for requirement in model.requirements.system:
         if requirement.criterion is not None:
@@ -80,14 +119,14 @@ def _equal(quantity: TextQuantity, criterion: Criterion) -> bool:
     return math.isclose(value, criterion.threshold, rel_tol=1e-9, abs_tol=1e-12)
 
 
-RULES: tuple[Rule, ...] = (
-    Rule(
+RULES: tuple[ModelRule, ...] = (
+    ModelRule(
         id="trace.no-method",
         severity=Severity.ERROR,
         explanation="Each system requirement has a verification method; otherwise nobody can say whether it is met.",
         check=_without_method,
     ),
-    Rule(
+    ModelRule(
         id="trace.no-criterion",
         severity=Severity.ERROR,
         explanation=(
@@ -96,22 +135,48 @@ RULES: tuple[Rule, ...] = (
         ),
         check=_without_criterion,
     ),
-    Rule(
+    ModelRule(
+        id="trace.no-success",
+        severity=Severity.ERROR,
+        explanation=(
+            "A requirement that is verified by test, inspection or demonstration says what success looks like, in "
+            "words or by a criterion; otherwise whoever verifies it decides that too."
+        ),
+        check=_without_success,
+    ),
+    ModelRule(
+        id="trace.unplanned",
+        severity=Severity.INFO,
+        explanation="A verification has a facility and a phase, as the verification matrix lists them.",
+        check=_unplanned,
+    ),
+    ModelRule(
         id="trace.unknown-measure",
+        fixed=True,
         severity=Severity.ERROR,
         explanation="A criterion bounds a measure that is defined.",
         check=_unknown_measures,
     ),
-    Rule(
+    ModelRule(
         id="trace.criterion-unit",
+        fixed=True,
         severity=Severity.ERROR,
         explanation="A threshold has a unit of the dimension that its measure has.",
         check=_wrong_units,
     ),
-    Rule(
+    ModelRule(
         id="trace.contradicting-number",
         severity=Severity.ERROR,
         explanation="Where a requirement's text states a number of its criterion's dimension, it is the threshold.",
         check=_contradicting_numbers,
+    ),
+    ModelRule(
+        id="trace.contradicting-comparison",
+        severity=Severity.ERROR,
+        explanation=(
+            "Where a requirement's text bounds the threshold in words, such as 'at least', the criterion bounds it on "
+            "the same side."
+        ),
+        check=_contradicting_comparisons,
     ),
 )

@@ -2,40 +2,38 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterator
 
 from rgss.findings import Severity
+from rgss.requirements.requirement_set import nearest
 from rgss.trace.measure_trace import MeasureTrace
 from rgss.trace.model import TraceModel
-from rgss.trace.rule import Breach, Rule
+from rgss.trace.rule import Breach, Located, ModelRule
 
 
 def _dangling(model: TraceModel) -> Iterator[Breach]:
-    needs = [need.id for need in model.requirements.stakeholder]
-    measures = [measure.id for measure in model.measures]
+    needs = {need.id: None for need in model.requirements.stakeholder}
+    measures = {measure.id: None for measure in model.measures}
     for measure in model.measures:
         for target in measure.traces:
             if target not in needs:
                 message = f"{measure.id!r} traces to {target!r}, which is no stakeholder requirement"
-                yield Breach(subject=measure, message=message, hint=_nearest(target, needs))
+                yield Breach(subject=measure, message=message, hint=nearest(target, needs))
         for target in measure.contributes_to:
             if target not in measures:
                 message = f"{measure.id!r} contributes to {target!r}, which is no measure"
-                yield Breach(subject=measure, message=message, hint=_nearest(target, measures))
+                yield Breach(subject=measure, message=message, hint=nearest(target, measures))
 
 
 def _duplicates(model: TraceModel) -> Iterator[Breach]:
-    first: dict[str, str] = {}
-    for element_id in model.requirements.places:
-        place = model.requirements.finding("", element_id, "")
-        first[element_id] = f"{place.file}:{place.line}:{place.column}"
+    first: dict[str, Located] = {}
     for measure in model.measures:
-        if measure.id in first:
-            message = f"id {measure.id!r} stands already at {first[measure.id]}"
+        other: Located = first.setdefault(measure.id, measure)
+        if measure.id in model.requirements.places:
+            other = model.requirements.finding("", measure.id, "")
+        if other is not measure:
+            message = f"id {measure.id!r} stands already at {other.file}:{other.line}:{other.column}"
             yield Breach(subject=measure, message=message, hint="give it an id of its own")
-        else:
-            first[measure.id] = f"{measure.file}:{measure.line}:{measure.column}"
 
 
 def _cycles(model: TraceModel) -> Iterator[Breach]:
@@ -57,26 +55,24 @@ def _cycles(model: TraceModel) -> Iterator[Breach]:
         yield Breach(subject=subject, message=message, hint="cut one of the links")
 
 
-def _nearest(name: str, names: list[str]) -> str:
-    near = difflib.get_close_matches(name, names, n=1)
-    return f"did you mean {near[0]!r}?" if near else ""
-
-
-RULES: tuple[Rule, ...] = (
-    Rule(
+RULES: tuple[ModelRule, ...] = (
+    ModelRule(
         id="trace.dangling-id",
+        fixed=True,
         severity=Severity.ERROR,
         explanation="A measure traces to stakeholder requirements, and contributes to measures, that are there.",
         check=_dangling,
     ),
-    Rule(
+    ModelRule(
         id="trace.duplicate-id",
+        fixed=True,
         severity=Severity.ERROR,
         explanation="An id names one thing, across requirements, architecture and measures.",
         check=_duplicates,
     ),
-    Rule(
+    ModelRule(
         id="trace.cycle",
+        fixed=True,
         severity=Severity.ERROR,
         explanation="Links lead from later to earlier elements; a cycle of them has no beginning to trust.",
         check=_cycles,

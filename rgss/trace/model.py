@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from rgss.requirements import LinkKind, RequirementSet, TraceLink
+from rgss.requirements import LinkKind, Requirement, RequirementSet, StakeholderNeed, TraceLink
 from rgss.trace.measure_trace import MeasureTrace
 
 if TYPE_CHECKING:
@@ -29,6 +29,19 @@ class TraceModel:
     measures: tuple[MeasureTrace, ...]
     links: tuple[TraceLink, ...]
     graph: nx.MultiDiGraph[str]
+    _digests: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
+
+    def content_digest(self, element_id: str) -> str:
+        """The digest of what a reader judges of an element, made once; see `RequirementSet.content_digest`."""
+        found = self._digests.get(element_id)
+        if found is None:
+            found = self._digests[element_id] = self.requirements.content_digest(element_id)
+        return found
+
+    @property
+    def asked_for(self) -> tuple[StakeholderNeed | Requirement, ...]:
+        """Stakeholder requirements, then system requirements: everything that is asked for in a sentence."""
+        return (*self.requirements.stakeholder, *self.requirements.system)
 
     def targets(self, element_id: str, kind: LinkKind) -> tuple[str, ...]:
         """Ids that an element points at by one kind of link."""

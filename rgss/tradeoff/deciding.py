@@ -2,71 +2,170 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.certificate import Certificate, certify
-from rgss.tradeoff.conflicts import find_conflicts
-from rgss.tradeoff.decision import Decision
+from rgss.tradeoff.conflicts import Conflicts, find_conflicts
+from rgss.tradeoff.decision import Counts, Decision
 from rgss.tradeoff.problem import TradeProblem
-from rgss.tradeoff.program import choice_program
-from rgss.tradeoff.reduction import reduced_alternatives
+from rgss.tradeoff.selection import Selection, VariantSelection
+from rgss.tradeoff.stage import StageSolver
+from rgss.tradeoff.terms import Exclusion
 
 if TYPE_CHECKING:
     from rgss.tradeoff.enumeration import Enumeration
+    from rgss.tradeoff.evidence_table import Alternative
+
+MOST_DRAWN = 20_000_000
+"""So many alternatives are looked at in all when replicates are drawn anew to test a conflict."""
 
 
-def decide(problem: TradeProblem) -> Decision:
+def decide(problem: TradeProblem, *, margin: float = 0.0, seed: int = 0, resamples: int | None = None) -> Decision:
     """Choose the best feasible alternative, prove it, and explain it.
 
-    The mixed-integer program is solved to optimality and the answer is held against enumeration.
-    Of alternatives tied within 1e-9 the solver may return any; the decision is the smallest id.
+    The mixed-integer programs are solved to optimality and the answer is held against enumeration.
+    Of tied alternatives the solver may return any; the decision is the smallest id.
 
     Args:
         problem: The trade-off.
+        margin: The practical margin: feasible alternatives whose value, distance or regret is
+            within it of the best are listed as near-ties. Programs that look at quantities take
+            the tolerance of their last measure instead.
+        seed: Seed of the draws that test a conflict against the noise of the replicates.
+        resamples: How many draws; 0 for none, 1,000 by default, fewer where alternatives are many.
 
     Returns:
         The decision. That nothing is feasible is a decision too, with the status infeasible.
 
     Raises:
-        TradeoffError: The solver failed, proved neither optimality nor infeasibility, or
-            contradicts enumeration; no decision is made then.
+        TradeoffError: The margin is not one; the solver failed, proved neither optimality nor
+            infeasibility, or contradicts enumeration. No decision is made then.
     """
     # Imported here so that the package itself loads without NumPy.
     from rgss.tradeoff.enumeration import enumerate_alternatives
-    from rgss.tradeoff.explanation import contributions, excluded_better, find_runner_up, infeasible_alternatives, rank
+    from rgss.tradeoff.explanation import (
+        contributions,
+        excluded_better,
+        find_runner_up,
+        flat_measures,
+        infeasible_alternatives,
+        near_ties,
+        rank,
+    )
 
+    if not (math.isfinite(margin) and margin >= 0.0):
+        raise TradeoffError(f"the practical margin is {margin:g}", hint="give a value from 0 on, such as 0.01")
     enumeration = enumerate_alternatives(problem)
-    considered = reduced_alternatives(problem)
-    solution = choice_program(problem, considered).solve()
-    certificate = certify(problem, enumeration, solution, considered=len(considered))
-    if not certificate.enumeration_agrees:
-        raise _disagreement(enumeration, certificate)
-
+    certificate = _certified(problem, enumeration, ())
     ties = tuple(int(variant) for variant in enumeration.variants[enumeration.tied])
     ranking = rank(enumeration)
     chosen = ties[0] if ties else None
-    runner_up = find_runner_up(ranking, ties)
-    better, deciding_requirements = excluded_better(enumeration)
+    runner_up = find_runner_up(enumeration, ranking, ties)
+    better, deciding_requirements, better_count = excluded_better(enumeration)
     return Decision(
+        program=problem.program.name,
+        objectives=enumeration.ordering.objectives,
         status=certificate.status,
         chosen=chosen,
         runner_up=runner_up,
         ties=ties,
+        near_ties=near_ties(enumeration, ranking, ties, margin),
         ranking=ranking,
         infeasible=infeasible_alternatives(enumeration),
         excluded_better=better,
         deciding_requirements=deciding_requirements,
-        chosen_contributions=contributions(problem, chosen),
-        runner_up_contributions=contributions(problem, runner_up),
-        conflicts=find_conflicts(enumeration),
+        chosen_contributions=contributions(problem, enumeration, chosen),
+        runner_up_contributions=contributions(problem, enumeration, runner_up),
+        conflicts=_explained(problem, enumeration, seed, resamples),
+        flat_measures=flat_measures(problem, enumeration),
+        demands=problem.demands,
+        counts=Counts(
+            alternatives=len(enumeration.table),
+            feasible=int(enumeration.feasible.sum()),
+            excluded_better=better_count,
+        ),
         certificate=certificate,
     )
 
 
+def best_alternatives(problem: TradeProblem, count: int) -> tuple[Certificate, ...]:
+    """The n best alternatives, each proven to be the best without those before.
+
+    Args:
+        problem: The trade-off.
+        count: How many are wanted.
+
+    Returns:
+        A certificate for each; fewer where fewer are feasible. Of tied alternatives the solver
+        may give any first.
+
+    Raises:
+        TradeoffError: As for `decide`.
+    """
+    from rgss.tradeoff.enumeration import enumerate_alternatives
+
+    found: list[Certificate] = []
+    excluded: tuple[Alternative, ...] = ()
+    for _ in range(count):
+        enumeration = enumerate_alternatives(problem, excluded=[one.variant for one in excluded])
+        if not enumeration.feasible.any():
+            break
+        certificate = _certified(problem, enumeration, excluded)
+        found.append(certificate)
+        if certificate.solver_choice is not None:
+            excluded = (*excluded, enumeration.table[enumeration.table.row_of(certificate.solver_choice)])
+    return tuple(found)
+
+
+def _certified(problem: TradeProblem, enumeration: Enumeration, excluded: tuple[Alternative, ...]) -> Certificate:
+    """Solve the program without some alternatives; the certificate of an answer that enumeration shares."""
+    if problem.levels is None:
+        from rgss.tradeoff.reduction import reduced_rows
+
+        considered = tuple(enumeration.table[int(row)] for row in reduced_rows(enumeration))
+        left = {alternative.variant for alternative in considered}
+        select: Callable[[], Selection] = lambda: VariantSelection.of(considered)  # noqa: E731
+        exclusions = tuple(Exclusion(alternative=one) for one in excluded if one.variant in left)
+    else:
+        from rgss.tradeoff.level_selection import LevelModel, LevelSelection
+
+        considered = tuple(enumeration.table)
+        model = LevelModel.of(problem.levels, considered, tuple(problem.measures_named))
+        select = lambda: LevelSelection(model)  # noqa: E731
+        exclusions = tuple(Exclusion(alternative=one) for one in excluded)
+    solver = StageSolver(select=select, constraints=(*problem.constraints, *exclusions))
+    solutions = problem.program.solve(problem, solver)
+    certificate = certify(problem, enumeration, solutions, considered=len(considered))
+    if not certificate.enumeration_agrees:
+        raise _disagreement(enumeration, certificate)
+    return certificate
+
+
+def _explained(problem: TradeProblem, enumeration: Enumeration, seed: int, resamples: int | None) -> Conflicts | None:
+    """Why nothing is feasible, how that could be mended, and whether noise might; None if something is."""
+    conflicts = find_conflicts(enumeration)
+    if conflicts is None:
+        return None
+    from rgss.tradeoff.noise import RESAMPLES, conflict_survival
+    from rgss.tradeoff.repair import find_repairs
+
+    conflicts = replace(conflicts, repairs=find_repairs(problem, enumeration))
+    if resamples is None:
+        resamples = max(100, min(RESAMPLES, MOST_DRAWN // len(enumeration.table)))
+    if resamples == 0:
+        return conflicts
+    return conflict_survival(problem, enumeration.table, conflicts, resamples=resamples, seed=seed)
+
+
 def _disagreement(enumeration: Enumeration, certificate: Certificate) -> TradeoffError:
-    best = enumeration.best_value
-    ours = "nothing feasible" if best is None else f"variant {int(enumeration.variants[enumeration.tied][0])} ({best})"
+    best = enumeration.best_row
+    ours = "nothing feasible"
+    if best is not None:
+        ours = f"variant {int(enumeration.variants[best])} ({enumeration.ordering.at(best)[-1]})"
     theirs = (
         "nothing feasible"
         if certificate.solver_choice is None

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from rgss.tradeoff.certificate import Certificate
 from rgss.tradeoff.conflicts import Conflicts, RequirementCount
 from rgss.tradeoff.status import DecisionStatus
+
+LONGEST_LIST = 10_000
+"""The longest list of alternatives that a decision holds."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -15,11 +19,14 @@ class RankedAlternative:
 
     Attributes:
         variant: Its id.
-        value: Its weighted value, from 0 to 1.
+        value: Its weighted value, from 0 to 1; None where a weighted measure is unknown that the
+            program does not look at.
+        objectives: What the program optimises, in turn.
     """
 
     variant: int
-    value: float
+    value: float | None
+    objectives: tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,35 +66,84 @@ class Contribution:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class FlatMeasure:
+    """A valued measure whose weight decides nothing, because no alternative differs in it.
+
+    Attributes:
+        measure: The measure.
+        weight: Its weight.
+        low: The least quantity that is known.
+        high: The largest quantity that is known.
+        among_feasible: Whether only the feasible alternatives do not differ in it.
+    """
+
+    measure: str
+    weight: float
+    low: float
+    high: float
+    among_feasible: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Counts:
+    """How many alternatives there are of each kind.
+
+    Attributes:
+        alternatives: All.
+        feasible: Those that meet every demand.
+        excluded_better: Those that do not and are better than the chosen one.
+    """
+
+    alternatives: int
+    feasible: int
+    excluded_better: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
     """The outcome of a trade-off.
 
+    Where there are more than `LONGEST_LIST` alternatives of a kind, the ranking and the lists of
+    infeasible and of excluded ones hold the first so many; `counts` has all. Programs that look at
+    one measure after another rank no more than about five million divided by the number of
+    alternatives, for each place is a choice of its own.
+
     Attributes:
+        program: The program that decided.
+        objectives: What it optimises, in turn.
         status: Optimal, or infeasible when no alternative meets every requirement; then nothing
             is chosen and the conflicts say why.
         chosen: Among the tied best, the smallest id.
-        runner_up: The next in the ranking whose value lies below the tie; if all feasible
+        near_ties: Feasible alternatives that are not tied but come within the practical margin of
+            the best, in the order of the ranking.
+        runner_up: The next in the ranking that is not tied; if all feasible
             alternatives are tied, the next of these; None if only one is feasible.
-        ties: All feasible alternatives within 1e-9 of the best value, by ascending id; the chosen
-            one is the first, and alone where the choice is unique.
+        ties: All feasible alternatives within 1e-9 of the best, by ascending id; the chosen one is
+            the first, and alone where the choice is unique.
         ranking: The feasible alternatives, best first, equals by ascending id: first the tied,
-            which count as equal, then the others by value.
+            which count as equal, then what would be chosen without these, and so on.
         infeasible: The others by ascending id.
-        excluded_better: The infeasible alternatives whose value is above the chosen one's by more
-            than a tie, best first.
+        excluded_better: The infeasible alternatives that the program would prefer to the chosen
+            one by more than a tie, by falling weighted value.
         deciding_requirements: The requirements that exclude these, with how many each excludes;
             empty if the choice would be the same without any requirement.
         chosen_contributions: What each measure adds to the chosen alternative's value, in the
             order of the weights; empty if nothing is chosen.
         runner_up_contributions: The same for the runner-up.
         conflicts: Why nothing is feasible; None if something is.
+        flat_measures: Valued measures whose weight decides nothing.
+        demands: What each id of a demand stands for, such as ``P_max >= 0.8 kg``.
+        counts: How many alternatives there are of each kind.
         certificate: The recomputation of all this.
     """
 
+    program: str
+    objectives: tuple[str, ...]
     status: DecisionStatus
     chosen: int | None
     runner_up: int | None
     ties: tuple[int, ...]
+    near_ties: tuple[int, ...]
     ranking: tuple[RankedAlternative, ...]
     infeasible: tuple[InfeasibleAlternative, ...]
     excluded_better: tuple[InfeasibleAlternative, ...]
@@ -95,4 +151,7 @@ class Decision:
     chosen_contributions: tuple[Contribution, ...]
     runner_up_contributions: tuple[Contribution, ...]
     conflicts: Conflicts | None
+    flat_measures: tuple[FlatMeasure, ...]
+    demands: Mapping[str, str] = field(hash=False)
+    counts: Counts
     certificate: Certificate

@@ -1,20 +1,20 @@
-"""Every alternative evaluated in NumPy: the oracle against which the solver's answer is held.
-
-It shares the data with the program, but none of the program's arithmetic: values come from
-`numpy.interp` over the points of the value functions, feasibility from comparisons of columns.
-"""
+"""Every alternative evaluated in NumPy: the oracle against which the solver's answer is held."""
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.problem import EVIDENCE_PREFIX, Comparison, TradeProblem
-from rgss.tradeoff.values import TIE_TOLERANCE
-
-_VALUE_DECIMALS = 12
+from rgss.tradeoff.columns import condition_column, keeps
+from rgss.tradeoff.conditions import EVIDENCE_PREFIX
+from rgss.tradeoff.evidence_table import EvidenceTable, tabulated
+from rgss.tradeoff.orderings import Ordering
+from rgss.tradeoff.preferences import Preferences
+from rgss.tradeoff.problem import TradeProblem
+from rgss.tradeoff.program_orderings import ordering_of, weighted_values
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -22,87 +22,87 @@ class Enumeration:
     """All alternatives with their values and violations, by ascending id.
 
     Attributes:
-        variants: Ids, shape (n,), ascending.
-        values: Weighted value without regard to the thresholds, shape (n,); NaN where a weighted
+        table: The alternatives.
+        values: Weighted value without regard to any demand, shape (n,); NaN where a weighted
             measure is unknown. Rounded to 12 decimals, so that alternatives that are equal on
             paper are equal here, in whatever order their terms were added.
-        requirements: Ids of the r requirements.
-        violated: Which alternative violates which requirement, shape (n, r).
+        requirements: Ids of the r demands.
+        violated: Which alternative violates which demand, shape (n, r).
+        feasible: Which alternatives violate nothing, shape (n,).
+        tied: Which feasible alternatives are tied best, shape (n,).
+        ordering: How the alternatives compare under the program.
     """
 
-    variants: NDArray[np.int64]
+    table: EvidenceTable
     values: NDArray[np.float64]
     requirements: tuple[str, ...]
     violated: NDArray[np.bool_]
+    feasible: NDArray[np.bool_]
+    tied: NDArray[np.bool_]
+    ordering: Ordering
 
     @property
-    def feasible(self) -> NDArray[np.bool_]:
-        """Which alternatives violate nothing, shape (n,)."""
-        return np.asarray(~self.violated.any(axis=1), dtype=np.bool_)
+    def variants(self) -> NDArray[np.int64]:
+        """Ids, shape (n,), ascending."""
+        return self.table.variants
 
     @property
-    def best_value(self) -> float | None:
-        """The highest value of a feasible alternative; None if there is none."""
-        values = self.values[self.feasible]
-        return float(values.max()) if values.size else None
-
-    @property
-    def tied(self) -> NDArray[np.bool_]:
-        """Which feasible alternatives have the best value within `TIE_TOLERANCE`, shape (n,)."""
-        best = self.best_value
-        if best is None:
-            return np.zeros(self.variants.shape, dtype=np.bool_)
-        return self.feasible & (self.values >= best - TIE_TOLERANCE)
+    def best_row(self) -> int | None:
+        """The row of the best feasible alternative, of several the smallest id; None if there is none."""
+        tied = np.flatnonzero(self.tied)
+        return int(tied[0]) if tied.size else None
 
     def value_of(self, variant: int) -> float | None:
-        """The value of one alternative; None where it is unknown."""
-        value = float(self.values[self._row(variant)])
+        """The weighted value of one alternative; None where it is unknown."""
+        value = float(self.values[self.table.row_of(variant)])
         return None if np.isnan(value) else value
 
     def violated_by(self, variant: int) -> tuple[str, ...]:
-        """The requirements that one alternative violates."""
-        flags = self.violated[self._row(variant)]
+        """The demands that one alternative violates."""
+        flags = self.violated[self.table.row_of(variant)]
         return tuple(requirement for requirement, flag in zip(self.requirements, flags, strict=True) if flag)
 
-    def _row(self, variant: int) -> int:
-        return int(np.searchsorted(self.variants, variant))
 
-
-def enumerate_alternatives(problem: TradeProblem) -> Enumeration:
+def enumerate_alternatives(problem: TradeProblem, *, excluded: Collection[int] = ()) -> Enumeration:
     """Evaluate every alternative of a trade-off.
 
     Args:
         problem: The trade-off.
+        excluded: Ids of alternatives that must not be chosen, whatever they meet.
 
     Returns:
-        Values and violations.
+        Values, violations and order; the last demand is then not to be excluded.
     """
-    alternatives = sorted(problem.alternatives, key=lambda alternative: alternative.variant)
-
-    def column(measure: str) -> NDArray[np.float64]:
-        # None becomes NaN, which compares false and propagates: unknown stays unknown.
-        return np.array([alternative.measures[measure] for alternative in alternatives], dtype=np.float64)
-
-    values = np.zeros(len(alternatives))
-    for function in sorted(problem.value_functions, key=lambda function: function.measure):
-        weight = problem.weighting.weights[function.measure]
-        if weight > 0.0:
-            points = np.array(sorted(function.points), dtype=np.float64)
-            values = values + weight * np.interp(column(function.measure), points[:, 0], points[:, 1])
-
+    table = tabulated(problem.alternatives)
+    violated = violations(problem, table)
     requirements = problem.requirements
-    violated = np.zeros((len(alternatives), len(requirements)), dtype=np.bool_)
-    for threshold in problem.thresholds:
-        quantities = column(threshold.measure)
-        at_least = threshold.comparison is Comparison.AT_LEAST
-        met = quantities >= threshold.value if at_least else quantities <= threshold.value
-        violated[:, requirements.index(threshold.requirement)] |= ~met
-    for measure in problem.evidence_measures:
-        violated[:, requirements.index(EVIDENCE_PREFIX + measure)] |= np.isnan(column(measure))
-
+    if excluded:
+        violated = np.column_stack([violated, np.isin(table.variants, list(excluded))])
+        requirements = (*requirements, "excluded")
+    feasible = np.asarray(~violated.any(axis=1), dtype=np.bool_)
+    ordering = ordering_of(problem.program, problem, table, feasible)
     return Enumeration(
-        variants=np.array([alternative.variant for alternative in alternatives], dtype=np.int64),
-        values=np.round(values, _VALUE_DECIMALS),
+        table=table,
+        values=weighted_values(problem, table),
         requirements=requirements,
         violated=violated,
+        feasible=feasible,
+        tied=ordering.best(feasible),
+        ordering=ordering,
     )
+
+
+def violations(preferences: Preferences, table: EvidenceTable) -> NDArray[np.bool_]:
+    """Which alternative violates which of the demands, shape (n, r)."""
+    requirements = preferences.requirements
+    violated = np.zeros((len(table), len(requirements)), dtype=np.bool_)
+    for condition in preferences.conditions:
+        statistics = condition_column(condition, table)
+        violated[:, requirements.index(condition.requirement)] |= ~keeps(condition.sense, statistics, condition.limit)
+    for measure, every_replicate in preferences.evidence_needs.items():
+        unknown = np.isnan(table.column(measure))
+        if every_replicate:
+            samples = table.replicates(measure)
+            unknown |= (samples.ran & np.isnan(samples.values)).any(axis=1)
+        violated[:, requirements.index(EVIDENCE_PREFIX + measure)] |= unknown
+    return violated

@@ -1,4 +1,4 @@
-"""The explanation of a decision: ranking, runner-up, exclusions and contributions."""
+"""The explanation of a decision: ranking, runner-up, exclusions, contributions, flat measures."""
 
 from __future__ import annotations
 
@@ -6,71 +6,87 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rgss.tradeoff.columns import value_column
 from rgss.tradeoff.conflicts import RequirementCount, excluded_counts
-from rgss.tradeoff.decision import Contribution, InfeasibleAlternative, RankedAlternative
-from rgss.tradeoff.values import TIE_TOLERANCE
+from rgss.tradeoff.decision import LONGEST_LIST, Contribution, FlatMeasure, InfeasibleAlternative, RankedAlternative
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from rgss.tradeoff.enumeration import Enumeration
     from rgss.tradeoff.problem import TradeProblem
 
 
 def rank(enumeration: Enumeration) -> tuple[RankedAlternative, ...]:
-    """Order the feasible alternatives: the tied best by id, then the others by value and id."""
-    variants, values, feasible, tied = (
-        enumeration.variants,
-        enumeration.values,
-        enumeration.feasible,
-        enumeration.tied,
-    )
-    # The last key of lexsort is the first to be compared; a tie counts as one value.
-    order = np.lexsort((variants, np.where(tied, -np.inf, -values)))
+    """Order the feasible alternatives: the tied best by id, then what is best without them, and so on."""
+    rows = enumeration.ordering.ranked(enumeration.feasible, LONGEST_LIST)
     return tuple(
-        RankedAlternative(variant=int(variants[row]), value=float(values[row])) for row in order if feasible[row]
+        RankedAlternative(
+            variant=int(enumeration.variants[row]),
+            value=enumeration.value_of(int(enumeration.variants[row])),
+            objectives=enumeration.ordering.at(int(row)),
+        )
+        for row in rows
     )
 
 
-def find_runner_up(ranking: tuple[RankedAlternative, ...], ties: tuple[int, ...]) -> int | None:
+def find_runner_up(
+    enumeration: Enumeration, ranking: tuple[RankedAlternative, ...], ties: tuple[int, ...]
+) -> int | None:
     """The best that is not tied with the chosen one, else the next tie, else None."""
     if len(ranking) > len(ties):
         return ranking[len(ties)].variant
+    rest = enumeration.ordering.ranked(enumeration.feasible & ~enumeration.tied, 1)
+    if rest.size:
+        return int(enumeration.variants[rest[0]])
     return ties[1] if len(ties) > 1 else None
+
+
+def near_ties(
+    enumeration: Enumeration, ranking: tuple[RankedAlternative, ...], ties: tuple[int, ...], margin: float
+) -> tuple[int, ...]:
+    """What comes within the practical margin of the best, beside the tied."""
+    near = set(enumeration.variants[enumeration.ordering.near(enumeration.feasible, margin)].tolist()) - set(ties)
+    return tuple(ranked.variant for ranked in ranking if ranked.variant in near)
 
 
 def infeasible_alternatives(enumeration: Enumeration) -> tuple[InfeasibleAlternative, ...]:
     """The alternatives that cannot be chosen, by ascending id, with what each violates."""
-    return tuple(_infeasible(enumeration, int(variant)) for variant in enumeration.variants[~enumeration.feasible])
+    rows = np.flatnonzero(~enumeration.feasible)[:LONGEST_LIST]
+    return tuple(_infeasible(enumeration, int(enumeration.variants[row])) for row in rows)
 
 
 def excluded_better(
     enumeration: Enumeration,
-) -> tuple[tuple[InfeasibleAlternative, ...], tuple[RequirementCount, ...]]:
-    """What is better than the best feasible alternative, and the requirements that exclude it.
+) -> tuple[tuple[InfeasibleAlternative, ...], tuple[RequirementCount, ...], int]:
+    """What the program prefers to the best feasible alternative, and the demands that exclude it.
 
-    An alternative whose value is unknown is not counted: no one can say that it is better.
+    An alternative of which the program does not know enough is not counted: no one can say that it
+    is better.
 
     Args:
         enumeration: Every alternative evaluated.
 
     Returns:
-        The alternatives, best first, and the requirements that exclude at least one of them, with
-        the number; both empty if nothing is feasible.
+        The alternatives by falling weighted value; the demands that exclude at least one of them,
+        with the number; how many alternatives there are in all. Empty if nothing is feasible.
     """
-    best = enumeration.best_value
+    best = enumeration.best_row
     if best is None:
-        return (), ()
-    better = ~enumeration.feasible & (enumeration.values > best + TIE_TOLERANCE)
-    order = np.lexsort((enumeration.variants, -enumeration.values))
-    alternatives = tuple(_infeasible(enumeration, int(enumeration.variants[row])) for row in order if better[row])
+        return (), (), 0
+    better = ~enumeration.feasible & enumeration.ordering.beats(best)
+    rows = np.flatnonzero(better)
+    order = rows[np.lexsort((rows, -enumeration.values[rows]))][:LONGEST_LIST]
+    alternatives = tuple(_infeasible(enumeration, int(enumeration.variants[row])) for row in order)
     counts = tuple(count for count in excluded_counts(enumeration, better) if count.excluded)
-    return alternatives, counts
+    return alternatives, counts, len(rows)
 
 
-def contributions(problem: TradeProblem, variant: int | None) -> tuple[Contribution, ...]:
-    """What each measure adds to the value of a feasible alternative; empty for None."""
+def contributions(problem: TradeProblem, enumeration: Enumeration, variant: int | None) -> tuple[Contribution, ...]:
+    """What each measure adds to the weighted value of an alternative; empty for None."""
     if variant is None:
         return ()
-    measures = next(alternative.measures for alternative in problem.alternatives if alternative.variant == variant)
+    measures = enumeration.table[enumeration.table.row_of(variant)].measures
     found = []
     for measure, weight in problem.weighting.weights.items():
         quantity = measures[measure]
@@ -85,6 +101,38 @@ def contributions(problem: TradeProblem, variant: int | None) -> tuple[Contribut
             )
         )
     return tuple(found)
+
+
+def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[FlatMeasure, ...]:
+    """The measures with a weight in whose value no alternative, or no feasible one, differs from another.
+
+    Values are compared, not quantities: a measure that varies only where its value is cut to 0 or 1
+    decides as little as one that does not vary at all.
+    """
+    found = []
+    everyone = np.ones(len(enumeration.table), dtype=np.bool_)
+    for measure in problem.weighting.deciding_measures:
+        column = enumeration.table.column(measure)
+        values = value_column(problem.value_function(measure), column)
+        among_all = _is_flat(values, everyone)
+        if among_all or _is_flat(values, enumeration.feasible):
+            known = column[~np.isnan(column) & (everyone if among_all else enumeration.feasible)]
+            found.append(
+                FlatMeasure(
+                    measure=measure,
+                    weight=problem.weighting.weights[measure],
+                    low=float(known.min()),
+                    high=float(known.max()),
+                    among_feasible=not among_all,
+                )
+            )
+    return tuple(found)
+
+
+def _is_flat(values: NDArray[np.float64], among: NDArray[np.bool_]) -> bool:
+    # Of a single alternative no one can say in what others differ.
+    known = values[among & ~np.isnan(values)]
+    return known.size > 1 and bool(np.ptp(known) <= 1e-12)
 
 
 def _infeasible(enumeration: Enumeration, variant: int) -> InfeasibleAlternative:

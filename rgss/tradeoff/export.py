@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from rgss.tradeoff.certificate import Certificate
 from rgss.tradeoff.conflicts import Conflicts, RequirementCount
 from rgss.tradeoff.decision import Contribution, Decision, InfeasibleAlternative
+from rgss.tradeoff.fleet import FleetDecision
 
 
 def decision_to_json(decision: Decision) -> dict[str, object]:
@@ -19,11 +21,17 @@ def decision_to_json(decision: Decision) -> dict[str, object]:
         A document that `json.dumps` takes as it is, even with ``allow_nan=False``.
     """
     return {
+        "program": decision.program,
+        "objectives": list(decision.objectives),
         "status": decision.status.value,
         "chosen": decision.chosen,
         "runner_up": decision.runner_up,
         "ties": list(decision.ties),
-        "ranking": [{"variant": ranked.variant, "value": ranked.value} for ranked in decision.ranking],
+        "near_ties": list(decision.near_ties),
+        "ranking": [
+            {"variant": ranked.variant, "value": ranked.value, "objectives": list(ranked.objectives)}
+            for ranked in decision.ranking
+        ],
         "infeasible": _infeasible(decision.infeasible),
         "excluded_better": _infeasible(decision.excluded_better),
         "deciding_requirements": _counts(decision.deciding_requirements),
@@ -32,7 +40,73 @@ def decision_to_json(decision: Decision) -> dict[str, object]:
             "runner_up": _contributions(decision.runner_up_contributions),
         },
         "conflicts": _conflicts(decision.conflicts),
-        "certificate": _certificate(decision.certificate),
+        "flat_measures": [
+            {
+                "measure": flat.measure,
+                "weight": flat.weight,
+                "low": flat.low,
+                "high": flat.high,
+                "among_feasible": flat.among_feasible,
+            }
+            for flat in decision.flat_measures
+        ],
+        "demands": dict(decision.demands),
+        "counts": {
+            "alternatives": decision.counts.alternatives,
+            "feasible": decision.counts.feasible,
+            "excluded_better": decision.counts.excluded_better,
+        },
+        "certificate": certificate_to_json(decision.certificate),
+    }
+
+
+def certificate_to_json(certificate: Certificate) -> dict[str, object]:
+    """Turn a certificate into plain values."""
+    return {
+        "enumeration_agrees": certificate.enumeration_agrees,
+        "status": certificate.status.value,
+        "solver": certificate.solver,
+        "program": certificate.program,
+        "alternatives": certificate.alternatives,
+        "considered": certificate.considered,
+        "stages": [
+            {"name": stage.name, "variant": stage.variant, "objective": stage.objective, "gap": stage.gap}
+            for stage in certificate.stages
+        ],
+        "solver_choice": certificate.solver_choice,
+        "objective": certificate.objective,
+        "objective_recomputed": certificate.objective_recomputed,
+        "gap": certificate.gap,
+        "residuals": [
+            {
+                "name": residual.name,
+                "residual": residual.residual if math.isfinite(residual.residual) else None,
+                "margin": residual.margin,
+            }
+            for residual in certificate.residuals
+        ],
+    }
+
+
+def fleet_to_json(decision: FleetDecision) -> dict[str, object]:
+    """Turn the choice of a fleet into plain values."""
+    return {
+        "status": decision.status.value,
+        "members": list(decision.members),
+        "assignments": [
+            {"task": one.task, "member": one.member, "variant": one.variant, "value": one.value}
+            for one in decision.assignments
+        ],
+        "objective": decision.objective,
+        "by_size": list(decision.by_size),
+        "unserved": list(decision.unserved),
+        "certificate": {
+            "solver": "HIGHS",
+            "considered": decision.considered,
+            "objective_recomputed": decision.objective_recomputed,
+            "gap": decision.gap,
+            "enumeration_agrees": decision.enumeration_agrees,
+        },
     }
 
 
@@ -63,29 +137,41 @@ def _contributions(contributions: Iterable[Contribution]) -> list[dict[str, obje
 def _conflicts(conflicts: Conflicts | None) -> dict[str, object] | None:
     if conflicts is None:
         return None
+    survival = conflicts.survival
     return {
         "excluded_by": _counts(conflicts.excluded_by),
         "minimal_conflict": list(conflicts.minimal_conflict),
+        "minimal_conflicts": [list(each) for each in conflicts.minimal_conflicts],
+        "complete": conflicts.complete,
+        "corrections": [list(each) for each in conflicts.corrections],
         "nearest": {
             "variant": conflicts.nearest.variant,
             "requirements": list(conflicts.nearest.requirements),
         },
-    }
-
-
-def _certificate(certificate: Certificate) -> dict[str, object]:
-    return {
-        "enumeration_agrees": certificate.enumeration_agrees,
-        "status": certificate.status.value,
-        "solver": certificate.solver,
-        "alternatives": certificate.alternatives,
-        "considered": certificate.considered,
-        "solver_choice": certificate.solver_choice,
-        "objective": certificate.objective,
-        "objective_recomputed": certificate.objective_recomputed,
-        "gap": certificate.gap,
-        "residuals": [
-            {"name": residual.name, "residual": residual.residual, "margin": residual.margin}
-            for residual in certificate.residuals
+        "repairs": [
+            {
+                "requirement": repair.requirement,
+                "changes": [
+                    {
+                        "demand": change.demand,
+                        "limit": change.limit,
+                        "needed": change.needed,
+                        "unit": change.unit,
+                        "relative": change.relative,
+                    }
+                    for change in repair.changes
+                ],
+                "unlocked": repair.unlocked,
+                "winner": repair.winner,
+            }
+            for repair in conflicts.repairs
         ],
+        "survival": None
+        if survival is None
+        else {
+            "resamples": survival.resamples,
+            "exact": survival.exact,
+            "nothing_feasible": survival.nothing_feasible,
+            "conflicts": list(survival.conflicts),
+        },
     }

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from rgss.trials.bench_rig import PayloadLimit, PayloadRig, Probe, probe
-from rgss.trials.bench_spec import SAFETY_FACTOR, BenchSettings, BenchSpec, bench_digest, bench_spec
+from rgss.trials.bench_spec import SAFETY_FACTOR, BenchSettings, BenchSpec, bench_spec
 
 __all__ = [
     "SAFETY_FACTOR",
@@ -21,7 +21,6 @@ __all__ = [
     "PayloadResult",
     "PayloadRig",
     "Probe",
-    "bench_digest",
     "bench_spec",
     "probe",
     "run_bench",

@@ -1,21 +1,17 @@
-"""What a payload bench is run with, and the digest of exactly that."""
+"""What a payload bench is run with."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rgss.documents.digests import digest
 from rgss.errors import DefinitionError
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Cylinder, Gripper, Scene
-from rgss.trials.spec import plain
 
 SAFETY_FACTOR = 1.5
 """Of a gripper's payload by friction (thesis, eq. 4.8)."""
 
-_VERSIONS = ("pybullet", "rgss-source")
 _FINEST_RESOLUTION = 1.0e-6
 _SOLVER_MARGIN = 2.0
 
@@ -191,16 +187,3 @@ def bench_spec(
         physics=physics or PhysicsSettings(),
         settings=settings or BenchSettings(),
     )
-
-
-def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
-    """The digest of the inputs of a bench, by which designs with the same gripper share one.
-
-    Args:
-        spec: The bench; the name of the gripper's shape is no input.
-        versions: Versions of the code and the engines; only those that a bench uses are taken.
-    """
-    inputs = plain(spec)
-    del inputs["gripper"]["geometry"]["id"]
-    used = {name: version for name, version in versions.items() if name in _VERSIONS}
-    return digest({"bench": inputs, "versions": used})

@@ -24,11 +24,18 @@ class ControlSettings:
         largest_slip_m: Displacement in the gripper beyond which the object counts as dropped.
         largest_tracking_error_m: Distance of the tool from its commanded position beyond which
             a move has failed.
-        settled_speed_m_s: Speed below which a released object counts as standing.
-        settled_s: Time for which it must stay below that speed.
+        settled_speed_m_s: Mean speed below which a released object counts as standing.
+        settled_s: Time over which that is the mean.
         settling_timeout_s: Longest wait for it.
         displaced_m: Displacement before the grasp beyond which the object was knocked.
-        observation_rate_hz: Rate at which poses are observed; contacts are read at every step.
+        observation_rate_hz: Rate at which the pose of a held object is observed; contacts, torques and
+            the tool are read at every step.
+        acceleration_window_s: Time over which the tool's acceleration is averaged, as an
+            accelerometer's filter does; from one step to the next it shows the solver's noise.
+        grasp_rate_hz: Rate at which the grasp of a carried object is analysed; also at the end of
+            every phase.
+        grasp_strength_rate_hz: Rate at which that analysis says what the grasp resists (Q_SMW and
+            the load), which takes most of its time; also at the end of every phase.
     """
 
     firm_grasp_s: float = 0.05
@@ -45,3 +52,6 @@ class ControlSettings:
     settling_timeout_s: float = 2.0
     displaced_m: float = 0.005
     observation_rate_hz: float = 60.0
+    acceleration_window_s: float = 0.02
+    grasp_rate_hz: float = 4.0
+    grasp_strength_rate_hz: float = 1.0

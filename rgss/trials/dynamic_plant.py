@@ -16,8 +16,9 @@ import numpy as np
 from rgss.evidence import Failure, Metric, Phase
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene
+from rgss.scenes import Gripper, Joint, Scene
 from rgss.trials.control import ControlSettings
+from rgss.trials.joint_load import JointLoad
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.reference import Array, Reference
 
@@ -93,7 +94,7 @@ class DynamicPlant:
 
     def move(self, phase: Phase, reference: Reference) -> PhaseResult:
         """Follow the targets under computed torque until the end is reached."""
-        log = _Log()
+        log = _Log(self._scene.robot.joints)
         target = reference.positions_rad
         # The engine adds an acceleration to the speed of the step before, and that speed to the position.
         speeds = np.vstack([np.zeros((1, target.shape[1])), reference.velocities_rad_s])
@@ -106,7 +107,7 @@ class DynamicPlant:
         self._at_rad = target[-1]
         reached = self._settle(log)
         failure, detail = self._judge(reached, log)
-        metrics = log.metrics(self._limits)
+        metrics = log.metrics()
         velocity = np.diff(tool_m, axis=0) / self._step_s
         acceleration = np.diff(velocity, axis=0) / self._step_s
         metrics["peak_tool_speed_m_s"] = float(np.linalg.norm(velocity, axis=1).max())
@@ -132,7 +133,7 @@ class DynamicPlant:
         return self._wait(Phase.PLACE, opening_s, {"opening_s": opening_s})
 
     def _wait(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
-        log = _Log()
+        log = _Log(self._scene.robot.joints)
         still = np.zeros(len(self._at_rad))
         for _ in range(math.ceil(duration_s / self._step_s)):
             self._drive(self._at_rad, still, still, log)
@@ -141,7 +142,7 @@ class DynamicPlant:
             failure=None,
             detail="",
             duration_s=log.steps * self._step_s,
-            metrics={**metrics, **log.metrics(self._limits)},
+            metrics={**metrics, **log.metrics()},
         )
 
     def _drive(self, target: Array, speed: Array, acceleration: Array, log: _Log) -> Array:
@@ -152,7 +153,7 @@ class DynamicPlant:
         q, dq = (np.array(values) for values in self._machine.state())
         wanted = acceleration + 2 * zeta * omega * (speed - dq) + omega**2 * (target - q)
         torques = self._model.torques(q, dq, wanted)
-        log.note(torques, self._limits, self._step_s)
+        log.note(torques, self._step_s)
         self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
         return np.array(self._machine.state()[0])
 
@@ -168,10 +169,8 @@ class DynamicPlant:
     def _judge(self, reached: bool, log: _Log) -> tuple[Failure | None, str]:  # noqa: FBT001 - a verdict, not a switch
         worst = log.tracking_m
         if not reached or worst > self._control.largest_tracking_error_m:
-            # The first is the cause; the others may have followed it.
-            joints = [self._scene.robot.joints[index].name for index in log.saturated]
-            saturated = f"; at its torque limit: {', then '.join(joints)}" if joints else ""
-            return Failure.TRACKING_ERROR, f"the tool was {worst * 1e3:.2f} mm from where it should be{saturated}"
+            words = f"the tool was {worst * 1e3:.2f} mm from where it should be{log.load.words()}"
+            return Failure.TRACKING_ERROR, words
         return None, ""
 
     def _finger_time_s(self) -> float:
@@ -185,30 +184,16 @@ class DynamicPlant:
 class _Log:
     """What one phase observes."""
 
-    def __init__(self) -> None:
+    def __init__(self, joints: Sequence[Joint]) -> None:
         self.steps = 0
         self.tracking_m = 0.0
-        self.peak_torque_n_m: Array = np.zeros(0)
-        self.saturated_s: Array = np.zeros(0)
-        self.saturated: list[int] = []
+        self.load = JointLoad(joints)
 
-    def note(self, torques: Array, limits: Array, step_s: float) -> None:
+    def note(self, torques: Array, step_s: float) -> None:
         """Add one step's commanded torques."""
-        if not self.steps:
-            self.peak_torque_n_m, self.saturated_s = np.zeros(len(torques)), np.zeros(len(torques))
         self.steps += 1
-        self.peak_torque_n_m = np.maximum(self.peak_torque_n_m, np.minimum(np.abs(torques), limits))
-        beyond = np.abs(torques) > limits
-        self.saturated_s = self.saturated_s + step_s * beyond
-        self.saturated += [index for index in np.flatnonzero(beyond).tolist() if index not in self.saturated]
+        self.load.note(torques.tolist(), step_s)
 
-    def metrics(self, limits: Array) -> dict[str, Metric]:
+    def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit."""
-        if not self.steps:
-            return {}
-        return {
-            "tracking_error_m": self.tracking_m,
-            "peak_joint_torque_n_m": tuple(float(value) for value in self.peak_torque_n_m),
-            "peak_joint_torque_ratio": float(np.max(self.peak_torque_n_m / limits)),
-            "joint_saturated_s": tuple(float(value) for value in self.saturated_s),
-        }
+        return {"tracking_error_m": self.tracking_m, **self.load.metrics()} if self.steps else {}

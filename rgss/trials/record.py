@@ -15,7 +15,8 @@ from rgss.evidence import (
     PlanOutcome,
     TrialRecord,
 )
-from rgss.trials.grasp_record import PREFIX
+from rgss.trials.grasp_record import GREATEST, LEAST, worst_of
+from rgss.trials.metrics import AT_GRASP
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import PlannedMove, TaskPlan
 from rgss.trials.spec import TrialSpec
@@ -33,10 +34,7 @@ _GREATEST = (
     "tracking_error_m",
     "slip_m",
 )
-# The grasp is judged by its worst while the object is carried.
-_CARRIED = (Phase.LIFT, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
-_LEAST_OF_GRASP = ("force_closure", "q_msv_1", "q_voe_1", "q_gii_1", "q_smw_n", "load_factor_1")
-_GREATEST_OF_GRASP = ("q_gpri_1", "q_diff_m")
+_CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 
 
 def assemble_record(
@@ -167,12 +165,45 @@ def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], 
     for name in _GREATEST:
         values = [v for p in phases if isinstance(v := p.metrics.get(name), float)]
         metrics[name] = max(values, default=None)
+    return {**metrics, **_joint_load(phases), **_grasp(by_phase)}
+
+
+def _joint_load(phases: Sequence[PhaseRecord]) -> dict[str, Metric]:
+    """What each joint needed over all phases, and which one came nearest to its limit."""
+    peaks, saturated = (_rows(phases, name) for name in ("peak_joint_torque_n_m", "joint_saturated_s"))
+    ratios = [
+        (ratio, phase.metrics.get("most_loaded_joint"))
+        for phase in phases
+        if isinstance(ratio := phase.metrics.get("peak_joint_torque_ratio"), float)
+    ]
+    most_loaded = max(ratios, key=lambda pair: pair[0])[1] if ratios else None
+    return {
+        "peak_joint_torque_n_m": tuple(map(max, zip(*peaks, strict=True))) if peaks else None,
+        "joint_saturated_s": tuple(map(sum, zip(*saturated, strict=True))) if saturated else None,
+        "most_loaded_joint": most_loaded,
+    }
+
+
+def _rows(phases: Sequence[PhaseRecord], name: str) -> list[tuple[float, ...]]:
+    rows = [phase.metrics.get(name) for phase in phases]
+    return [tuple(float(value or 0.0) for value in row) for row in rows if isinstance(row, tuple)]
+
+
+def _grasp(by_phase: Mapping[Phase, PhaseRecord]) -> dict[str, Metric]:
+    """The grasp as it was closed, and at its worst while the object was carried."""
     carried = [by_phase[phase].metrics for phase in _CARRIED]
-    for names, worst in ((_LEAST_OF_GRASP, min), (_GREATEST_OF_GRASP, max)):
-        for name in names:
-            known = [v for m in carried if isinstance(v := m.get(f"{PREFIX}{name}"), (int, float))]
-            metrics[f"{PREFIX}{name}"] = worst(known) if known else None
-    return metrics
+    worst = worst_of(carried)
+    samples, closed = (
+        sum(value for row in carried if isinstance(value := row.get(name), int))
+        for name in ("grasp_samples", "grasp_samples_closed")
+    )
+    first = by_phase[Phase.GRASP].metrics
+    return {
+        **{name: worst.get(name) for name in (*LEAST, *GREATEST)},
+        "grasp_samples": samples if samples else None,
+        "grasp_force_closure_share_1": closed / samples if samples else None,
+        **{at_grasp: first.get(name) for at_grasp, name in AT_GRASP.items()},
+    }
 
 
 def _last(phases: Sequence[PhaseRecord], name: str) -> Metric:

@@ -1,32 +1,32 @@
-"""Running trials: alone, or together with others that share pieces."""
+"""Running trials in this process: alone, or together with others that share pieces."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from functools import lru_cache
 
 from rgss.errors import DefinitionError
-from rgss.evidence import Fidelity, Phase, TrialRecord
-from rgss.physics import TorqueArm, World
-from rgss.trials.bench import run_bench
-from rgss.trials.bench_spec import BenchSpec, bench_spec
-from rgss.trials.dynamic_plant import DynamicPlant
-from rgss.trials.execution import Execution
-from rgss.trials.kinematic_plant import KinematicPlant
+from rgss.evidence import TrialRecord
+from rgss.trials.bench import PayloadResult, run_bench
+from rgss.trials.bench_spec import BenchSpec
+from rgss.trials.executing import execute
 from rgss.trials.observer import StepObserver
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import TaskPlan, plan_task
-from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
-from rgss.trials.reference import reference_of
-from rgss.trials.spec import TrialDigests, TrialSpec, digests_of
+from rgss.trials.spec import TrialDigests, bench_of, digests_of
 from rgss.trials.timing import TaskTiming, time_task
+from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.versions import versions
 from rgss.trials.workcell import Workcell, workcell_of
 
+__all__ = ["Pieces", "execute", "require_search", "run_trial"]
+
+_BENCHES_KEPT = 64
+
 
 def run_trial(spec: TrialSpec, *, observer: StepObserver | None = None) -> TrialRecord:
-    """Run one trial by itself, its search no longer than its own limit needs.
+    """Run one trial by itself; only the bench of its gripper may be known from an earlier one.
 
     Args:
         spec: The trial.
@@ -36,34 +36,65 @@ def run_trial(spec: TrialSpec, *, observer: StepObserver | None = None) -> Trial
         DefinitionError: The limit is longer than the search.
         SimulationError: The physics engine cannot build the world.
     """
-    return Pieces(observer=observer).record(spec)
+    return Pieces(observer=observer, bench=_remembered_bench).record(spec)
+
+
+def require_search(spec: TrialSpec) -> None:
+    """Make sure that a trial's planning limit can be read off its search.
+
+    Args:
+        spec: The trial.
+
+    Raises:
+        DefinitionError: The limit is longer than the search.
+    """
+    if spec.planning_limit_s > spec.settings.planning.search_limit_s:
+        raise DefinitionError(
+            f"the planning limit of {spec.planning_limit_s:g} s exceeds the search of "
+            f"{spec.settings.planning.search_limit_s:g} s",
+            hint="let the search be as long as the greatest limit",
+        )
 
 
 class Pieces:
-    """Plans, timings and executions made so far, so that each is made once.
+    """Plans, timings, executions and benches made so far, so that each is made once.
 
     A record does not depend on what was made before: a piece depends on exactly the inputs
     that its digest covers.
     """
 
-    def __init__(self, *, observer: StepObserver | None = None, checkpoint: Callable[[], None] | None = None) -> None:
+    def __init__(
+        self,
+        *,
+        observer: StepObserver | None = None,
+        checkpoint: Callable[[], None] | None = None,
+        bench: Callable[[BenchSpec], PayloadResult] = run_bench,
+    ) -> None:
         """Begin with no pieces.
 
         Args:
             observer: Looks on after every physics step of the executions that are made.
             checkpoint: Called between two steps of them; it may wait, or end one by raising.
+            bench: What tries a gripper on the payload bench.
         """
         self._observer = observer
         self._checkpoint = checkpoint
+        self._bench = bench
         self._versions = versions()
         self._plans: dict[str, TaskPlan] = {}
         self._timings: dict[str, TaskTiming] = {}
         self._executions: dict[str, tuple[PhaseResult, ...]] = {}
+        self._benches: dict[str, PayloadResult] = {}
 
     @property
     def made(self) -> dict[str, int]:
         """How many pieces of each kind were made."""
-        return {"plan": len(self._plans), "timing": len(self._timings), "execution": len(self._executions)}
+        return {
+            "plan": len(self._plans),
+            "timing": len(self._timings),
+            "execution": len(self._executions),
+            "bench": len(self._benches),
+        }
 
     def prepare(self, spec: TrialSpec) -> None:
         """Make the plan and the timing of a trial, so that its record only waits for the execution."""
@@ -78,17 +109,12 @@ class Pieces:
             DefinitionError: The limit is longer than the search.
             SimulationError: The physics engine cannot build the world.
         """
-        if spec.planning_limit_s > spec.settings.planning.search_limit_s:
-            raise DefinitionError(
-                f"the planning limit of {spec.planning_limit_s:g} s exceeds the search of "
-                f"{spec.settings.planning.search_limit_s:g} s",
-                hint="let the search be as long as the greatest limit",
-            )
+        require_search(spec)
         digests = digests_of(spec, self._versions)
         cell, plan = self._plan(spec, digests)
         timing = self._timing(spec, digests, cell, plan)
         execution = self._execution(spec, digests, cell, timing)
-        return assemble_record(spec, plan, timing.failures, execution, bench_payload_kg=_bench_payload_kg(spec))
+        return assemble_record(spec, plan, timing.failures, execution, bench_payload_kg=self._payload_kg(spec, digests))
 
     def _plan(self, spec: TrialSpec, digests: TrialDigests) -> tuple[Workcell, TaskPlan]:
         planning = spec.settings.planning
@@ -113,70 +139,16 @@ class Pieces:
             )
         return self._executions[digests.execution]
 
-
-def execute(
-    spec: TrialSpec,
-    cell: Workcell,
-    timing: TaskTiming,
-    *,
-    observer: StepObserver | None = None,
-    checkpoint: Callable[[], None] | None = None,
-) -> tuple[PhaseResult, ...]:
-    """Run the timed moves on a fresh plant of the trial's fidelity.
-
-    Args:
-        spec: The trial.
-        cell: Kinematics of the tool.
-        timing: The trajectories.
-        observer: Looks on after every step in contact physics; the other fidelities have nothing to show.
-        checkpoint: Called between two steps, which in the kinematic model are whole phases; it may wait,
-            or end the task by raising.
-
-    Raises:
-        SimulationError: The physics engine cannot build the world.
-    """
-    physics, scene = spec.settings.physics, spec.scene
-    references = {}
-    for phase in Phase:
-        if phase in timing.trajectories:
-            references[phase] = reference_of(
-                timing.trajectories[phase], cell.arm, step_s=physics.step_s, gravity_m_s2=scene.gravity_m_s2
-            )
-    control, gripper = spec.settings.control, spec.gripper
-    if spec.fidelity is Fidelity.KINEMATIC:
-        model = KinematicPlant(cell.arm, gripper, scene.workpiece, control, step_s=physics.step_s)
-        return run_program(model, references, checkpoint=checkpoint)
-    if spec.fidelity is Fidelity.DYNAMIC:
-        with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
-            plant = DynamicPlant(machine, cell.arm, scene, gripper, physics, control, checkpoint=checkpoint)
-            return run_program(plant, references)
-    with World(scene, gripper, physics) as world:
-        return Execution(world, references, control, observer=observer, checkpoint=checkpoint).run()
+    def _payload_kg(self, spec: TrialSpec, digests: TrialDigests) -> float | None:
+        """What the gripper holds on the payload bench; None where the trial's fidelity cannot know it."""
+        bench = bench_of(spec)
+        if bench is None:
+            return None
+        if digests.bench not in self._benches:
+            self._benches[digests.bench] = self._bench(bench)
+        return self._benches[digests.bench].payload_kg
 
 
-def _bench_payload_kg(spec: TrialSpec) -> float | None:
-    """What the gripper holds on the payload bench; only contact physics knows."""
-    if spec.fidelity is not Fidelity.CONTACT:
-        return None
-    robot = spec.scene.robot
-    bench = bench_spec(
-        spec.scene,
-        spec.gripper,
-        acceleration_m_s2=robot.tool_acceleration_m_s2,
-        rated_kg=robot.payload_kg,
-        physics=spec.settings.physics,
-    )
-    return _payload_kg(bench)
-
-
-@lru_cache(maxsize=64)
-def _payload_kg(bench: BenchSpec) -> float:
-    """The bench of a gripper, once in a process however many trials have that gripper."""
-    return run_bench(bench).payload_kg
-
-
-def run_shared(specs: Iterable[TrialSpec]) -> Iterator[tuple[TrialSpec, TrialDigests, TrialRecord]]:
-    """Run trials one after another, each piece once; yields them as they end."""
-    pieces = Pieces()
-    for spec in specs:
-        yield spec, digests_of(spec, versions()), pieces.record(spec)
+@lru_cache(maxsize=_BENCHES_KEPT)
+def _remembered_bench(bench: BenchSpec) -> PayloadResult:
+    return run_bench(bench)

@@ -1,51 +1,32 @@
-"""What a trial is made of, and the digests of exactly the inputs of each of its pieces.
+"""The digests of exactly the inputs of each piece of a trial.
 
 A trial is cut where its inputs are. The *plan* needs the scene, the gripper's shape, the
 planner and the seed; the *timing* needs the plan and the tool speed; the *execution* needs the
-timing and the gripper's masses, forces and friction; only the *record* needs the planning
-limit. Variants that share a piece's digest share the piece.
+timing and the gripper's masses, forces and friction; the *bench* needs the gripper and the object
+alone; only the *record* needs the planning limit. Variants that share a piece's digest share the
+piece.
 """
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import Enum
 from functools import lru_cache
 from typing import Any
 
 from rgss.documents.digests import digest
 from rgss.evidence import Fidelity
-from rgss.scenes import Gripper, Scene, Shape
-from rgss.trials.settings import TrialSettings
+from rgss.scenes import Scene, Shape
+from rgss.trials.bench_spec import BenchSpec, bench_spec
+from rgss.trials.plain import plain
+from rgss.trials.trial_spec import TrialSpec
+from rgss.trials.versions import ENTRIES, versions_of
 
+__all__ = ["TrialDigests", "TrialSpec", "bench_digest", "bench_of", "digests_of", "matter_of", "plain"]
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TrialSpec:
-    """One variant to be tried once.
-
-    Attributes:
-        variant: Id of the design variant.
-        seed: The trial's seed.
-        fidelity: How much physics it has.
-        scene: Where it happens.
-        gripper: The gripper of the design.
-        planner: Name of the planner of the design.
-        planning_limit_s: Longest planning time for one move (d9).
-        tool_speed_m_s: Greatest tool speed (d7).
-        settings: How it is planned and simulated.
-    """
-
-    variant: int
-    seed: int
-    fidelity: Fidelity
-    scene: Scene
-    gripper: Gripper
-    planner: str
-    planning_limit_s: float
-    tool_speed_m_s: float
-    settings: TrialSettings
+# Trials of a study share most of what they are made of, and a digest of it need be made but once.
+_KEPT = 512
+_JOINED_KEPT = 8192
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,17 +38,21 @@ class TrialDigests:
         timing: The plan and the tool speed.
         execution: The timing, the gripper, masses and frictions of the scene, physics and control
             settings, fidelity.
-        trial: The execution and the planning limit; the variant's number is no input.
+        bench: The gripper, the object, the acceleration and the physics settings; empty where the
+            trial's fidelity knows no bench.
+        trial: The execution, the bench and the planning limit; the variant's number is no input.
     """
 
     plan: str
     timing: str
     execution: str
+    bench: str
     trial: str
 
     def as_mapping(self) -> dict[str, str]:
-        """The digests by the name of the piece."""
-        return {"plan": self.plan, "timing": self.timing, "execution": self.execution, "trial": self.trial}
+        """The digests by the name of the piece; a piece that the trial does not have is left out."""
+        named = {"plan": self.plan, "timing": self.timing, "execution": self.execution, "bench": self.bench}
+        return {**{name: value for name, value in named.items() if value}, "trial": self.trial}
 
 
 def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
@@ -75,34 +60,99 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
 
     Args:
         spec: The trial.
-        versions: Versions of the code and the engines, which are inputs like any other.
+        versions: Versions of the code and the engines, which are inputs like any other; each piece
+            takes those that it depends on.
     """
-    plan = digest(
-        {
-            "scene": _geometry_digest(spec.scene),
-            "geometry": plain(spec.gripper.geometry),
-            "planner": spec.planner,
-            "seed": spec.seed,
-            "settings": plain(spec.settings.planning),
-            "versions": dict(versions),
-        }
+    used = _version_digests(tuple(sorted(versions.items())))
+    plan = _joined(
+        _geometry_digest(spec.scene),
+        _digest_of(spec.gripper.geometry),
+        spec.planner,
+        spec.seed,
+        _digest_of(spec.settings.planning),
+        used["plan"],
     )
-    timing = digest({"plan": plan, "tool_speed_m_s": spec.tool_speed_m_s})
-    execution = digest(
-        {
-            "timing": timing,
-            "gripper": plain(spec.gripper),
-            "scene": _matter_of(spec.scene),
-            "physics": plain(spec.settings.physics),
-            "control": plain(spec.settings.control),
-            "fidelity": spec.fidelity,
-        }
+    timing = _joined(plan, spec.tool_speed_m_s, used["timing"])
+    execution = _joined(
+        timing,
+        _digest_of(spec.gripper),
+        _matter_digest(spec.scene),
+        _digest_of(spec.settings.physics),
+        _digest_of(spec.settings.control),
+        spec.fidelity.value,
+        used["execution"],
     )
-    trial = digest({"execution": execution, "planning_limit_s": spec.planning_limit_s})
-    return TrialDigests(plan=plan, timing=timing, execution=execution, trial=trial)
+    bench = bench_of(spec)
+    lifted = "" if bench is None else _bench_digest(bench, used["bench"])
+    trial = digest([execution, lifted, spec.planning_limit_s, used["record"]])
+    return TrialDigests(plan=plan, timing=timing, execution=execution, bench=lifted, trial=trial)
 
 
-@lru_cache(maxsize=64)
+def bench_of(spec: TrialSpec) -> BenchSpec | None:
+    """The payload bench of a trial's gripper; None where only contact physics would know."""
+    if spec.fidelity is not Fidelity.CONTACT:
+        return None
+    robot = spec.scene.robot
+    return bench_spec(
+        spec.scene,
+        spec.gripper,
+        acceleration_m_s2=robot.tool_acceleration_m_s2,
+        rated_kg=robot.payload_kg,
+        physics=spec.settings.physics,
+    )
+
+
+def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
+    """The digest of the inputs of a bench, by which designs with the same gripper share one.
+
+    Args:
+        spec: The bench; the name of the gripper's shape is no input.
+        versions: Versions of the code and the engines; only those that a bench uses are taken.
+    """
+    return _bench_digest(spec, _version_digests(tuple(sorted(versions.items())))["bench"])
+
+
+def matter_of(scene: Scene) -> dict[str, Any]:
+    """What only the physics needs of a scene; colours are nobody's input."""
+    workpiece = scene.workpiece
+    return {
+        "id": scene.id,
+        "gravity_m_s2": scene.gravity_m_s2,
+        "frictions": [body.friction for body in scene.bodies],
+        "workpiece": [workpiece.mass_kg, workpiece.friction, workpiece.force_limit_n],
+        "place": [scene.place.radius_m, scene.place.largest_tilt_rad],
+    }
+
+
+@lru_cache(maxsize=_KEPT)
+def _digest_of(value: Any) -> str:
+    return digest(plain(value))
+
+
+@lru_cache(maxsize=16)
+def _version_digests(versions: tuple[tuple[str, str], ...]) -> Mapping[str, str]:
+    """A digest of the versions that each piece takes."""
+    return {piece: digest(versions_of(piece, dict(versions))) for piece in ENTRIES}
+
+
+@lru_cache(maxsize=_JOINED_KEPT, typed=True)
+def _joined(*inputs: str | float) -> str:
+    return digest(inputs)
+
+
+@lru_cache(maxsize=_KEPT)
+def _bench_digest(spec: BenchSpec, versions: str) -> str:
+    inputs = plain(spec)
+    del inputs["gripper"]["geometry"]["id"]
+    return digest({"bench": inputs, "versions": versions})
+
+
+@lru_cache(maxsize=_KEPT)
+def _matter_digest(scene: Scene) -> str:
+    return digest(matter_of(scene))
+
+
+@lru_cache(maxsize=_KEPT)
 def _geometry_digest(scene: Scene) -> str:
     """Digest of what planning and timing need of a scene: where everything is, and how the arm may move."""
     geometry = {
@@ -120,30 +170,5 @@ def _geometry_digest(scene: Scene) -> str:
     return digest(geometry)
 
 
-def _matter_of(scene: Scene) -> dict[str, Any]:
-    """What only the physics needs of a scene; colours are nobody's input."""
-    workpiece = scene.workpiece
-    return {
-        "id": scene.id,
-        "gravity_m_s2": scene.gravity_m_s2,
-        "frictions": [body.friction for body in scene.bodies],
-        "workpiece": [workpiece.mass_kg, workpiece.friction, workpiece.force_limit_n],
-        "place": [scene.place.radius_m, scene.place.largest_tilt_rad],
-    }
-
-
 def _shape(shape: Shape) -> dict[str, Any]:
     return {"kind": type(shape).__name__, **plain(shape)}
-
-
-def plain(value: Any) -> Any:
-    """A value of frozen dataclasses as plain mappings, lists, texts and numbers."""
-    if dataclasses.is_dataclass(value):
-        return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
-    if isinstance(value, Enum):
-        return value.value
-    if isinstance(value, (tuple, list)):
-        return [plain(item) for item in value]
-    if isinstance(value, Mapping):
-        return {key: plain(item) for key, item in value.items()}
-    return value

@@ -23,6 +23,9 @@ _FAILURES = {
     ),
 }
 
+LONGEST_MOVE_S = 600.0
+"""A move that would take longer is not run: its targets, one for each physics step, would fill the memory."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaskTiming:
@@ -65,11 +68,20 @@ def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings
         result = time_move(
             JointPath(path), cell.running[phase], cell.arm, limits, resolution_rad=settings.resolution_rad
         )
-        if result.trajectory is not None:
-            trajectories[phase] = result.trajectory
-        else:
+        if result.trajectory is None:
             failures[phase] = _FAILURES[result.outcome]
+        elif result.trajectory.duration_s > LONGEST_MOVE_S:
+            failures[phase] = (Failure.TRAJECTORY_INFEASIBLE, _too_slow(result.trajectory, limits))
+        else:
+            trajectories[phase] = result.trajectory
     return TaskTiming(trajectories=trajectories, failures=failures)
+
+
+def _too_slow(trajectory: Trajectory, limits: MotionLimits) -> str:
+    return (
+        f"the move would take {trajectory.duration_s:.3g} s, more than {LONGEST_MOVE_S:g} s "
+        f"(the tool may move at {limits.tool_speed_m_s:g} m/s)"
+    )
 
 
 def _paths(plan: TaskPlan) -> dict[Phase, Array | None]:

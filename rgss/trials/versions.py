@@ -1,34 +1,95 @@
-"""Versions of the code and the engines that a trial's result depends on."""
+"""Versions of the code and the engines that each piece of a trial depends on."""
 
 from __future__ import annotations
 
-import hashlib
 import importlib.metadata
+from collections.abc import Mapping
 from functools import lru_cache
-from pathlib import Path
+from types import MappingProxyType
 
-ENGINES = ("pybullet", "ompl", "pin", "coal", "eaik", "toppra", "numpy", "scipy")
-_ROOMS = ("scenes", "kinematics", "motion", "physics", "grasping", "trials")
+from rgss.trials.sources import SourceClosure, own_sources
+
+ENGINES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "pybullet": ("pybullet",),
+        "ompl": ("ompl",),
+        "pinocchio": ("pin", "coal"),
+        "coal": ("coal",),
+        "eaik": ("eaik",),
+        "toppra": ("toppra",),
+        "numpy": ("numpy",),
+        "scipy": ("scipy",),
+    }
+)
+"""The distributions behind each foreign module that a piece's making may import."""
+
+ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "plan": ("rgss.trials.plan", "rgss.trials.plan_text"),
+        "timing": ("rgss.trials.timing", "rgss.trials.timing_text"),
+        "execution": ("rgss.trials.executing", "rgss.trials.execution_text"),
+        "bench": ("rgss.trials.bench", "rgss.trials.bench_text"),
+        "record": ("rgss.trials.record",),
+    }
+)
+"""The modules that make each piece and write it down, and those that put the record together."""
+
+_CODE = "rgss-"
 
 
-@lru_cache(maxsize=1)
 def versions() -> dict[str, str]:
-    """Installed version of each engine, and a digest of the source of the rooms that make trials.
+    """Installed version of each engine, and for each piece a digest of the source that makes it.
 
     The source is digested so that evidence of other code is never taken for evidence of this.
     """
-    found = {name: importlib.metadata.version(name) for name in ENGINES}
-    found["rgss-source"] = _source_digest()
+    return dict(_found())
+
+
+def versions_of(piece: str, among: Mapping[str, str]) -> dict[str, str]:
+    """The versions that a piece depends on by itself, its forerunners not counted.
+
+    Args:
+        piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
+        among: Versions as `versions` gives them; those that are not there are left out.
+    """
+    return {name: among[name] for name in _names_of(piece) if name in among}
+
+
+def are_of_this_kind(found: Mapping[str, str]) -> bool:
+    """Tell whether versions name the source of each piece; those that rgss kept before named one for all.
+
+    Args:
+        found: Versions as a trial's provenance has them.
+    """
+    return all(f"{_CODE}{piece}" in found for piece in ENTRIES)
+
+
+@lru_cache(maxsize=len(ENTRIES))
+def source_of(piece: str) -> SourceClosure:
+    """The modules and engines that make a piece.
+
+    Args:
+        piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
+    """
+    return own_sources().closure_of(ENTRIES[piece])
+
+
+def code_of_trials() -> dict[str, str]:
+    """A short digest of each module that makes any piece of a trial, by its name."""
+    modules = sorted({module for piece in ENTRIES for module in source_of(piece).modules})
+    return {module: own_sources().module_digest(module)[:12] for module in modules}
+
+
+@lru_cache(maxsize=1)
+def _found() -> Mapping[str, str]:
+    engines = sorted({name for names in ENGINES.values() for name in names})
+    found = {name: importlib.metadata.version(name) for name in engines}
+    for piece in ENTRIES:
+        found[f"{_CODE}{piece}"] = source_of(piece).digest
     return found
 
 
-def _source_digest() -> str:
-    package = Path(__file__).resolve().parent.parent
-    content = hashlib.sha256()
-    for room in _ROOMS:
-        for file in sorted((package / room).rglob("*.py")):
-            content.update(file.relative_to(package).as_posix().encode())
-            content.update(b"\0")
-            content.update(file.read_bytes().replace(b"\r\n", b"\n"))
-            content.update(b"\0")
-    return content.hexdigest()
+@lru_cache(maxsize=len(ENTRIES))
+def _names_of(piece: str) -> tuple[str, ...]:
+    engines = {name for module in source_of(piece).foreign for name in ENGINES.get(module, ())}
+    return (*sorted(engines), f"{_CODE}{piece}")

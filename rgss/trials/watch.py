@@ -9,6 +9,10 @@ from rgss.evidence import Failure, Metric
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
 from rgss.trials.control import ControlSettings
+from rgss.trials.grasp_watch import GraspWatch
+from rgss.trials.joint_load import JointLoad
+
+_AT_REST = (0.0, 0.0, 0.0)
 
 
 class Watch:
@@ -35,40 +39,45 @@ class Watch:
         self.grip_margin: float | None = None
         self._world = world
         self._control = control
-        self._carried_at = carried_at
         self._resting_on = resting_on
         self._friction = world.gripper.friction * world.scene.workpiece.friction
         self._mass_kg = world.scene.workpiece.mass_kg
         self._step_s = world.settings.step_s
-        self._every = max(1, round(world.settings.rate_hz / control.observation_rate_hz))
         self._forces_n: deque[float] = deque(maxlen=max(1, round(control.force_window_s * world.settings.rate_hz)))
         self._lost_s = 0.0
         self._touches = 0
         self._peak_force_n = 0.0
-        self._slip_m = 0.0
         self._margin = math.inf
         self._tracking_m = 0.0
-        self._torque_ratio = 0.0
+        self._load = JointLoad(world.scene.robot.joints)
+        # Every move starts from rest.
+        steps = max(1, round(control.acceleration_window_s * world.settings.rate_hz))
+        self._velocities_m_s = deque([_AT_REST] * steps, maxlen=steps)
+        self._tool_speed_m_s: float | None = None
+        self._tool_acceleration_m_s2: float | None = None
+        self._grasp = None if carried_at is None else GraspWatch(world, control, carried_at)
 
-    def after_step(self, index: int, load_m_s2: float, commanded_tool_m: tuple[float, float, float] | None) -> Contacts:
+    def after_step(self, load_m_s2: float, commanded_tool_m: tuple[float, float, float] | None) -> Contacts:
         """Observe the world after a step.
 
         Args:
-            index: Number of the step within the phase.
             load_m_s2: Tool acceleration minus gravity, in magnitude.
             commanded_tool_m: Where the tool should be; None where it is not followed.
         """
         contacts = self._world.contacts()
+        self._load.note(self._world.motor_torques_n_m(), self._step_s)
         self._watch_touching(contacts)
-        if self._carried_at is not None:
+        if commanded_tool_m is not None:
+            self._watch_tool(commanded_tool_m)
+        if self._grasp is not None:
             self._watch_grip(contacts, load_m_s2)
-        if index % self._every == 0:
-            self._observe_poses(commanded_tool_m)
+            self._watch_slip(self._grasp.after_step())
         return contacts
 
-    def finish(self, commanded_tool_m: tuple[float, float, float] | None) -> None:
-        """Observe the poses at the end of the phase."""
-        self._observe_poses(commanded_tool_m)
+    def finish(self) -> None:
+        """Observe a carried object at the end of the phase."""
+        if self._grasp is not None:
+            self._watch_slip(self._grasp.finish())
 
     def fail(self, failure: Failure, detail: str) -> None:
         """Note what went wrong, unless something did before."""
@@ -77,14 +86,17 @@ class Watch:
 
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit."""
-        carried = self._carried_at is not None
+        grasp = self._grasp
         return {
             "arm_scene_contacts": self._touches,
             "peak_finger_force_n": self._peak_force_n,
-            "peak_joint_torque_ratio": self._torque_ratio,
+            **self._load.metrics(),
             "tracking_error_m": self._tracking_m,
-            "slip_m": self._slip_m if carried else None,
-            "grip_margin_min": self._margin if carried and math.isfinite(self._margin) else None,
+            "peak_tool_speed_m_s": self._tool_speed_m_s,
+            "peak_tool_acceleration_m_s2": self._tool_acceleration_m_s2,
+            "slip_m": grasp.slip_m if grasp is not None else None,
+            "grip_margin_min": self._margin if math.isfinite(self._margin) else None,
+            **(grasp.metrics() if grasp is not None else {}),
         }
 
     def _watch_touching(self, contacts: Contacts) -> None:
@@ -121,20 +133,19 @@ class Watch:
                 f"{contacts.fingers_touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms",
             )
 
-    def _observe_poses(self, commanded_tool_m: tuple[float, float, float] | None) -> None:
-        _, _, torques = self._world.arm_state()
-        for joint, torque in zip(self._world.scene.robot.joints, torques, strict=True):
-            ratio = abs(torque) / joint.torque_n_m
-            self._torque_ratio = max(self._torque_ratio, ratio)
-        tool = self._world.tool_pose()
-        if commanded_tool_m is not None:
-            error = math.dist(tool.position_m, commanded_tool_m)
-            self._tracking_m = max(self._tracking_m, error)
-            if error > self._control.largest_tracking_error_m:
-                self.fail(Failure.TRACKING_ERROR, f"the tool was {error * 1e3:.2f} mm from where it should be")
-        if self._carried_at is not None:
-            held = tool.inverse() @ self._world.workpiece_pose()
-            slip = math.dist(held.position_m, self._carried_at.position_m)
-            self._slip_m = max(self._slip_m, slip)
-            if slip > self._control.largest_slip_m:
-                self.fail(Failure.OBJECT_DROPPED, f"the object slipped {slip * 1e3:.1f} mm in the gripper")
+    def _watch_tool(self, commanded_tool_m: tuple[float, float, float]) -> None:
+        position, velocity = self._world.tool_velocity()
+        error = math.dist(position, commanded_tool_m)
+        self._tracking_m = max(self._tracking_m, error)
+        if error > self._control.largest_tracking_error_m:
+            words = f"the tool was {error * 1e3:.2f} mm from where it should be{self._load.words()}"
+            self.fail(Failure.TRACKING_ERROR, words)
+        before = self._velocities_m_s
+        acceleration = math.dist(velocity, before[0]) / (len(before) * self._step_s)
+        before.append(velocity)
+        self._tool_speed_m_s = max(self._tool_speed_m_s or 0.0, math.hypot(*velocity))
+        self._tool_acceleration_m_s2 = max(self._tool_acceleration_m_s2 or 0.0, acceleration)
+
+    def _watch_slip(self, slip_m: float | None) -> None:
+        if slip_m is not None and slip_m > self._control.largest_slip_m:
+            self.fail(Failure.OBJECT_DROPPED, f"the object slipped {slip_m * 1e3:.1f} mm in the gripper")

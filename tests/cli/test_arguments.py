@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 
 from rgss.cli.main import VERBS
-from rgss.cli.sweep_verb import parse_ids
-from rgss.errors import DefinitionError
 
 
 def test_help(rgss):
@@ -107,12 +105,3 @@ def test_a_study_that_is_not_there(rgss, untouched, study):
 
     assert (told.status, told.output) == (2, "")
     assert ":1:1: error: " in told.complaint
-
-
-def test_ids():
-    assert parse_ids("1,5, 60-62", list(range(1, 73))) == {1, 5, 60, 61, 62}
-    assert parse_ids("7-7,7", [7]) == {7}
-    with pytest.raises(DefinitionError):
-        parse_ids("3", [1, 2, 4])
-    with pytest.raises(DefinitionError):
-        parse_ids("1-4", [1, 2, 4])

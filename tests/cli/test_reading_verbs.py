@@ -38,7 +38,7 @@ def test_check_shows_notes_where_they_are_asked_for(rgss, untouched):
 
 @pytest.mark.verifies("SYS-030")
 def test_check_finds_a_requirement_that_nobody_asked_for(rgss, folder):
-    file = folder / "requirements/system.yaml"
+    file = folder / "requirements/system/1-manipulator.yaml"
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace("derived_from: [STK-006, STK-095]", "derived_from: []", 1), encoding="utf-8")
     told = rgss("check", "--project", folder)
@@ -155,7 +155,7 @@ def test_trade_as_json(rgss, with_evidence):
     assert document["ranking"][1]["variant"] == document["runner_up"]
     values = [entry["value"] for entry in document["ranking"]]
     assert values == sorted(values, reverse=True)
-    assert [set(entry) for entry in document["ranking"]] == [{"variant", "value"}] * len(values)
+    assert [set(entry) for entry in document["ranking"]] == [{"variant", "value", "objectives"}] * len(values)
     assert len(values) + len(document["infeasible"]) == 72
     failing = [entry for entry in document["infeasible"] if "SYS-024" in entry["requirements"]]
     assert len(failing) == 24
@@ -176,7 +176,7 @@ def test_trade_says_what_is_chosen_and_why(rgss, with_evidence):
 
 
 def test_trade_where_nothing_is_feasible(rgss, spoilt):
-    file = spoilt / "requirements/system.yaml"
+    file = spoilt / "requirements/system/2-gripper.yaml"
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace("at least 0.8 kg", "at least 80 kg").replace('"0.8 kg"', '"80 kg"'), encoding="utf-8")
     told, document = rgss("trade", "--project", spoilt), rgss("trade", "--json", "--project", spoilt)
@@ -213,7 +213,7 @@ def test_evidence_that_is_no_store(rgss, spoilt, verb):
 def test_evidence_that_was_tampered_with(rgss, spoilt, verb):
     connection = sqlite3.connect(spoilt / ".rgss" / "evidence.sqlite")
     with connection:
-        connection.execute("UPDATE trials SET record = replace(record, '0.6', '0.1')")
+        connection.execute("UPDATE trials SET content_digest = lower(hex(zeroblob(32)))")
     connection.close()
     told = rgss(verb, "--project", spoilt)
 

@@ -96,6 +96,7 @@ def test_a_key_names_the_trial_and_json_is_one_document(capsys, folder, key):
         "digest_now",
         "versions",
         "changed_inputs",
+        "inputs",
         "differences",
     ]
     assert (found["key"], found["variant"], found["seed"], found["same"]) == (key, 65, 2, True)

@@ -27,21 +27,21 @@ MISTAKES = {
         "",
         (
             "error: rule 'r' does not say one thing "
-            "(write 'exclude', or 'require' or 'limit' with or without 'when') [design.rule]"
+            "(write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when') [design.rule]"
         ),
     ),
     "says two things": (
         "    require: {d2: 2}\n    exclude: {d2: 3}\n",
         (
             "error: rule 'r' does not say one thing "
-            "(write 'exclude', or 'require' or 'limit' with or without 'when') [design.rule]"
+            "(write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when') [design.rule]"
         ),
     ),
     "exclude with when": (
         "    when: {d2: 2}\n    exclude: {d2: 3}\n",
         (
             "error: rule 'r' does not say one thing "
-            "(write 'exclude', or 'require' or 'limit' with or without 'when') [design.rule]"
+            "(write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when') [design.rule]"
         ),
     ),
     "names nothing": (

@@ -253,6 +253,6 @@ def test_a_space_too_large_to_expand_is_refused(project, monkeypatch):
     assert project.findings() == [
         (
             f"{project.marks()[0]}: error: the factors make 8 combinations; at most 7 are expanded "
-            "(study fewer factors or levels at once) [design.too-large]"
+            "(study fewer at once, or add 'sample') [design.too-large]"
         )
     ]

@@ -160,3 +160,33 @@ def test_finding_at_a_location_or_the_nearest_around_it(write):
     assert (whole.line, whole.column) == (1, 1)
     assert document.finding("rule.id", "bad", ("top", 0), at_key=True).column == 5
     assert document.nearest(("top", "x", 0, "y")) == ("top", 0)
+
+
+def test_positions_are_mappings_in_the_order_of_the_file(write):
+    document = read_document(write("b: [1, {c: 2}]\na: 3\n"))
+
+    assert list(document.values) == [(), ("b",), ("b", 0), ("b", 1), ("b", 1, "c"), ("a",)]
+    assert list(document.keys) == [("b",), ("b", 1, "c"), ("a",)]
+    assert (len(document.values), len(document.keys)) == (6, 3)
+    assert dict(document.keys.items()) == {("b",): (1, 1), ("b", 1, "c"): (1, 9), ("a",): (2, 1)}
+
+
+@pytest.mark.parametrize("location", [("x",), ("b", 2), ("b", -1), ("b", "0"), ("a", 0), (0,), ("b", 0, "c")])
+def test_what_is_not_there_has_no_position(write, location):
+    document = read_document(write("b: [1, {c: 2}]\na: 3\n"))
+
+    assert location not in document.values
+    assert location not in document.keys
+
+
+def test_the_whole_file_and_entries_of_lists_have_no_key(write):
+    document = read_document(write("b: [1]\n"))
+
+    assert () not in document.keys
+    assert ("b", 0) not in document.keys
+
+
+def test_lines_of_more_than_a_million_columns(write):
+    document = read_document(write("a: [" + "x" * 1_100_000 + ", y]\n"))
+
+    assert document.values["a", 1] == (1, 1_100_007)

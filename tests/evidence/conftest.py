@@ -1,10 +1,17 @@
 """Records to keep, of every kind that a trial can leave."""
 
+import hashlib
+import json
+import sqlite3
+from collections.abc import Iterable
+from pathlib import Path
+
 import pytest
 from hypothesis import strategies as st
 
 from rgss.evidence import (
     PLANNED_PHASES,
+    EvidenceStore,
     Failure,
     Fidelity,
     Phase,
@@ -14,6 +21,8 @@ from rgss.evidence import (
     PlanOutcome,
     Provenance,
     TrialRecord,
+    record_to_json,
+    trial_key,
 )
 
 
@@ -101,3 +110,74 @@ def records():
 def provenance():
     inputs = {name: f"{index}" * 64 for index, name in enumerate(["plan", "timing", "execution", "variant"])}
     return Provenance(inputs=inputs, versions={"rgss": "0.1.0", "pybullet": "3.2.7"})
+
+
+FIRST_DDL = """CREATE TABLE trials (
+    key TEXT NOT NULL PRIMARY KEY,
+    content_digest TEXT NOT NULL,
+    seal TEXT NOT NULL,
+    record TEXT NOT NULL,
+    provenance TEXT NOT NULL
+)"""
+
+
+def make_first_store(path: Path, numbers: Iterable[int]) -> None:
+    """Writes a store as schema 1 had it, with the standard library alone."""
+    connection = sqlite3.connect(path, isolation_level=None)
+    connection.execute(FIRST_DDL)
+    connection.execute("PRAGMA application_id = 1919382387")
+    connection.execute("PRAGMA user_version = 1")
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.execute("BEGIN")
+    for number in numbers:
+        key = hashlib.sha256(f'{{"trial":{number}}}'.encode()).hexdigest()
+        text = record_to_json(make_record(variant=number))
+        origin = json.dumps({"inputs": {"plan": "a" * 64}, "versions": {"rgss": "0.1.0"}}, separators=(",", ":"))
+        content = hashlib.sha256(text.encode()).hexdigest()
+        seal = hashlib.sha256(json.dumps([key, content, origin], separators=(",", ":")).encode()).hexdigest()
+        connection.execute("INSERT INTO trials VALUES (?, ?, ?, ?, ?)", (key, content, seal, text, origin))
+    connection.execute("COMMIT")
+    connection.close()
+
+
+@pytest.fixture(scope="session")
+def first_store():
+    return make_first_store
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "evidence.sqlite"
+
+
+@pytest.fixture
+def store(path):
+    with EvidenceStore.open(path, label="evidence.sqlite") as store:
+        yield store
+
+
+@pytest.fixture(scope="session")
+def key():
+    """The key of a trial that has but a number."""
+    return lambda number: trial_key({"trial": number})
+
+
+@pytest.fixture
+def filled(path, record, provenance, key):
+    """The path of a closed store with three trials."""
+    with EvidenceStore.open(path) as store:
+        for number in (1, 2, 3):
+            store.put(key(number), record(variant=number), provenance)
+    return path
+
+
+@pytest.fixture(scope="session")
+def change():
+    """Changes a database file behind the back of the store."""
+
+    def run(path, statement, *values):
+        connection = sqlite3.connect(path, isolation_level=None)
+        connection.execute(statement, values)
+        connection.close()
+
+    return run

@@ -9,12 +9,13 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, record_digest, record_to_json, trial_key
+from rgss.evidence.verification import verify
 
 WRITER = """\
 import sys
 from dataclasses import replace
 from pathlib import Path
-from rgss.evidence import EvidenceStore, Provenance, record_from_json, trial_key
+from rgss.evidence import EvidenceStore, Piece, PieceKind, Provenance, inputs_digest, record_from_json, trial_key
 
 path, text, first, last, seed = sys.argv[1:]
 record = record_from_json(text)
@@ -22,11 +23,11 @@ print("ready", flush=True)
 sys.stdin.readline()
 with EvidenceStore.open(Path(path)) as store:
     for number in range(int(first), int(last)):
-        store.put(
-            trial_key({"trial": number}),
-            replace(record, variant=number, seed=int(seed)),
-            Provenance(inputs={"plan": "a" * 64}, versions={"rgss": "0.1.0"}),
-        )
+        piece = Piece(digest=trial_key({"piece": number // 2}), kind=PieceKind.PLAN, text=str(number // 2))
+        inputs = {"scene": number // 5}
+        provenance = Provenance(inputs={"plan": piece.digest}, versions={}, inputs_digest=inputs_digest(inputs))
+        trial = (trial_key({"trial": number}), replace(record, variant=number, seed=int(seed)), provenance)
+        store.put_many(trials=[trial], pieces=[piece], inputs=[inputs])
         print(number, flush=True)
 """
 
@@ -80,6 +81,9 @@ def test_several_processes_make_and_fill_one_store_at_once(tmp_path, record):
     results = [end(writer) for writer in writers]
     assert [(code, problems) for code, _, problems in results] == [(0, "")] * 3
     assert numbers(path) == set(range(40))
+    found = verify(path, label="store")
+    assert found.damages == ()
+    assert found.sound == {"trial": 40, "piece": 20, "inputs": 8, "failure": 0}
 
 
 def test_processes_that_disagree_are_found_out(tmp_path, record):
@@ -100,7 +104,7 @@ def test_a_store_half_made_by_a_process_that_died_is_completed(tmp_path):
     program = (
         "import os, sys; from pathlib import Path; import rgss.evidence.schema as schema\n"
         "schema._create = lambda connection: (connection.execute('BEGIN IMMEDIATE'),"
-        " connection.execute(schema._TABLE), os._exit(9))\n"
+        " connection.execute(schema._TABLES[0][1]), os._exit(9))\n"
         "from rgss.evidence import EvidenceStore; EvidenceStore.open(Path(sys.argv[1]))"
     )
     path = tmp_path / "evidence.sqlite"

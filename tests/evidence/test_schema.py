@@ -6,6 +6,7 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, schema
+from rgss.evidence import connection as connecting
 
 
 class BusyConnection:
@@ -26,7 +27,7 @@ class BusyConnection:
 @pytest.fixture(autouse=True)
 def short_waits(monkeypatch):
     monkeypatch.setattr(schema, "_PAUSE_S", 0.001)
-    monkeypatch.setattr(schema, "BUSY_TIMEOUT_S", 0.01)
+    monkeypatch.setattr(connecting, "BUSY_TIMEOUT_S", 0.01)
 
 
 def test_switching_to_write_ahead_logging_waits_for_its_turn():
@@ -60,8 +61,8 @@ def test_a_store_that_another_process_made_meanwhile_is_used(tmp_path, monkeypat
 def test_a_store_that_could_not_be_made_is_left_empty(tmp_path, monkeypatch):
     path = tmp_path / "evidence.sqlite"
     with monkeypatch.context() as patch:
-        patch.setattr(schema, "_TABLE", "CREATE TABLE trials (key TEXT, key TEXT)")
-        with pytest.raises(EvidenceError, match=r"cannot be used: duplicate column name: key \(move the file away"):
+        patch.setattr(schema, "_TABLES", (*schema._TABLES, ("trials", "CREATE TABLE more (key TEXT, key TEXT)")))
+        with pytest.raises(EvidenceError, match=r"cannot be used: duplicate column name: key \('rgss evidence verify'"):
             EvidenceStore.open(path)
     with EvidenceStore.open(path) as store:
         assert len(store) == 0
@@ -71,21 +72,35 @@ def test_damage_that_only_a_check_of_the_pages_shows_is_refused(tmp_path):
     path = tmp_path / "evidence.sqlite"
     EvidenceStore.open(path).close()
     connection = sqlite3.connect(path, isolation_level=None)
-    (original,) = connection.execute("SELECT sql FROM sqlite_master WHERE type = 'table'").fetchone()
+    (original,) = connection.execute("SELECT sql FROM sqlite_master WHERE name = 'inputs'").fetchone()
     _rewrite_schema(connection, original.replace(" NOT NULL", ""))
     connection.close()
     connection = sqlite3.connect(path, isolation_level=None)
-    connection.execute("INSERT INTO trials (key) VALUES ('k')")
+    connection.execute("INSERT INTO inputs (digest) VALUES ('k')")
     _rewrite_schema(connection, original)
     connection.close()
     with pytest.raises(EvidenceError) as caught:
         EvidenceStore.open(path, label="evidence.sqlite")
     assert str(caught.value) == (
-        "evidence.sqlite is damaged: NULL value in trials.content_digest (move the file away and run the sweep again)"
+        "evidence.sqlite is damaged: NULL value in inputs.content ('rgss evidence verify' tells what is left of it)"
     )
+
+
+def test_every_connection_is_durable_and_lets_nothing_act(tmp_path):
+    with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
+        settings = ("journal_mode", "synchronous", "fullfsync", "trusted_schema", "cell_size_check", "mmap_size")
+        found = {name: store.database.one(f"PRAGMA {name}") for name in settings}
+    assert found == {
+        "journal_mode": ("wal",),
+        "synchronous": (2,),
+        "fullfsync": (1,),
+        "trusted_schema": (0,),
+        "cell_size_check": (1,),
+        "mmap_size": (0,),
+    }
 
 
 def _rewrite_schema(connection, text):
     connection.execute("PRAGMA writable_schema = ON")
-    connection.execute("UPDATE sqlite_master SET sql = ? WHERE type = 'table'", (text,))
+    connection.execute("UPDATE sqlite_master SET sql = ? WHERE name = 'inputs'", (text,))
     connection.execute("PRAGMA writable_schema = OFF")

@@ -106,7 +106,8 @@ def test_radius_against_all_facets(seed):
     points = rng.normal(size=(6, 11))
     points -= points.mean(axis=1, keepdims=True)
 
-    assert ball_radius(points) == pytest.approx(radius_by_facets(points), rel=1e-9)
+    # The hull is built of points that are moved a little.
+    assert ball_radius(points) == pytest.approx(radius_by_facets(points), rel=1e-7)
 
 
 def test_the_weakest_direction_in_a_plane_by_brute_force(ring, grasp_of):
@@ -177,12 +178,12 @@ def refuse(times):
     return hull, asked
 
 
-def test_merging_that_fails_is_avoided(monkeypatch):
+def test_where_moving_the_points_does_not_help_facets_are_merged(monkeypatch):
     hull, asked = refuse(1)
     monkeypatch.setattr(scipy.spatial, "ConvexHull", hull)
 
     assert ball_radius(np.hstack([np.eye(6), -np.eye(6)])) == pytest.approx(1 / math.sqrt(6), abs=1e-8)
-    assert asked == ["Qt Qx", "QJ"]
+    assert asked == ["QJ", "Qt Qx"]
 
 
 def test_no_hull(monkeypatch):

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 HEAVY = ["pybullet", "ompl", "pinocchio", "coal", "eaik", "toppra", "cvxpy", "highspy"]
-HEAVY += ["pandas", "networkx", "scipy", "numpy", "pint"]
+HEAVY += ["pandas", "networkx", "scipy", "numpy", "pint", "jinja2", "openpyxl", "pygraphviz", "reqif", "moocore"]
 
 
 @pytest.mark.parametrize("module", ["rgss", "rgss.errors", "rgss.findings", "rgss.quantities", "rgss.documents"])

@@ -34,6 +34,7 @@ def new_robot_at_origin(robot):
     return replace(robot, base=Pose())
 
 
+@pytest.mark.verifies("SYS-018")
 def test_forward_kinematics_equal_an_independent_implementation(flange_arm, configurations):
     from ur_analytic_ik import ur10
 

@@ -118,6 +118,7 @@ def test_neighbouring_links_and_the_pedestal_are_not_counted(scene, gripper, emp
     assert ("base_link", "pedestal") not in seen
 
 
+@pytest.mark.verifies("SYS-015")
 def test_beyond_a_joint_range_nothing_is_valid(scene, gripper, empty, robot):
     model = CollisionModel(scene, gripper, empty)
     assert not model.is_valid((*FREE[:5], robot.joints[5].upper_rad + 1e-3))

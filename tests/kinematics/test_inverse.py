@@ -20,6 +20,7 @@ def directions(configurations):
     return {tuple(np.round([f(angle) for angle in q for f in (math.cos, math.sin)], 5) + 0.0) for q in configurations}
 
 
+@pytest.mark.verifies("SYS-035")
 def test_every_solution_reproduces_the_pose(arm, inverse, configurations):
     for q in configurations(60):
         target = arm.tool_matrix(q)
@@ -39,6 +40,7 @@ def test_a_generic_pose_has_eight_branches(inverse):
     assert len(directions(inverse.solve(DOWN))) == 8
 
 
+@pytest.mark.verifies("SYS-035")
 def test_branches_equal_those_of_an_independent_solver(robot, configurations):
     from ur_analytic_ik import ur10
 

@@ -46,6 +46,37 @@ TRIAL: Mapping[str, Any] = {
     "grasp_q_msv_1": 1.5,
     "grasp_q_gii_1": 0.5,
     "grasp_q_smw_n": 3.0,
+    "grasp_force_closure_share_1": 0.75,
+    "grasp_equilibrium": 1,
+    "grasp_form_closure": 0,
+    "grasp_q_voe_1": 13.5,
+    "grasp_q_gpri_1": 0.2,
+    "grasp_q_diff_m": 0.012,
+    "grasp_load_factor_1": 5.5,
+    "contact_gap_min_m": -0.00004,
+    "contact_closing_speed_m_s": 0.0002,
+    "contact_opening_speed_m_s": 0.0003,
+    "contact_slip_speed_m_s": 0.0004,
+    "contacts_penetrating": 2,
+    "contacts_separating": 1,
+    "contacts_slipping": 3,
+    "contacts_rolling": 4,
+    "held_distance_m": 0.0025,
+    "held_speed_m_s": 0.0015,
+    "held_wrench_n": 2.7,
+    "at_grasp_contact_gap_min_m": -0.00001,
+    "at_grasp_contacts_penetrating": 1,
+    "at_grasp_contacts_slipping": 0,
+    "at_grasp_force_closure": 0,
+    "at_grasp_equilibrium": 1,
+    "at_grasp_form_closure": 0,
+    "at_grasp_q_msv_1": 0.25,
+    "at_grasp_q_voe_1": 8.0,
+    "at_grasp_q_gii_1": 0.125,
+    "at_grasp_q_gpri_1": 0.1,
+    "at_grasp_q_diff_m": 0.006,
+    "at_grasp_q_smw_n": 2.0,
+    "joint_saturated_s": (0.0, 0.5, 0.0, 0.0, 0.25, 0.0),
     "peak_finger_force_n": 9.5,
     "place_error_m": 0.004,
     "peak_joint_torque_ratio": 0.6,
@@ -101,6 +132,37 @@ def values(reference: MeasureSet, variant: int, *trials: Mapping[str, Any], **ch
                 "Q_MSV": 1.5,
                 "Q_GII": 0.5,
                 "Q_SMW": 3.0,
+                "force_closure_share": 0.75,
+                "grasp_equilibrium": 1.0,
+                "form_closure": 0.0,
+                "Q_VOE": 13.5,
+                "Q_GPRI": 0.2,
+                "Q_diff": 12.0,
+                "load_factor": 5.5,
+                "contact_gap": -0.04,
+                "contact_closing_speed": 0.2,
+                "contact_opening_speed": 0.3,
+                "contact_slip_speed": 0.4,
+                "contacts_penetrating": 2.0,
+                "contacts_separating": 1.0,
+                "contacts_slipping": 3.0,
+                "contacts_rolling": 4.0,
+                "held_distance": 2.5,
+                "held_speed": 1.5,
+                "held_wrench": 2.7,
+                "contact_gap_at_grasp": -0.01,
+                "contacts_penetrating_at_grasp": 1.0,
+                "contacts_slipping_at_grasp": 0.0,
+                "force_closure_at_grasp": 0.0,
+                "grasp_equilibrium_at_grasp": 1.0,
+                "form_closure_at_grasp": 0.0,
+                "Q_MSV_at_grasp": 0.25,
+                "Q_VOE_at_grasp": 8.0,
+                "Q_GII_at_grasp": 0.125,
+                "Q_GPRI_at_grasp": 0.1,
+                "Q_diff_at_grasp": 6.0,
+                "Q_SMW_at_grasp": 2.0,
+                "joint_saturation": 0.75,
             },
         ),
         (
@@ -132,6 +194,21 @@ def test_the_equations_by_hand(reference: MeasureSet, variant: int, expected: Ma
     if variant == 1:
         assert list(result) == [measure.id for measure in reference.measures]
         assert {*result} == {*expected}
+
+
+def test_two_fingers_have_no_polygon(reference: MeasureSet) -> None:
+    known = {**TRIAL, "grasp_q_gpri_1": None, "at_grasp_q_gpri_1": None}
+    result = values(reference, 65, known)
+    assert result["Q_GPRI"] == result["Q_GPRI_at_grasp"] == Estimate.unknown("1")
+    assert result["Q_diff"].value == pytest.approx(12.0)
+
+
+def test_what_contacts_alone_know_is_unknown_without_them(reference: MeasureSet) -> None:
+    trial = {name: value for name, value in TRIAL.items() if not name.startswith(("grasp_q", "contact", "held"))}
+    result = values(reference, 1, {**trial, "joint_saturated_s": None})
+    unknown = {name for name, estimate in result.items() if estimate.value is None}
+    assert {"Q_MSV", "Q_VOE", "Q_SMW", "contact_gap", "contacts_slipping", "held_wrench", "joint_saturation"} <= unknown
+    assert "t_e" not in unknown
 
 
 def test_the_published_payload_of_ten_newtons_at_rest(reference: MeasureSet) -> None:

@@ -49,12 +49,13 @@ def test_one_trial_is_inconclusive() -> None:
     assert judge(criterion(">=", 10.0), estimate(50.0, None, None)) is Verdict.INCONCLUSIVE
 
 
-def test_no_value_is_not_run_even_where_evidence_is_stale() -> None:
-    assert judge(criterion(">=", 10.0), Estimate.unknown("s"), stale=True) is Verdict.NOT_RUN
+def test_no_value_is_not_run() -> None:
+    assert judge(criterion(">=", 10.0), Estimate.unknown("s")) is Verdict.NOT_RUN
 
 
-def test_old_evidence_is_stale() -> None:
-    assert judge(criterion(">=", 10.0), estimate(12.0, 11.0, 13.0), stale=True) is Verdict.STALE
+@pytest.mark.parametrize("known", [estimate(12.0, 11.0, 13.0), estimate(5.0, 4.0, 6.0), Estimate.unknown("s")])
+def test_old_evidence_is_stale_whatever_else_is_known(known: Estimate) -> None:
+    assert judge(criterion(">=", 10.0), known, stale=True) is Verdict.STALE
 
 
 def test_a_value_of_the_design_alone_is_judged_by_itself() -> None:

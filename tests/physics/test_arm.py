@@ -73,6 +73,27 @@ def test_the_arm_follows_a_smooth_trajectory(cell):
     assert velocities == pytest.approx(STILL, abs=1e-3)
 
 
+@pytest.mark.parametrize("rate_hz", [240.0, 1000.0])
+def test_the_tools_velocity_is_the_jacobian_times_the_joints_speeds(cell, rate_hz):
+    """Against the other kinematics, and without the noise of differences from step to step."""
+    start = cell.near(cell.scene.grasp.raised(0.15))
+    path = cell.path(start, start + np.array([0.8, -0.3, 0.4, -0.3, 0.3, -0.6]), 1.2, rate_hz)
+    velocities = np.diff(path, axis=0) * rate_hz
+    fastest = 0.0
+    with cell.world(rate_hz=rate_hz, bodies=cell.scene.bodies[:1]) as world:
+        world.reset_arm(start.tolist())
+        for position, velocity in zip(path[:-1].tolist(), velocities.tolist(), strict=True):
+            world.command_arm(position, velocity)
+            world.step()
+            q, dq, _ = world.arm_state()
+            expected = cell.arm.tool_jacobian(q)[:3] @ dq
+            where, found = world.tool_velocity()
+            assert found == pytest.approx(expected, abs=2e-5)
+            assert where == pytest.approx(world.tool_pose().position_m, abs=1e-9)
+            fastest = max(fastest, float(np.linalg.norm(expected)))
+    assert fastest > 0.8
+
+
 def test_the_arm_stays_where_it_is_commanded_while_carrying(cell):
     with cell.world() as world:
         up = cell.lift(world)
@@ -138,4 +159,7 @@ def test_a_joint_never_pulls_harder_than_its_limit(three_fingers):
             world.command_arm(start.tolist(), STILL)
             world.step()
             assert max(map(abs, world.arm_state()[2])) <= 5.0 * (1 + 1e-9)
+            assert world.motor_torques_n_m() == world.arm_state()[2]
+        # Where it does not suffice, the torque is the limit itself, so that saturation can be told.
+        assert max(map(abs, world.motor_torques_n_m())) >= 5.0 * (1 - 1e-9)
         assert world.tool_pose().position_m[2] < before - 0.005

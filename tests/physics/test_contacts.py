@@ -1,8 +1,10 @@
 """Who touches whom, by name, and what it costs to ask."""
 
+import math
 import time
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from rgss.physics import Contacts, PhysicsSettings, World
@@ -168,3 +170,41 @@ def test_asking_at_every_step_costs_little(cell):
         turns = [(seconds(False), seconds(True)) for _ in range(10)]
     bare, asking = (min(times) for times in zip(*turns, strict=True))
     assert asking / bare < 1.4
+
+
+@pytest.mark.engine
+def test_the_points_of_the_fingers_add_up_to_their_forces(cell):
+    with cell.world() as world:
+        cell.lift(world)
+        points, contacts = world.finger_contacts(), world.contacts()
+        turn = Pose(quaternion_xyzw=world.workpiece_pose().quaternion_xyzw)
+    fingers = range(cell.gripper.geometry.fingers)
+    by_finger = [math.fsum(point.normal_force_n for point in points if point.finger == finger) for finger in fingers]
+    friction = [math.fsum(axis) for axis in zip(*(turn.rotate(point.friction_n) for point in points), strict=True)]
+
+    assert by_finger == pytest.approx(contacts.finger_forces_n)
+    assert friction == pytest.approx(contacts.friction_n, abs=1e-6)
+
+
+@pytest.mark.engine
+def test_the_points_of_the_fingers_are_on_the_wall_of_the_cup_also_while_it_moves(cell):
+    """The engine finds contacts where the bodies were before the step: a step at this speed is four millimetres."""
+    cup = cell.scene.workpiece.shape
+    with cell.world() as world:
+        up = cell.lift(world, height_m=0.1)
+        path = cell.path(up, up + np.array([-0.9, 0.0, 0.0, 0.0, 0.0, -1.5]), 1.0)
+        velocities = np.diff(path, axis=0) / world.settings.step_s
+        fastest, seen = 0.0, 0
+        for position, velocity in zip(path[:-1].tolist(), velocities.tolist(), strict=True):
+            world.command_arm(position, velocity)
+            world.step()
+            fastest = max(fastest, world.workpiece_speed()[0])
+            for point in world.finger_contacts():
+                x, y, z = point.position_m
+                assert math.hypot(x, y) == pytest.approx(cup.radius_m, abs=5e-6)
+                assert abs(z) <= cup.half_height_m
+                assert abs(point.gap_m) < 3e-4
+                assert math.hypot(*point.normal) == pytest.approx(1.0)
+                seen += 1
+    assert fastest > 0.8
+    assert seen > 400

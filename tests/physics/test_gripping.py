@@ -138,6 +138,7 @@ def test_two_geared_fingers_keep_their_travels_equal_while_the_arm_moves_aside(t
     assert held.fingers_touching == 2
 
 
+@pytest.mark.verifies("SYS-014")
 def test_fingers_close_at_the_speed_of_the_design(cell):
     with cell.world() as world:
         world.reset_arm(cell.grasp_rad.tolist())

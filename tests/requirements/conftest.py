@@ -48,6 +48,68 @@ behaviours:
 """,
 }
 
+BEHAVIOURS = {
+    "flow": """\
+  - id: ACT-9
+    name: Lift
+    kind: activity
+    text: A cup is lifted.
+    flow:
+      nodes:
+        - {id: start, kind: initial}
+        - {id: close, kind: action, text: Close., does: ACT-2}
+        - {id: firm, kind: decision, text: Is it firm?}
+        - {id: again, kind: merge}
+        - {id: both, kind: fork}
+        - {id: lift, kind: action, text: Lift.}
+        - {id: look, kind: action, text: Look.}
+        - {id: done, kind: join}
+        - {id: end, kind: final, text: The cup is up.}
+      edges:
+        - {source: start, target: again}
+        - {source: again, target: close}
+        - {source: close, target: firm}
+        - {source: firm, target: again, guard: not yet}
+        - {source: firm, target: both, guard: it is}
+        - {source: both, target: lift}
+        - {source: both, target: look}
+        - {source: lift, target: done}
+        - {source: look, target: done}
+        - {source: done, target: end}
+""",
+    "interaction": """\
+  - id: SEQ-9
+    name: Lift
+    kind: sequence
+    text: A cup is lifted.
+    interaction:
+      lifelines: [BLK-0, BLK-1]
+      messages:
+        - {id: lift, source: BLK-0, target: BLK-1, text: Lift., does: ACT-1}
+        - {id: close, source: BLK-1, target: BLK-1, text: Close.}
+        - {id: up, source: BLK-1, target: BLK-0, text: It is up., reply: true}
+      timings:
+        - {first: lift, last: up, criterion_of: SYS-1, text: How long it takes.}
+""",
+    "machine": """\
+  - id: STM-9
+    name: Lift
+    kind: state_machine
+    text: A cup is lifted.
+    machine:
+      states:
+        - {id: start, kind: initial, name: Before}
+        - {id: lifting, kind: state, name: Lifting, phase: lift, does: ACT-1}
+        - {id: up, kind: final, name: Up}
+        - {id: dropped, kind: failed, name: Dropped}
+      transitions:
+        - {source: start, target: lifting}
+        - {source: lifting, target: up, guard: at the top}
+        - {source: lifting, target: dropped, failure: object_dropped}
+""",
+}
+"""One behaviour of each kind that has a detail, to be appended to the architecture."""
+
 
 @dataclass(frozen=True)
 class Project:
@@ -63,6 +125,12 @@ class Project:
     def append(self, name: str, text: str) -> Project:
         path = self.folder / name
         path.write_text(path.read_text(encoding="utf-8") + text, encoding="utf-8")
+        return self
+
+    def write(self, name: str, text: str) -> Project:
+        path = self.folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8")
         return self
 
     def position(self, name: str, start_of: str) -> str:
@@ -88,3 +156,15 @@ def project(tmp_path: Path) -> Project:
     for name, text in FILES.items():
         (folder / name).write_text(text, encoding="utf-8")
     return Project(folder)
+
+
+@pytest.fixture
+def written() -> dict[str, str]:
+    """A behaviour of each kind of detail, as a file says it."""
+    return BEHAVIOURS
+
+
+@pytest.fixture
+def detailed(project: Project) -> Project:
+    """A project with every kind of behaviour in detail."""
+    return project.append("architecture.yaml", "".join(BEHAVIOURS.values()))

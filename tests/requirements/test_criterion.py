@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from rgss.errors import QuantityError
@@ -39,3 +41,8 @@ def test_a_threshold_of_another_dimension_does_not_convert():
 @pytest.mark.parametrize(("unit", "text"), [("kg", "P_max >= 0.8 kg"), ("1", "P_max >= 0.8")])
 def test_a_criterion_reads_as_an_inequality(unit, text):
     assert str(criterion(0.8, unit)) == text
+
+
+@pytest.mark.parametrize("statistic", [Statistic.LOW, Statistic.HIGH])
+def test_an_end_of_the_interval_is_named_in_the_inequality(statistic):
+    assert str(replace(criterion(0.8, "kg"), statistic=statistic)) == f"{statistic.value}(P_max) >= 0.8 kg"

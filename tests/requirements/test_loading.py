@@ -1,4 +1,4 @@
-"""Reading the three files: what comes out of sound ones, and what is said about broken ones."""
+"""Needs, requirements and architecture: what comes out of sound files, and what is said about broken ones."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from rgss.requirements import (
     Statistic,
     Status,
     VerificationMethod,
+    VerificationPhase,
     load_requirements,
 )
 
@@ -37,9 +38,36 @@ def test_a_requirement_as_it_is_written(project):
     assert (requirement.priority, requirement.status) == (Priority.MEDIUM, Status.DRAFT)
     assert requirement.verification is VerificationMethod.ANALYSIS
     assert requirement.criterion_exemption == ""
+    assert (requirement.parent, requirement.traces, requirement.success) == (None, (), "")
+    assert (requirement.facility, requirement.phase, requirement.exemptions) == ("", None, ())
     assert requirement.criterion == Criterion(
         measure="P", statistic=Statistic.LOW, comparison=Comparison.AT_LEAST, threshold=800.0, unit="g"
     )
+
+
+def test_where_and_when_and_how_a_requirement_is_shown_to_be_met(project):
+    project.edit(
+        "system.yaml",
+        "    verification: analysis\n",
+        "    verification: test\n    facility: Bench\n    phase: acceptance\n",
+    )
+    criterion = '    criterion: {measure: P, statistic: low, comparison: ">=", threshold: "800 g"}\n'
+    project.edit("system.yaml", criterion, "    success: It lifts a cup.\n")
+    (requirement,) = project.load().system
+    assert (requirement.facility, requirement.phase) == ("Bench", VerificationPhase.ACCEPTANCE)
+    assert (requirement.success, requirement.criterion) == ("It lifts a cup.", None)
+
+
+def test_needs_and_requirements_may_be_contained_and_trace(project):
+    need = (project.folder / "stakeholder.yaml").read_text(encoding="utf-8").removeprefix("requirements:\n")
+    project.append("stakeholder.yaml", need.replace("STK-1", "STK-2").replace("kind:", "parent: STK-1\n    kind:"))
+    requirement = (project.folder / "system.yaml").read_text(encoding="utf-8").removeprefix("requirements:\n")
+    inner = requirement.replace("SYS-1", "SYS-2").replace("group:", "parent: SYS-1\n    group:")
+    project.append("system.yaml", inner + "    traces: [STK-2, SYS-1]\n")
+    requirements = project.load()
+    assert [need.parent for need in requirements.stakeholder] == [None, "STK-1"]
+    assert [item.parent for item in requirements.system] == [None, "SYS-1"]
+    assert requirements.element("SYS-2").traces == ("STK-2", "SYS-1")
 
 
 def test_the_architecture_as_it_is_written(project):
@@ -157,6 +185,20 @@ def test_the_statistic_of_a_criterion_is_the_value_unless_stated(project):
             "    verification: analysis\n    criterion_exemption: None needed.\n",
             "id: SYS-1",
             "requirements: a criterion and an exemption from it exclude each other [document.value]",
+        ),
+        (
+            "system.yaml",
+            "    verification: analysis\n",
+            "    verification: analysis\n    success: It lifts.\n",
+            "id: SYS-1",
+            "requirements: a criterion and a success criterion in words exclude each other [document.value]",
+        ),
+        (
+            "system.yaml",
+            "    verification: analysis\n",
+            "    verification: analysis\n    phase: later\n",
+            "later",
+            "phase: 'later' is not one of 'development', 'qualification', 'acceptance' or 'operation' [document.value]",
         ),
         (
             "architecture.yaml",

@@ -1,6 +1,8 @@
-"""Ids across the three files."""
+"""Ids across all files."""
 
 from __future__ import annotations
+
+import time
 
 import pytest
 
@@ -85,6 +87,62 @@ ANOTHER = """\
             "satisfied_by: 'ACT-1' is named twice (keep one) [repeated-id]",
         ),
         (
+            "stakeholder.yaml",
+            "kind: functional",
+            "parent: STK-9\n    kind: functional",
+            "STK-9",
+            "parent: 'STK-9' is not declared (did you mean 'STK-1'?) [dangling-id]",
+        ),
+        (
+            "stakeholder.yaml",
+            "kind: functional",
+            "parent: STK-1\n    kind: functional",
+            "STK-1\n    kind",
+            "'STK-1' rests on itself: STK-1 → STK-1 (cut it) [cycle]",
+        ),
+        (
+            "stakeholder.yaml",
+            "kind: functional",
+            "parent: SYS-1\n    kind: functional",
+            "SYS-1",
+            "parent: 'SYS-1' is a system requirement, not a stakeholder requirement [wrong-kind]",
+        ),
+        (
+            "system.yaml",
+            "group: gripper",
+            "parent: STK-1\n    group: gripper",
+            "STK-1\n    group",
+            "parent: 'STK-1' is a stakeholder requirement, not a system requirement [wrong-kind]",
+        ),
+        (
+            "system.yaml",
+            "group: gripper",
+            "traces: [BLK-1]\n    group: gripper",
+            "BLK-1]\n    group",
+            "traces: 'BLK-1' is a block, not a stakeholder requirement or system requirement [wrong-kind]",
+        ),
+        (
+            "system.yaml",
+            "group: gripper",
+            "traces: [SYS-1]\n    group: gripper",
+            "SYS-1]\n    group",
+            "'SYS-1' rests on itself: SYS-1 → SYS-1 (cut it) [cycle]",
+        ),
+        (
+            "architecture.yaml",
+            "refines: [UC-1]",
+            "refines: [UC-1, BLK-1]",
+            "BLK-1], includes",
+            "refines: 'BLK-1' is a block, not a behaviour, stakeholder requirement or system requirement [wrong-kind]",
+        ),
+        (
+            "architecture.yaml",
+            "kind: use_case,",
+            "kind: use_case, actors: [STK-1],",
+            "STK-1], alloc",
+            "actors: 'STK-1' is a stakeholder requirement, not a block [wrong-kind]",
+        ),
+        (
             "system.yaml",
             "[STK-1]",
             "[STK-1, SYS-1]",
@@ -139,3 +197,37 @@ def test_a_long_chain_of_parents_is_no_problem(project):
     )
     project.edit("system.yaml", ", ACT-1]", "]")
     assert len(project.load().architecture.blocks) == 1502
+
+
+def test_behaviours_refine_needs_and_requirements(project):
+    project.edit("architecture.yaml", "refines: [UC-1]", "refines: [UC-1, STK-1, SYS-1]")
+    assert project.load().element("ACT-1").refines == ("UC-1", "STK-1", "SYS-1")
+
+
+def test_the_middle_of_a_long_cycle_is_left_out_of_the_message(project):
+    names = [f"B{n}" for n in range(100)]
+    blocks = [
+        f"  - {{id: {name}, name: n, level: element, parent: {parent}, text: t}}\n"
+        for name, parent in zip(names, [*names[1:], "B0"], strict=True)
+    ]
+    project.edit("architecture.yaml", "behaviours:\n", f"{''.join(blocks)}behaviours:\n")
+    (finding,) = project.findings()
+    chain = "B99 → B0 → … → B94 → B95 → B96 → B97 → B98 → B99"
+    assert f"error: 'B99' rests on itself: {chain} (cut it) [requirements.cycle]" in finding
+
+
+def test_thousands_of_wrong_ids_are_not_compared_with_as_many(project):
+    """The first have a hint; to give each one would take hours."""
+    size = 2_000
+    targets = ", ".join(f"STK-{n}" for n in range(2, size))
+    project.edit("system.yaml", "[STK-1]", f"[{targets}]")
+    entry = (project.folder / "architecture.yaml").read_text(encoding="utf-8").splitlines()[1]
+    blocks = "".join(entry.replace("BLK-0", f"STK--{n}") + "\n" for n in range(size))
+    project.edit("architecture.yaml", "behaviours:\n", f"{blocks}behaviours:\n")
+    project.edit("system.yaml", "satisfied_by: [BLK-1, ACT-1]", f"satisfied_by: [{targets}]")
+    began = time.process_time()
+    findings = project.findings()
+    assert time.process_time() - began < 10.0
+    assert len(findings) == 2 * (size - 2)
+    hinted = sum("did you mean" in finding for finding in findings)
+    assert size - 2 < hinted < size + 60

@@ -50,6 +50,15 @@ def test_a_missing_urdf_is_found_where_it_is_named(kitchen):
     ]
 
 
+def test_a_joint_that_stands_twice_is_found(kitchen):
+    kitchen.change("robots/six.yaml", "name: joint_4", "name: ¦joint_3")
+    (finding,) = kitchen.findings("robot")
+    assert finding == (
+        f"{kitchen.marks()[0]} scene.duplicate-id joint 'joint_3' stands already above "
+        "(name each joint of the arm once, from the base to the flange)"
+    )
+
+
 def test_six_joints_are_needed(kitchen):
     text = kitchen.texts["robots/six.yaml"]
     line = next(line for line in text.splitlines() if "joint_6" in line)

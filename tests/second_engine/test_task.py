@@ -24,11 +24,12 @@ def test_on_both_engines_the_cup_stays_where_it_was_gripped(comparison, variant)
     """And is left standing there, at the place where the plan sets it down.
 
     Rigid bodies below Coulomb's limit do not slip at all. Half a millimetre is what either engine loses by its step;
-    the bound is twice that, and a tenth of what is required.
+    the bound is twice that, and a tenth of what is required. Between two fingers the first engine lets the cup lean
+    by up to a degree; it falls the last 3 mm onto its rim, and stands up to 1.5 mm away once it has rocked.
     """
     for outcome in comparison.both(variant):
         assert outcome.slip_m < 1.0e-3
-        assert outcome.place_error_m < 1.0e-3
+        assert outcome.place_error_m < 2.0e-3
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -44,11 +45,11 @@ def test_both_engines_need_the_same_time_for_each_state(comparison, variant):
 def test_both_engines_need_the_same_joint_torques(comparison, variant):
     """Kinematics, masses and centres of mass were taken from the description twice, in different ways.
 
-    The peaks differ by 0.3 %, the first being taken from 60 looks a second. A mass of the upper arm, the forearm or
+    The peaks differ by 0.2 % at most. A mass of the upper arm, the forearm or
     the first two wrist links that is wrong by a tenth moves them by 1.6 % and more.
     """
     first, second = comparison.both(variant)
-    assert second.torque_ratio == pytest.approx(first.torque_ratio, rel=0.01)
+    assert second.torque_ratio == pytest.approx(first.torque_ratio, rel=0.005)
 
 
 @pytest.mark.verifies("SYS-007")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -22,6 +23,7 @@ from rgss.evidence import (
 )
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, Project, load_project
+from rgss.studies.study import read_study
 from rgss.studies.sweep import key_of
 from rgss.trials.metrics import METRICS
 
@@ -151,3 +153,18 @@ def filled(tmp_path_factory):
     yield fill
     for store in stores:
         store.close()
+
+
+@pytest.fixture(scope="session")
+def read_trade_off_of(shipped, tmp_path_factory):
+    """Reads the shipped study with another trade-off, given as lines; the file is called s."""
+    path = tmp_path_factory.mktemp("study") / "study.yaml"
+    text = (shipped.folder / STUDY).read_text(encoding="utf-8")
+    section = re.search(r"^trade_off:\n(?:[ #].*\n|\n)*", text, re.MULTILINE)[0]
+    head, tail = text.split(section)
+
+    def read(*lines):
+        path.write_text("\n  ".join(["trade_off:", *lines]) + f"\n{head}{tail}", encoding="utf-8")
+        return read_study(path, shipped.measures, project=shipped.folder, label="s", requirements=shipped.requirements)
+
+    return read

@@ -10,7 +10,8 @@ from rgss.findings import Finding, Severity
 from rgss.studies.consequences import without_consequences
 
 SCENE, SPACE, CATALOGUE = "scenes/restaurant.yaml", "designs/grasping_system.yaml", "designs/catalogue.yaml"
-MEASURES, SYSTEM, STAKEHOLDER = (f"requirements/{name}.yaml" for name in ("measures", "system", "stakeholder"))
+MEASURES, STAKEHOLDER = "requirements/measures.yaml", "requirements/stakeholder.yaml"
+SYSTEM, STRUCTURE = "requirements/system/1-manipulator.yaml", "requirements/architecture/structure.yaml"
 
 FACTORS = ("gripper_mass", "fingers", "velocity", "planner", "planning_time")
 
@@ -27,7 +28,7 @@ DUPLICATES = [
     (MEASURES, "- id: t_gc_simulated", "- id: t_gc", "measures.duplicate-id"),
     (SYSTEM, "id: SYS-002", "id: SYS-001", "requirements.duplicate-id"),
     (STAKEHOLDER, "id: STK-010", "id: STK-006", "requirements.duplicate-id"),
-    ("requirements/architecture.yaml", "id: BLK-rrt", "id: BLK-trrt", "requirements.duplicate-id"),
+    (STRUCTURE, "id: BLK-rrt", "id: BLK-trrt", "requirements.duplicate-id"),
 ]
 
 

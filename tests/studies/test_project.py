@@ -50,7 +50,7 @@ def test_a_name_that_no_folder_can_have(tmp_path):
 
 @pytest.mark.verifies("SYS-027")
 def test_problems_of_all_files_are_reported_at_once(edit, problems):
-    edit("requirements/system.yaml", "id: SYS-002", "id: SYS-001")
+    edit("requirements/system/1-manipulator.yaml", "id: SYS-002", "id: SYS-001")
     edit("requirements/measures.yaml", "value: 48 mm", "value: 48 kg")
     edit("designs/catalogue.yaml", "components:", "spare: 1\ncomponents:")
     edit("designs/grasping_system.yaml", "d4: 0.04 m/s", "d4: 0.04")
@@ -63,7 +63,7 @@ def test_problems_of_all_files_are_reported_at_once(edit, problems):
     assert [text.split(":")[0] for text in problems()] == [
         "designs/catalogue.yaml",
         "requirements/measures.yaml",
-        "requirements/system.yaml",
+        "requirements/system/1-manipulator.yaml",
         "scenes/restaurant.yaml",
         STUDY,
     ]
@@ -86,25 +86,27 @@ def test_what_a_study_names_is_read_even_if_the_study_is_wrong(edit, problems, p
 
 @pytest.mark.verifies("SYS-027")
 @pytest.mark.parametrize(
-    ("old", "new", "expected"),
+    ("file", "old", "new", "expected"),
     [
         (
+            "requirements/system/1-manipulator.yaml",
             "measure: C_total, statistic",
             "measure: C_totl, statistic",
             "error: criterion of 'SYS-004' bounds 'C_totl', which is no measure (known measures: P_max,",
         ),
         (
+            "requirements/system/2-gripper.yaml",
             'threshold: "3 s"',
             'threshold: "3 kg"',
             "error: criterion of 'SYS-009' has the unit 'kg', but 't_gc' is measured in 's' (give the threshold in s",
         ),
     ],
 )
-def test_a_criterion_that_no_evidence_can_decide(edit, problems, old, new, expected):
-    edit("requirements/system.yaml", old, new)
+def test_a_criterion_that_no_evidence_can_decide(edit, problems, file, old, new, expected):
+    edit(file, old, new)
 
     (problem,) = problems()
-    assert problem.startswith("requirements/system.yaml:")
+    assert problem.startswith(f"{file}:")
     assert expected in problem
 
 

@@ -8,9 +8,11 @@ import pytest
 
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore, Fidelity, PhaseRecord, Provenance, record_digest
+from rgss.studies.changes import Change
 from rgss.studies.expansion import trial_specs
+from rgss.studies.named_inputs import named_inputs
 from rgss.studies.project import load_project
-from rgss.studies.replaying import Change, find_trial, replay
+from rgss.studies.replaying import find_trial, replay
 from rgss.studies.sweep import key_of
 from rgss.trials.run import run_trial
 from rgss.trials.spec import digests_of
@@ -101,6 +103,29 @@ def test_the_first_piece_whose_inputs_changed_is_named_with_those_after_it(
     trial = stored(kinematic)
     edit(file, old, new)
     assert replay(load_project(folder), trial).inputs == inputs
+
+
+@pytest.mark.engine
+def test_inputs_that_the_store_has_kept_are_told_by_their_names(kinematic, stored, folder, edit):
+    trial = stored(kinematic)
+    then = named_inputs(spec_of(kinematic)).values
+    edit("designs/grasping_system.yaml", "d4: 0.04 m/s", "d4: 0.05 m/s")
+    changed = load_project(folder)
+
+    assert replay(changed, trial, inputs=then).changes == (
+        Change(name="gripper.finger_velocity_m_s", then="0.04", now="0.05"),
+    )
+    assert replay(changed, trial).changes == ()
+    assert replay(kinematic, trial, inputs={**then, "code": {}}).changes == ()
+
+
+@pytest.mark.engine
+def test_versions_that_name_one_source_for_all_pieces_say_nothing_of_a_piece(kinematic, stored):
+    were = {"ompl": versions()["ompl"], "rgss-source": "a" * 64}
+    result = replay(kinematic, stored(kinematic, changed_versions=were))
+
+    assert (result.same, result.inputs) == (True, ())
+    assert Change(name="rgss-source", then="a" * 64, now="–") in result.versions
 
 
 @pytest.mark.engine

@@ -13,6 +13,13 @@ VALUES = [
     ("d5: 10 N", "d5: 0 N", "0 N\n  d6", "error: d5 must be greater than zero [design.not-positive]"),
     ("d6: 0.7", "d6: -0.7", "-0.7", "error: d6 must be greater than zero [design.not-positive]"),
     ("{d7: 0.5 m/s}", "{d7: 0 m/s}", "0 m/s}", "error: d7 must be greater than zero [design.not-positive]"),
+    (
+        "{d7: 0.5 m/s}",
+        "{d7: 1e-9 m/s}",
+        "1e-9 m/s}",
+        "error: d7 must be at least 1 mm/s (a slower arm or hand would need hours for the task) [design.too-slow]",
+    ),
+    ("d4: 0.04 m/s", "d4: 0.9 mm/s", "0.9 mm/s", "error: d4 must be at least 1 mm/s (a slower arm or hand would need"),
     ("{d9: 4 s}", "{d9: -4 s}", "-4 s}", "error: d9 must be greater than zero [design.not-positive]"),
     (
         "{d8: TRRT}",

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import pytest
 
+from rgss.errors import DocumentError
+from rgss.findings import Finding
 from rgss.requirements import load_requirements
 from rgss.trace import MeasureKind, MeasureTrace, TraceModel, build_trace_model, check_trace
+from rgss.trace.evidence_state import EvidenceState
+from rgss.trace.marked_tests import MarkedTest
 
 FILES = {
     "stakeholder.yaml": """\
 requirements:
-  - {id: STK-1, kind: functional, text: T, rationale: R, source: S, priority: high, status: draft, owner: O}
+  - id: STK-1
+    kind: functional
+    text: When a cup is ordered, the system shall serve the cup.
+    rationale: R
+    source: S
+    priority: high
+    status: draft
+    owner: O
 """,
     "system.yaml": """\
 requirements:
@@ -28,11 +40,17 @@ requirements:
     derived_from: [STK-1]
     satisfied_by: [BLK-1]
     verification: analysis
+    facility: desk
+    phase: development
     criterion: {measure: P, comparison: ">=", threshold: "800 g"}
 """,
     "architecture.yaml": """\
 blocks:
   - {id: BLK-1, name: Gripper, level: subsystem, text: Grips.}
+""",
+    "rules.yaml": """\
+rules:
+  review.missing: {enabled: false, reason: no test but its own is about reviews}
 """,
 }
 
@@ -46,6 +64,8 @@ def measure(measure_id: str, kind: MeasureKind, line: int, **changes: object) ->
 class Project:
     folder: Path
     measures: list[MeasureTrace] = field(default_factory=list)
+    marked: Sequence[MarkedTest] | None = None
+    evidence: EvidenceState | None = None
 
     def edit(self, name: str, old: str, new: str) -> Project:
         path = self.folder / name
@@ -57,6 +77,10 @@ class Project:
     def append(self, name: str, text: str) -> Project:
         path = self.folder / name
         path.write_text(path.read_text(encoding="utf-8") + text, encoding="utf-8")
+        return self
+
+    def write(self, name: str, text: str) -> Project:
+        (self.folder / name).write_text(text, encoding="utf-8")
         return self
 
     def position(self, name: str, start_of: str) -> str:
@@ -77,8 +101,20 @@ class Project:
     def model(self) -> TraceModel:
         return build_trace_model(load_requirements(self.folder), self.measures)
 
+    def found(self) -> tuple[Finding, ...]:
+        """What is found, while the files are read or afterwards."""
+        try:
+            requirements = load_requirements(self.folder)
+        except DocumentError as error:
+            return error.findings
+        return check_trace(requirements, self.measures, marked=self.marked, evidence=self.evidence)
+
     def findings(self) -> list[str]:
-        return [str(finding) for finding in check_trace(load_requirements(self.folder), self.measures)]
+        return [str(finding) for finding in self.found()]
+
+    def rules(self) -> list[str]:
+        """The rules that are broken."""
+        return [finding.rule for finding in self.found()]
 
 
 @pytest.fixture

@@ -6,7 +6,16 @@ import pytest
 
 from rgss.trace import MeasureKind
 
-NEED = "  - {id: STK-2, kind: design, text: T, rationale: R, source: S, priority: low, status: draft, owner: O}\n"
+NEED = """\
+  - id: STK-2
+    kind: design
+    text: The system shall fit on a table.
+    rationale: R
+    source: S
+    priority: low
+    status: draft
+    owner: O
+"""
 REQUIREMENT = """\
   - id: SYS-2
     group: gripper
@@ -19,6 +28,9 @@ REQUIREMENT = """\
     derived_from: [STK-1]
     satisfied_by: [BLK-1]
     verification: test
+    success: It opens.
+    facility: desk
+    phase: development
 """
 
 
@@ -40,7 +52,8 @@ def test_orphan(project):
 
 def test_a_requirement_that_derives_from_an_orphan_is_one_too(project):
     project.append("system.yaml", REQUIREMENT.replace("    derived_from: [STK-1]\n", ""))
-    project.append("system.yaml", REQUIREMENT.replace("STK-1", "SYS-2").replace("id: SYS-2", "id: SYS-3"))
+    again = REQUIREMENT.replace("STK-1", "SYS-2").replace("id: SYS-2", "id: SYS-3").replace("open", "close")
+    project.append("system.yaml", again)
     assert [finding.split(" derives")[0].rsplit(" ", 1)[1] for finding in project.findings()] == ["'SYS-2'", "'SYS-3'"]
 
 
@@ -54,7 +67,7 @@ def test_childless(project):
     project.append("stakeholder.yaml", NEED).change("P", traces=("STK-1", "STK-2"))
     assert project.findings() == [
         (
-            "requirements/stakeholder.yaml:3:10: error: no system requirement derives from stakeholder requirement "
+            "requirements/stakeholder.yaml:10:9: error: no system requirement derives from stakeholder requirement "
             "'STK-2' (name it under 'derived_from' of one that does) [trace.childless]"
         )
     ]
@@ -65,7 +78,7 @@ def test_need_without_measure_of_effectiveness(project):
     project.append("stakeholder.yaml", NEED).edit("system.yaml", "[STK-1]", "[STK-1, STK-2]")
     assert project.findings() == [
         (
-            "requirements/stakeholder.yaml:3:10: error: no measure of effectiveness traces to stakeholder requirement "
+            "requirements/stakeholder.yaml:10:9: error: no measure of effectiveness traces to stakeholder requirement "
             "'STK-2' (name it under 'traces' of one that does) [trace.no-moe]"
         )
     ]
@@ -129,7 +142,25 @@ def test_unallocated(project):
 
 
 def test_an_element_that_satisfies_nothing_is_listed(project):
-    project.append("architecture.yaml", "behaviours:\n  - {id: UC-1, name: Lift, kind: use_case, text: Lifts.}\n")
+    behaviour = "  - {id: UC-1, name: Lift, kind: use_case, text: Lifts., allocated_to: [BLK-1]}\n"
+    project.append("architecture.yaml", f"behaviours:\n{behaviour}")
     assert project.findings() == [
         "requirements/architecture.yaml:4:10: info: 'UC-1' satisfies no system requirement [trace.idle-element]"
     ]
+
+
+def test_a_behaviour_that_no_block_does(project):
+    project.append("architecture.yaml", "behaviours:\n  - {id: UC-1, name: Lift, kind: use_case, text: Lifts.}\n")
+    project.edit("system.yaml", "[BLK-1]", "[BLK-1, UC-1]")
+    assert project.findings() == [
+        (
+            "requirements/architecture.yaml:4:10: warning: behaviour 'UC-1' is done by no block (name one under "
+            "'allocated_to') [trace.unallocated-behaviour]"
+        )
+    ]
+
+
+def test_a_chain_of_derivations_of_any_length_answers_its_need(project):
+    links = [REQUIREMENT.replace("SYS-2", f"SYS-{n}").replace("STK-1", f"SYS-{n - 1}") for n in range(2, 400)]
+    texts = [link.replace("open", f"open at station {n} of the line") for n, link in enumerate(links)]
+    assert project.append("system.yaml", "".join(texts)).findings() == []

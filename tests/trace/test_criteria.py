@@ -36,15 +36,88 @@ def test_an_exemption_from_the_criterion(project):
 
 @pytest.mark.parametrize("method", ["inspection", "demonstration", "test"])
 def test_only_analysis_needs_a_criterion(project, method):
+    project.edit("system.yaml", CRITERION, "    success: The gripper lifts a cup.\n")
+    assert project.edit("system.yaml", "analysis", method).findings() == []
+
+
+@pytest.mark.parametrize("method", ["inspection", "demonstration", "test"])
+def test_other_methods_need_success_in_words(project, method):
     project.edit("system.yaml", CRITERION, "").edit("system.yaml", "analysis", method)
-    assert project.findings() == []
+    assert project.findings() == [
+        (
+            f"requirements/system.yaml:12:19: error: system requirement 'SYS-1' is verified by {method}, but has no "
+            "success criterion (say under 'success' what is to be seen, or give it a 'criterion') [trace.no-success]"
+        )
+    ]
+
+
+def test_a_test_may_have_a_criterion_too(project):
+    assert project.edit("system.yaml", "analysis", "test").findings() == []
+
+
+@pytest.mark.parametrize(
+    ("removed", "missing"),
+    [
+        (["    facility: desk\n"], "no facility"),
+        (["    phase: development\n"], "no phase"),
+        (["    facility: desk\n", "    phase: development\n"], "no facility and no phase"),
+    ],
+)
+def test_a_verification_without_place_or_time_is_noted(project, removed, missing):
+    for text in removed:
+        project.edit("system.yaml", text, "")
+    assert project.findings() == [
+        (
+            f"requirements/system.yaml:12:19: info: the verification of 'SYS-1' has {missing} (the verification matrix "
+            "says where and when) [trace.unplanned]"
+        )
+    ]
+
+
+@pytest.mark.parametrize(
+    ("words", "comparison", "agrees"),
+    [
+        ("at least", ">=", True),
+        ("at least", "<=", False),
+        ("more than", ">", True),
+        ("more than", "<", False),
+        ("no more than", "<=", True),
+        ("no more than", ">=", False),
+        ("not less than", ">=", True),
+        ("not less than", "<=", False),
+        ("at most", "<=", True),
+        ("at most", ">=", False),
+        ("within", "<=", True),
+        ("within", ">=", False),
+        ("up to", "<=", True),
+        ("up to", ">=", False),
+        ("a minimum of", ">=", True),
+        ("a maximum of", ">=", False),
+        ("loads from", ">=", True),
+        ("loads of", "<=", True),
+    ],
+)
+def test_bounds_in_words_agree_with_the_comparison(project, words, comparison, agrees):
+    project.edit("system.yaml", "at least", words).edit("system.yaml", '">="', f'"{comparison}"')
+    project.append("rules.yaml", "  wording.R33: {enabled: false, reason: not its test}\n")
+    assert project.rules() == ([] if agrees else ["trace.contradicting-comparison"])
+
+
+def test_a_contradicting_comparison_in_words(project):
+    project.edit("system.yaml", '">="', '"<="')
+    assert project.findings() == [
+        (
+            "requirements/system.yaml:4:11: error: text of 'SYS-1' says 'at least 0.8 kg', but its criterion says "
+            "'P <= 800 g' (make them agree) [trace.contradicting-comparison]"
+        )
+    ]
 
 
 def test_unknown_measure(project):
     project.edit("system.yaml", "measure: P,", "measure: Q,")
     assert project.findings() == [
         (
-            "requirements/system.yaml:13:26: error: criterion of 'SYS-1' bounds 'Q', which is no measure "
+            "requirements/system.yaml:15:26: error: criterion of 'SYS-1' bounds 'Q', which is no measure "
             "(known measures: P, P_g) [trace.unknown-measure]"
         )
     ]
@@ -54,7 +127,7 @@ def test_unit_of_another_dimension(project):
     project.change("P", unit="s")
     assert project.findings() == [
         (
-            "requirements/system.yaml:13:58: error: criterion of 'SYS-1' has the unit 'g', but 'P' is measured in 's' "
+            "requirements/system.yaml:15:58: error: criterion of 'SYS-1' has the unit 'g', but 'P' is measured in 's' "
             "(give the threshold in s or a unit that converts to it) [trace.criterion-unit]"
         )
     ]

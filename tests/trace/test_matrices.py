@@ -2,11 +2,29 @@
 
 from __future__ import annotations
 
-import pytest
+from dataclasses import replace
 
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rgss.errors import DefinitionError
+from rgss.requirements import (
+    Architecture,
+    NeedKind,
+    Place,
+    Priority,
+    Requirement,
+    RequirementGroup,
+    RequirementSet,
+    StakeholderNeed,
+    Status,
+)
 from rgss.trace import (
     MeasureKind,
     TraceMatrix,
+    build_trace_model,
+    matrix_of,
     stakeholder_by_effectiveness,
     system_by_architecture,
     system_by_stakeholder,
@@ -37,19 +55,19 @@ def model(project):
 
 def test_stakeholder_by_effectiveness(model):
     assert stakeholder_by_effectiveness(model) == TraceMatrix(
-        rows=("STK-1", "STK-2"), columns=("P", "C"), cells=((True, True), (False, True))
+        rows=("STK-1", "STK-2"), columns=("P", "C"), linked=((0, 1), (1,))
     )
 
 
 def test_system_by_stakeholder_reaches_over_steps(model):
     assert system_by_stakeholder(model) == TraceMatrix(
-        rows=("SYS-1", "SYS-2"), columns=("STK-1", "STK-2"), cells=((True, False), (True, True))
+        rows=("SYS-1", "SYS-2"), columns=("STK-1", "STK-2"), linked=((0,), (0, 1))
     )
 
 
 def test_system_by_architecture(model):
     assert system_by_architecture(model) == TraceMatrix(
-        rows=("SYS-1", "SYS-2"), columns=("BLK-1", "UC-1"), cells=((True, False), (False, True))
+        rows=("SYS-1", "SYS-2"), columns=("BLK-1", "UC-1"), linked=((0,), (1,))
     )
 
 
@@ -57,3 +75,93 @@ def test_what_is_linked_to_a_row_and_to_a_column(model):
     matrix = stakeholder_by_effectiveness(model)
     assert matrix.linked_to_row("STK-2") == ("C",)
     assert matrix.linked_to_column("P") == ("STK-1",)
+
+
+def test_one_cell_by_its_row_and_its_column(model):
+    matrix = stakeholder_by_effectiveness(model)
+    assert matrix.is_linked("STK-1", "P")
+    assert not matrix.is_linked("STK-2", "P")
+
+
+def test_what_has_no_link_is_named():
+    matrix = matrix_of(["a", "b"], ["x", "y"], {"a": ["y", "y", "not a column"], "not a row": ["x"]})
+    assert matrix == TraceMatrix(rows=("a", "b"), columns=("x", "y"), linked=((1,), ()))
+    assert (matrix.empty_rows, matrix.empty_columns, matrix.link_count) == (("b",), ("x",), 1)
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda matrix: matrix.linked_to_row("STK-3"), "the matrix has no row 'STK-3' (did you mean 'STK-2'?)"),
+        (lambda matrix: matrix.linked_to_column("PP"), "the matrix has no column 'PP' (did you mean 'P'?)"),
+        (lambda matrix: matrix.is_linked("STK-1", "STK-1"), "the matrix has no column 'STK-1'"),
+    ],
+)
+def test_a_row_or_column_that_is_not_there(model, ask, message):
+    with pytest.raises(DefinitionError) as caught:
+        ask(stakeholder_by_effectiveness(model))
+    assert str(caught.value) == message
+
+
+@given(
+    size=st.integers(1, 12),
+    links=st.lists(st.tuples(st.integers(0, 11), st.integers(0, 11)), max_size=40),
+    roots=st.lists(st.tuples(st.integers(0, 11), st.integers(0, 3)), max_size=12),
+)
+def test_origins_are_those_of_a_walk_from_each_requirement(size, links, roots):
+    """Also where requirements rest on themselves, which files may not, but a model may."""
+    names, needs = [f"S{n}" for n in range(size)], [f"N{n}" for n in range(4)]
+    parents = {name: [] for name in names}
+    for low, high in links:
+        parents[f"S{low % size}"].append(f"S{high % size}")
+    for low, need in roots:
+        parents[f"S{low % size}"].append(f"N{need}")
+
+    def origins(name, seen):
+        reached = set()
+        for parent in parents.get(name, ()):
+            if parent not in seen:
+                reached |= {parent} | origins(parent, seen | {parent})
+        return reached
+
+    matrix = system_by_stakeholder(bare_model(names, needs, parents))
+
+    for name in names:
+        assert set(matrix.linked_to_row(name)) == {one for one in origins(name, {name}) if one.startswith("N")}
+
+
+def bare_model(names, needs, parents):
+    """A model whose requirements have ids and parents, and nothing else of their own."""
+    requirements = tuple(replace(EXAMPLE, id=name, derived_from=tuple(parents[name])) for name in names)
+    stakeholder = tuple(replace(EXAMPLE_NEED, id=need) for need in needs)
+    places = dict.fromkeys([*names, *needs], Place(document=None, location=()))
+    architecture = Architecture(blocks=(), behaviours=())
+    whole = RequirementSet(stakeholder=stakeholder, system=requirements, architecture=architecture, places=places)
+    return build_trace_model(whole, [])
+
+
+EXAMPLE_NEED = StakeholderNeed(
+    id="",
+    kind=NeedKind.DESIGN,
+    text="",
+    rationale="",
+    source="",
+    priority=Priority.LOW,
+    status=Status.DRAFT,
+    owner="",
+)
+EXAMPLE = Requirement(
+    id="",
+    group=RequirementGroup.GRIPPER,
+    text="",
+    rationale="",
+    source="",
+    derived_from=(),
+    satisfied_by=(),
+    verification=None,
+    criterion=None,
+    criterion_exemption="",
+    priority=Priority.LOW,
+    status=Status.DRAFT,
+    owner="",
+)

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+import importlib.util
 import random
+import sys
+from pathlib import Path
 
 import pytest
 
-from rgss.tradeoff import Alternative, Comparison, Threshold, TradeProblem, ValueFunction, Weighting
+from rgss.tradeoff import Alternative, Comparison, PiecewiseValue, Threshold, TradeProblem, Weighting
 
 
 @pytest.fixture
@@ -21,13 +24,12 @@ def seeded():
 def build_problem():
     """A problem from plain tables: measures by variant, (id, measure, comparison, value), (worst, best)."""
 
-    def build(measures, *, thresholds=(), values=None, weights=None):
+    def build(measures, *, thresholds=(), values=None, weights=None, alternatives=None, **more):
         values = values or {"a": (0.0, 1.0)}
         weights = weights or {"a": 1.0}
         return TradeProblem(
-            alternatives=tuple(
-                Alternative(variant=variant, measures=quantities) for variant, quantities in measures.items()
-            ),
+            alternatives=alternatives
+            or tuple(Alternative(variant=variant, measures=quantities) for variant, quantities in measures.items()),
             thresholds=tuple(
                 Threshold(
                     requirement=requirement,
@@ -39,9 +41,10 @@ def build_problem():
                 for requirement, measure, comparison, value in thresholds
             ),
             value_functions=tuple(
-                ValueFunction(measure=measure, worst=worst, best=best) for measure, (worst, best) in values.items()
+                PiecewiseValue(measure=measure, worst=worst, best=best) for measure, (worst, best) in values.items()
             ),
             weighting=Weighting(weights=weights),
+            **more,
         )
 
     return build
@@ -70,3 +73,26 @@ def payload_and_time(build_problem):
         values={"P": (0.0, 2.0), "t": (60.0, 20.0)},
         weights={"P": 0.25, "t": 0.75},
     )
+
+
+def _from_benchmarks(name):
+    """A module of the folder benchmarks/, which is no package."""
+    path = Path(__file__).parents[2] / "benchmarks" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    # Its dataclasses look themselves up by the name of their module.
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def cases():
+    """Random trade-offs, as the benchmark of agreement draws them."""
+    return _from_benchmarks("tradeoff_cases")
+
+
+@pytest.fixture(scope="session")
+def oracle():
+    """The right decisions, from the definitions alone."""
+    return _from_benchmarks("tradeoff_oracle")

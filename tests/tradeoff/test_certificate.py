@@ -7,16 +7,19 @@ import pytest
 from rgss.tradeoff import DecisionStatus, decide
 from rgss.tradeoff.certificate import certify
 from rgss.tradeoff.enumeration import enumerate_alternatives
-from rgss.tradeoff.program import Solution
+from rgss.tradeoff.stage import StageSolution
 
 
 @pytest.fixture
 def certify_choice():
     def run(problem, variant, objective=None):
         status = DecisionStatus.INFEASIBLE if variant is None else DecisionStatus.OPTIMAL
-        solution = Solution(status=status, variant=variant, objective=objective, selection_error=0.0)
+        chosen = next((one for one in problem.alternatives if one.variant == variant), None)
+        solution = StageSolution(
+            name="value", status=status, alternative=chosen, objective=objective, gap=0.0, selection_error=0.0
+        )
         considered = len(problem.alternatives)
-        return certify(problem, enumerate_alternatives(problem), solution, considered=considered)
+        return certify(problem, enumerate_alternatives(problem), [solution], considered=considered)
 
     return run
 
@@ -24,7 +27,13 @@ def certify_choice():
 def test_of_the_optimum(payload_and_time):
     certificate = decide(payload_and_time).certificate
     assert certificate.enumeration_agrees
-    assert (certificate.status, certificate.solver) == (DecisionStatus.OPTIMAL, "HIGHS")
+    assert (certificate.status, certificate.solver, certificate.program) == (
+        DecisionStatus.OPTIMAL,
+        "HIGHS",
+        "additive",
+    )
+    (stage,) = certificate.stages
+    assert (stage.name, stage.variant, stage.gap) == ("value", 1, 0.0)
     assert (certificate.alternatives, certificate.considered) == (5, 5)
     assert certificate.solver_choice == 1
     assert certificate.objective == pytest.approx(0.5, abs=1e-9)

@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 from rgss.tradeoff import NearestAlternative, RequirementCount
-from rgss.tradeoff.conflicts import find_conflicts
+from rgss.tradeoff.conflicts import find_conflicts, minimal_hitting_sets
 from rgss.tradeoff.enumeration import enumerate_alternatives
 
 
@@ -70,3 +70,40 @@ def test_the_conflict_is_minimal_by_brute_force(seeded, build_problem, seed):
     assert [count.excluded for count in conflicts.excluded_by] == [
         sum(requirement in violation for violation in violated.values()) for requirement, *_ in thresholds
     ]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_all_minimal_conflicts_by_trying_each_set(seeded, build_problem, seed):
+    rng = seeded(f"all {seed}")
+    names = "abcdef"
+    measures = {variant: {name: rng.randrange(4) / 3 for name in names} for variant in range(1, rng.randrange(3, 12))}
+    thresholds = [(f"R-{name}", name, ">=", rng.choice([0.3, 0.6, 1.0])) for name in names]
+    conflicts = find_conflicts(enumerate_alternatives(build_problem(measures, thresholds=thresholds)))
+    violated = [
+        {requirement for requirement, name, _, value in thresholds if quantities[name] < value}
+        for quantities in measures.values()
+    ]
+    ids = [requirement for requirement, *_ in thresholds]
+    subsets = [set(each) for size in range(len(ids) + 1) for each in itertools.combinations(ids, size)]
+    clashing = [each for each in subsets if all(each & violation for violation in violated)]
+    smallest = {tuple(sorted(each)) for each in clashing if not any(other < each for other in clashing)}
+    repaired = [each for each in subsets if any(violation <= each for violation in violated)]
+    corrections = {tuple(sorted(each)) for each in repaired if not any(other < each for other in repaired)}
+    if conflicts is None:
+        assert not clashing
+        return
+    assert {tuple(sorted(each)) for each in conflicts.minimal_conflicts} == smallest
+    assert conflicts.complete
+    assert conflicts.minimal_conflict == conflicts.minimal_conflicts[0]
+    assert [len(each) for each in conflicts.minimal_conflicts] == sorted(map(len, conflicts.minimal_conflicts))
+    assert {tuple(sorted(each)) for each in conflicts.corrections} == corrections
+
+
+def test_more_conflicts_than_are_listed():
+    """n pairs of which each alternative violates one: 2^n minimal conflicts."""
+    pairs = [(2 * place, 2 * place + 1) for place in range(12)]
+    found, complete = minimal_hitting_sets(pairs, 100)
+    assert (len(found), complete) == (100, False)
+    assert all(set(each) & set(pair) for each in found for pair in pairs)
+    found, complete = minimal_hitting_sets(pairs[:5], 100)
+    assert (len(found), complete) == (32, True)

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 import subprocess
 import sys
 import time
@@ -9,7 +10,7 @@ from fractions import Fraction
 
 import pytest
 
-import rgss.tradeoff.deciding
+import rgss.tradeoff.explanation
 from rgss.errors import TradeoffError
 from rgss.tradeoff import (
     DecisionStatus,
@@ -19,7 +20,8 @@ from rgss.tradeoff import (
     decide,
     decision_to_json,
 )
-from rgss.tradeoff.program import Program, Solution
+from rgss.tradeoff.program import AdditiveValue
+from rgss.tradeoff.stage import StageSolution
 
 TIE = Fraction(1, 10**9)
 
@@ -37,8 +39,10 @@ def by_hand(problem):
         broken, total = set(), Fraction(0)
         for threshold in problem.thresholds:
             quantity = alternative.measures[threshold.measure]
+            sign = 1 if threshold.comparison.value == ">=" else -1
             bad = quantity is None or (
-                quantity < threshold.value if threshold.comparison.value == ">=" else quantity > threshold.value
+                sign * (Fraction(quantity) - Fraction(threshold.value))
+                < -Fraction(1, 10**9) * max(abs(Fraction(quantity)), abs(Fraction(threshold.value)))
             )
             if bad:
                 broken.add(threshold.requirement)
@@ -149,7 +153,10 @@ def test_hand_worked(payload_and_time):
     decision = decide(payload_and_time)
     assert decision.status is DecisionStatus.OPTIMAL
     assert (decision.chosen, decision.runner_up, decision.ties) == (1, 3, (1,))
-    assert decision.ranking == (RankedAlternative(variant=1, value=0.5), RankedAlternative(variant=3, value=0.4375))
+    assert decision.ranking == (
+        RankedAlternative(variant=1, value=0.5, objectives=(0.5,)),
+        RankedAlternative(variant=3, value=0.4375, objectives=(0.4375,)),
+    )
     # 5 violates both but would not have been better: it does not make a requirement decide.
     assert decision.excluded_better == (
         InfeasibleAlternative(variant=2, requirements=("R-1",), value=0.8),
@@ -248,33 +255,41 @@ def test_the_order_of_alternatives_does_not_matter(seeded, build_problem):
         assert first == again == other
 
 
+@pytest.fixture
+def answer(monkeypatch):
+    """Puts words into the solver's mouth."""
+
+    def give(problem, variant, objective):
+        chosen = next((one for one in problem.alternatives if one.variant == variant), None)
+        status = DecisionStatus.INFEASIBLE if chosen is None else DecisionStatus.OPTIMAL
+        solution = StageSolution(
+            name="value", status=status, alternative=chosen, objective=objective, gap=0.0, selection_error=0.0
+        )
+        monkeypatch.setattr(AdditiveValue, "solve", lambda self, preferences, solver: (solution,))
+
+    return give
+
+
 @pytest.mark.parametrize(
-    ("solution", "message"),
+    ("variant", "objective", "message"),
     [
-        (
-            Solution(status=DecisionStatus.OPTIMAL, variant=3, objective=0.4375, selection_error=0.0),
-            "the solver finds variant 3 (0.4375), enumeration finds variant 1 (0.5)",
-        ),
-        (
-            Solution(status=DecisionStatus.INFEASIBLE, variant=None, objective=None, selection_error=0.0),
-            "the solver finds nothing feasible, enumeration finds variant 1 (0.5)",
-        ),
+        (3, 0.4375, "the solver finds variant 3 (0.4375), enumeration finds variant 1 (0.5)"),
+        (None, None, "the solver finds nothing feasible, enumeration finds variant 1 (0.5)"),
     ],
 )
-def test_no_decision_on_contradictory_answers(payload_and_time, monkeypatch, solution, message):
-    monkeypatch.setattr(Program, "solve", lambda self: solution)
+def test_no_decision_on_contradictory_answers(payload_and_time, answer, variant, objective, message):
+    answer(payload_and_time, variant, objective)
     with pytest.raises(TradeoffError) as error:
         decide(payload_and_time)
     assert error.value.message == message
     assert error.value.hint.startswith("no decision is made on contradictory answers")
 
 
-def test_no_decision_where_the_solver_finds_what_is_not_feasible(build_problem, monkeypatch):
-    solution = Solution(status=DecisionStatus.OPTIMAL, variant=1, objective=0.1, selection_error=0.0)
-    monkeypatch.setattr(Program, "solve", lambda self: solution)
+def test_no_decision_where_the_solver_finds_what_is_not_feasible(build_problem, answer):
     problem = build_problem({1: {"a": 0.1}}, thresholds=[("R", "a", ">=", 0.2)])
+    answer(problem, 1, 0.1)
     with pytest.raises(TradeoffError, match="enumeration finds nothing feasible"):
-        rgss.tradeoff.deciding.decide(problem)
+        decide(problem)
 
 
 def test_seventy_two_alternatives_take_well_under_a_second(seeded, build_problem):
@@ -304,8 +319,64 @@ def test_a_fresh_interpreter_decides_without_a_warning():
     program = (
         "from rgss.tradeoff import *\n"
         "print(decide(TradeProblem(alternatives=(Alternative(variant=1, measures={'a': 0.5}),), thresholds=(),"
-        " value_functions=(ValueFunction(measure='a', worst=0.0, best=1.0),),"
+        " value_functions=(PiecewiseValue(measure='a', worst=0.0, best=1.0),),"
         " weighting=Weighting(weights={'a': 1.0}))).chosen)"
     )
     result = subprocess.run([sys.executable, "-W", "error", "-c", program], capture_output=True, text=True, check=False)
     assert (result.stdout, result.stderr, result.returncode) == ("1\n", "", 0)
+
+
+def test_near_ties_are_within_the_practical_margin(build_problem):
+    problem = build_problem({1: {"a": 0.70}, 2: {"a": 0.69}, 3: {"a": 0.68}, 4: {"a": 0.70}, 5: {"a": 0.30}})
+    assert decide(problem).near_ties == ()
+    assert decide(problem, margin=0.015).near_ties == (2,)
+    decision = decide(problem, margin=0.05)
+    assert (decision.ties, decision.near_ties) == ((1, 4), (2, 3))
+
+
+@pytest.mark.parametrize("margin", [-0.1, math.nan, math.inf])
+def test_a_margin_that_is_none(build_problem, margin):
+    with pytest.raises(TradeoffError, match="the practical margin is"):
+        decide(build_problem({1: {"a": 0.5}}), margin=margin)
+
+
+def test_a_measure_in_which_nothing_differs_is_reported(build_problem):
+    """Nothing is divided by its range: the value function has anchors of its own."""
+    names = {"a": (0.0, 1.0), "b": (0.0, 1.0), "c": (0.0, 1.0), "d": (0.0, 1.0)}
+    problem = build_problem(
+        {
+            1: {"a": 0.5, "b": 0.3, "c": 5.0, "d": 0.2},
+            2: {"a": 0.6, "b": 0.3, "c": 7.0, "d": 0.2},
+            3: {"a": 0.9, "b": 0.3, "c": 9.0, "d": 0.7},
+        },
+        thresholds=[("R", "a", "<=", 0.8)],
+        values=names,
+        weights=dict.fromkeys(names, 0.25),
+    )
+    decision = decide(problem)
+    assert decision.chosen == 2
+    assert [(flat.measure, flat.low, flat.high, flat.among_feasible) for flat in decision.flat_measures] == [
+        ("b", 0.3, 0.3, False),
+        ("c", 5.0, 9.0, False),
+        ("d", 0.2, 0.2, True),
+    ]
+    assert decide(build_problem({1: {"a": 0.5}})).flat_measures == ()
+
+
+def test_a_long_list_is_cut_and_counted(build_problem, monkeypatch):
+    monkeypatch.setattr(rgss.tradeoff.explanation, "LONGEST_LIST", 3)
+    problem = build_problem(
+        {variant: {"a": variant / 100} for variant in range(1, 21)}, thresholds=[("R", "a", "<=", 0.1)]
+    )
+    decision = decide(problem)
+    assert [ranked.variant for ranked in decision.ranking] == [10, 9, 8]
+    assert [out.variant for out in decision.infeasible] == [11, 12, 13]
+    assert [out.variant for out in decision.excluded_better] == [20, 19, 18]
+    assert (decision.counts.feasible, decision.counts.alternatives, decision.counts.excluded_better) == (10, 20, 10)
+    assert decision.deciding_requirements == (RequirementCount(requirement="R", excluded=10),)
+
+
+def test_the_runner_up_where_more_are_tied_than_are_listed(build_problem, monkeypatch):
+    monkeypatch.setattr(rgss.tradeoff.explanation, "LONGEST_LIST", 3)
+    decision = decide(build_problem({variant: {"a": 0.5 if variant < 6 else 0.4} for variant in range(1, 9)}))
+    assert (decision.ties, decision.runner_up) == ((1, 2, 3, 4, 5), 6)

@@ -17,7 +17,8 @@ def test_hand_worked_values_and_violations(payload_and_time):
         [False, True, False],
         [True, True, False],
     ]
-    assert enumeration.best_value == 0.5
+    assert enumeration.best_row == 0
+    assert enumeration.ordering.at(0) == (0.5,)
     assert enumeration.tied.tolist() == [True, False, False, False, False]
     assert enumeration.value_of(4) == 0.7625
     assert enumeration.violated_by(5) == ("R-1", "R-2")
@@ -53,7 +54,7 @@ def test_a_requirement_with_two_thresholds_is_violated_by_either(build_problem):
 
 def test_nothing_feasible(build_problem):
     enumeration = enumerate_alternatives(build_problem({1: {"a": 0.1}}, thresholds=[("R", "a", ">=", 0.2)]))
-    assert enumeration.best_value is None
+    assert enumeration.best_row is None
     assert not np.any(enumeration.tied)
 
 

@@ -11,11 +11,17 @@ def test_of_a_choice(payload_and_time):
     document = json.loads(json.dumps(decision_to_json(decide(payload_and_time)), allow_nan=False))
     certificate = document.pop("certificate")
     assert document == {
+        "program": "additive",
+        "objectives": ["value"],
         "status": "optimal",
         "chosen": 1,
         "runner_up": 3,
         "ties": [1],
-        "ranking": [{"variant": 1, "value": 0.5}, {"variant": 3, "value": 0.4375}],
+        "near_ties": [],
+        "ranking": [
+            {"variant": 1, "value": 0.5, "objectives": [0.5]},
+            {"variant": 3, "value": 0.4375, "objectives": [0.4375]},
+        ],
         "infeasible": [
             {"variant": 2, "requirements": ["R-1"], "value": 0.8},
             {"variant": 4, "requirements": ["R-2"], "value": 0.7625},
@@ -40,13 +46,19 @@ def test_of_a_choice(payload_and_time):
             ],
         },
         "conflicts": None,
+        "flat_measures": [],
+        "demands": {"R-1": "P >= 0.8 kg", "R-2": "cost <= 100 kg", "evidence:t": "t is known"},
+        "counts": {"alternatives": 5, "feasible": 2, "excluded_better": 2},
     }
     residuals = certificate.pop("residuals")
     assert certificate.pop("objective") == pytest.approx(0.5, abs=1e-9)
+    (stage,) = certificate.pop("stages")
+    assert stage == {"name": "value", "variant": 1, "objective": pytest.approx(0.5, abs=1e-9), "gap": 0.0}
     assert certificate == {
         "enumeration_agrees": True,
         "status": "optimal",
         "solver": "HIGHS",
+        "program": "additive",
         "alternatives": 5,
         "considered": 5,
         "solver_choice": 1,
@@ -60,10 +72,13 @@ def test_of_no_choice(build_problem):
     problem = build_problem({3: {"a": 0.4}, 7: {"a": None}}, thresholds=[("R", "a", ">=", 0.5)])
     document = json.loads(json.dumps(decision_to_json(decide(problem)), allow_nan=False))
     assert document == {
+        "program": "additive",
+        "objectives": ["value"],
         "status": "infeasible",
         "chosen": None,
         "runner_up": None,
         "ties": [],
+        "near_ties": [],
         "ranking": [],
         "infeasible": [
             {"variant": 3, "requirements": ["R"], "value": 0.4},
@@ -75,12 +90,37 @@ def test_of_no_choice(build_problem):
         "conflicts": {
             "excluded_by": [{"requirement": "R", "excluded": 2}],
             "minimal_conflict": ["R"],
+            "minimal_conflicts": [["R"]],
+            "complete": True,
+            "corrections": [["R"]],
             "nearest": {"variant": 3, "requirements": ["R"]},
+            "repairs": [
+                {
+                    "requirement": "R",
+                    "changes": [
+                        {
+                            "demand": "a >= 0.5 kg",
+                            "limit": 0.5,
+                            "needed": 0.4,
+                            "unit": "kg",
+                            "relative": pytest.approx(0.2),
+                        }
+                    ],
+                    "unlocked": 1,
+                    "winner": 3,
+                }
+            ],
+            "survival": None,
         },
+        "flat_measures": [],
+        "demands": {"R": "a >= 0.5 kg"},
+        "counts": {"alternatives": 2, "feasible": 0, "excluded_better": 0},
         "certificate": {
             "enumeration_agrees": True,
             "status": "infeasible",
             "solver": "HIGHS",
+            "program": "additive",
+            "stages": [],
             "alternatives": 2,
             "considered": 2,
             "solver_choice": None,

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff import Comparison, Threshold, TradeProblem, ValueFunction
+from rgss.tradeoff import Comparison, PiecewiseValue, Threshold, TradeProblem
 
 
 @pytest.mark.parametrize(
@@ -18,7 +18,9 @@ from rgss.tradeoff import Comparison, Threshold, TradeProblem, ValueFunction
         ("<=", 1.0, -0.25, False),
         ("<=", 0.75, 0.0, True),
         ("<=", 0.5, 0.25, True),
-        ("<=", math.nextafter(0.75, 1.0), -math.ulp(0.75), False),
+        # Rounding does not decide, as it does not in verdicts.
+        ("<=", math.nextafter(0.75, 1.0), -math.ulp(0.75), True),
+        ("<=", 0.75 * (1 + 3e-9), 0.75 - 0.75 * (1 + 3e-9), False),
     ],
 )
 def test_threshold(comparison, quantity, margin, met):
@@ -133,6 +135,6 @@ def test_two_value_functions_for_a_measure(build_problem):
         TradeProblem(
             alternatives=problem.alternatives,
             thresholds=(),
-            value_functions=(*problem.value_functions, ValueFunction(measure="a", worst=1.0, best=0.0)),
+            value_functions=(*problem.value_functions, PiecewiseValue(measure="a", worst=1.0, best=0.0)),
             weighting=problem.weighting,
         )

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import cvxpy
 import numpy as np
 import pytest
 
-from rgss.tradeoff import Alternative, Comparison, Threshold, ValueFunction
-from rgss.tradeoff.terms import ChooseOne, EvidenceConstraint, Selection, ThresholdConstraint, WeightedValue
+from rgss.tradeoff import Alternative, Comparison, PiecewiseValue, Threshold
+from rgss.tradeoff.selection import VariantSelection
+from rgss.tradeoff.terms import ConditionConstraint, EvidenceConstraint, QuantityRank, WeightedValue, WorstOf
 
 
 @pytest.fixture
 def select():
     def build(quantities):
-        return Selection(
-            alternatives=tuple(
-                Alternative(variant=variant, measures={"m": quantity}) for variant, quantity in enumerate(quantities)
-            ),
-            variable=cvxpy.Variable(len(quantities), boolean=True),
+        return VariantSelection.of(
+            [Alternative(variant=variant, measures={"m": quantity}) for variant, quantity in enumerate(quantities)]
         )
 
     return build
@@ -41,17 +38,17 @@ def values_of(selection, expression):
 
 def test_weighted_value(select):
     selection = select([20.0, 30.0, 60.0, None])
-    term = WeightedValue(function=ValueFunction(measure="m", worst=60.0, best=20.0), weight=0.5)
+    term = WeightedValue(function=PiecewiseValue(measure="m", worst=60.0, best=20.0), weight=0.5)
     assert values_of(selection, term.compile(selection)) == [0.5, 0.375, 0.0, 0.0]
 
 
 @pytest.mark.parametrize("comparison", list(Comparison))
 @pytest.mark.parametrize("unit", [1e-15, 1e-6, 1.0, 1e6, 1e15, 1e300])
 def test_no_violation_is_below_the_tolerance_of_the_solver_in_any_unit(select, comparison, unit):
-    quantities = [unit * factor for factor in (0.0, 1.0, 1.0 - 1e-9, 1.0 + 1e-9, 1e3, -1e3)]
+    quantities = [unit * factor for factor in (0.0, 1.0, 1.0 - 3e-9, 1.0 + 3e-9, 1e3, -1e3)]
     threshold = Threshold(requirement="R", measure="m", comparison=comparison, value=unit, unit="1")
     selection = select([*quantities, None])
-    constraint = ThresholdConstraint(threshold=threshold).compile(selection)
+    constraint = ConditionConstraint(condition=threshold).compile(selection)
     violations = at_every_selection(selection, constraint, "violation")
     expected = [0.0 if threshold.is_met_by(quantity) else 1.0 for quantity in [*quantities, None]]
     assert violations == expected
@@ -60,14 +57,14 @@ def test_no_violation_is_below_the_tolerance_of_the_solver_in_any_unit(select, c
 def test_margins_that_overflow(select):
     threshold = Threshold(requirement="R", measure="m", comparison=Comparison.AT_LEAST, value=1e308, unit="1")
     selection = select([-1e308, 1.7e308, 1e308])
-    constraint = ThresholdConstraint(threshold=threshold).compile(selection)
+    constraint = ConditionConstraint(condition=threshold).compile(selection)
     assert at_every_selection(selection, constraint, "violation") == [1.0, 0.0, 0.0]
 
 
 def test_threshold_that_all_meet(select):
     threshold = Threshold(requirement="R", measure="m", comparison=Comparison.AT_MOST, value=5.0, unit="s")
     selection = select([5.0, 4.0, -100.0])
-    term = ThresholdConstraint(threshold=threshold)
+    term = ConditionConstraint(condition=threshold)
     assert at_every_selection(selection, term.compile(selection), "violation") == [0.0, 0.0, 0.0]
     assert term.name == "R: m <= 5 s"
 
@@ -81,9 +78,35 @@ def test_evidence(select):
 
 def test_choose_one(select):
     selection = select([1.0, 2.0])
-    term = ChooseOne()
-    constraint = term.compile(selection)
+    ((name, constraint),) = selection.structure
     for value, violation in (([1.0, 0.0], 0.0), ([0.0, 1.0], 0.0), ([0.0, 0.0], 1.0), ([1.0, 1.0], 1.0)):
         selection.variable.value = np.array(value)
         assert float(np.asarray(constraint.violation())) == violation
-    assert term.name == "choose exactly one"
+    assert name == "choose exactly one"
+
+
+@pytest.mark.parametrize(
+    ("sense", "ranks"), [(Comparison.AT_LEAST, [1, 0, 2, 1, 0]), (Comparison.AT_MOST, [1, 2, 0, 1, 0])]
+)
+@pytest.mark.parametrize("unit", [1e-300, 1.0, 1e300])
+def test_rank_of_a_quantity(select, sense, ranks, unit):
+    selection = select([2.0 * unit, 1.0 * unit, 2.0 * unit * (1 + 1e-12), 2.0 * unit, None])
+    assert values_of(selection, QuantityRank(measure="m", sense=sense).compile(selection)) == ranks
+
+
+def test_the_worst_of_scenarios(select):
+    selection = select([0.0, 1.0, 0.25])
+    rising = WeightedValue(function=PiecewiseValue(measure="m", worst=0.0, best=1.0), weight=1.0)
+    falling = WeightedValue(function=PiecewiseValue(measure="m", worst=1.0, best=0.0), weight=1.0)
+    term = WorstOf(scenarios=((0.0, (rising,)), (-0.5, (falling,))))
+    assert values_of(selection, term.compile(selection)) == pytest.approx([0.0, -0.5, 0.25])
+    assert [term.at(one) for one in selection.alternatives] == pytest.approx([0.0, -0.5, 0.25])
+
+
+def test_every_replicate_is_known():
+    rows = [(1.0, 2.0), (1.0, None), (None,)]
+    selection = VariantSelection.of(
+        [Alternative(variant=v, measures={"m": 1.0}, samples={"m": row}) for v, row in enumerate(rows)]
+    )
+    term = EvidenceConstraint(measure="m", every_replicate=True)
+    assert at_every_selection(selection, term.compile(selection), "violation") == [0.0, 1.0, 1.0]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff import ValueFunction, Weighting
+from rgss.tradeoff import ExponentialValue, PiecewiseValue, TargetValue, Weighting
+from rgss.tradeoff.columns import value_column
 
 
 @pytest.mark.parametrize(
@@ -27,19 +28,19 @@ from rgss.tradeoff import ValueFunction, Weighting
     ],
 )
 def test_linear_value(worst, best, quantity, value):
-    assert ValueFunction(measure="m", worst=worst, best=best).value_at(quantity) == pytest.approx(value, abs=1e-15)
+    assert PiecewiseValue(measure="m", worst=worst, best=best).value_at(quantity) == pytest.approx(value, abs=1e-15)
 
 
 @pytest.mark.parametrize(
     ("quantity", "value"), [(0.0, 0.0), (1.0, 0.4), (2.0, 0.8), (3.0, 0.8), (5.0, 0.8), (7.5, 0.9), (10.0, 1.0)]
 )
 def test_piecewise_value(quantity, value):
-    function = ValueFunction(measure="m", worst=0.0, best=10.0, interior=((2.0, 0.8), (5.0, 0.8)))
+    function = PiecewiseValue(measure="m", worst=0.0, best=10.0, interior=((2.0, 0.8), (5.0, 0.8)))
     assert function.value_at(quantity) == pytest.approx(value, abs=1e-15)
 
 
 def test_piecewise_value_where_less_is_better():
-    function = ValueFunction(measure="m", worst=10.0, best=0.0, interior=((4.0, 0.2),))
+    function = PiecewiseValue(measure="m", worst=10.0, best=0.0, interior=((4.0, 0.2),))
     assert [function.value_at(x) for x in (11.0, 7.0, 4.0, 2.0, -1.0)] == pytest.approx([0.0, 0.1, 0.2, 0.6, 1.0])
 
 
@@ -51,7 +52,7 @@ def test_values_agree_with_interpolation_never_fall_and_stay_in_range(seeded):
         values = sorted(rng.random() for _ in range(count))
         if rng.random() < 0.5:
             quantities.reverse()
-        function = ValueFunction(
+        function = PiecewiseValue(
             measure="m",
             worst=quantities[0],
             best=quantities[-1],
@@ -71,14 +72,14 @@ def test_no_range(worst, best):
     with pytest.raises(
         TradeoffError, match=r"the value function of 'm' has no range: worst and best are both"
     ) as error:
-        ValueFunction(measure="m", worst=worst, best=best)
+        PiecewiseValue(measure="m", worst=worst, best=best)
     assert "threshold and goal" in error.value.hint
 
 
 @pytest.mark.parametrize(("worst", "best"), [(math.nan, 1.0), (0.0, math.inf), (-1e308, 1e308)])
 def test_not_anchored(worst, best):
     with pytest.raises(TradeoffError, match="the value function of 'm' is not anchored") as error:
-        ValueFunction(measure="m", worst=worst, best=best)
+        PiecewiseValue(measure="m", worst=worst, best=best)
     assert error.value.hint == "give two finite numbers"
 
 
@@ -99,7 +100,7 @@ def test_not_anchored(worst, best):
 )
 def test_points_out_of_order(interior):
     with pytest.raises(TradeoffError, match="the value function of 'm' is out of order at") as error:
-        ValueFunction(measure="m", worst=0.0, best=1.0, interior=interior)
+        PiecewiseValue(measure="m", worst=0.0, best=1.0, interior=interior)
     assert "from worst to best" in error.value.hint
 
 
@@ -127,3 +128,83 @@ def test_bad_weights(weights, message, hint):
     assert error.value.message == message
     assert error.value.hint.startswith(hint)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("halfway", [0.008, 0.1, 0.25, 0.4999, 0.5, 0.5001, 0.8, 0.992])
+@pytest.mark.parametrize(("worst", "best"), [(0.0, 1.0), (60.0, 20.0), (-2.0, 5e6)])
+def test_exponential_value(worst, best, halfway):
+    quantity = worst + halfway * (best - worst)
+    function = ExponentialValue(measure="m", worst=worst, best=best, halfway=quantity)
+    assert function.more_is_better is (best > worst)
+    assert function.value_at(worst) == 0.0
+    assert function.value_at(best) == 1.0
+    assert function.value_at(quantity) == pytest.approx(0.5, abs=1e-12)
+    assert function.value_at(worst - (best - worst)) == 0.0
+    assert function.value_at(best + (best - worst)) == 1.0
+    values = [function.value_at(worst + share * (best - worst)) for share in np.linspace(0.0, 1.0, 50)]
+    assert values == sorted(values)
+    # Gains shrink or grow by one factor from step to step.
+    gains = np.diff(values)
+    assert gains[1:] == pytest.approx(gains[:-1] * (gains[1] / gains[0]), abs=1e-9)
+
+
+def test_exponential_value_by_hand():
+    """ρ = ln 9 gives v(1/2) = (1 - 1/3) / (1 - 1/9) = 3/4, so half of the value is at z with 9^-z = 5/9."""
+    half = math.log(9 / 5) / math.log(9)
+    function = ExponentialValue(measure="m", worst=0.0, best=1.0, halfway=half)
+    assert function.exponent == pytest.approx(math.log(9))
+    assert function.value_at(0.5) == pytest.approx(0.75)
+
+
+@pytest.mark.parametrize("halfway", [0.0, 1.0, -3.0, 5.0, 0.001, 0.999, math.nan])
+def test_no_half_way(halfway):
+    with pytest.raises(TradeoffError, match="the value function of 'm' has no half-way quantity at") as error:
+        ExponentialValue(measure="m", worst=0.0, best=1.0, halfway=halfway)
+    assert error.value.hint.startswith("name a quantity between 0 and 1")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "value"), [(5.0, 0.0), (10.0, 0.0), (15.0, 0.5), (20.0, 1.0), (30.0, 0.75), (60.0, 0.0), (99.0, 0.0)]
+)
+def test_target_value(quantity, value):
+    function = TargetValue(measure="m", target=20.0, too_low=10.0, too_high=60.0)
+    assert function.value_at(quantity) == pytest.approx(value)
+    assert function.more_is_better is None
+
+
+@pytest.mark.parametrize(
+    ("target", "low", "high", "message"),
+    [
+        (5.0, 10.0, 60.0, "the target 5 of 'm' is not between 10 and 60"),
+        (20.0, 60.0, 10.0, "the target 20 of 'm' is not between 60 and 10"),
+        (10.0, 10.0, 60.0, "the value function of 'm' has no range"),
+        (math.nan, 10.0, 60.0, "the value function of 'm' is not anchored"),
+    ],
+)
+def test_target_out_of_order(target, low, high, message):
+    with pytest.raises(TradeoffError, match=message):
+        TargetValue(measure="m", target=target, too_low=low, too_high=high)
+
+
+@pytest.mark.parametrize(
+    "function",
+    [
+        PiecewiseValue(measure="m", worst=2.0, best=-1.0, interior=((1.0, 0.25), (0.0, 0.25))),
+        ExponentialValue(measure="m", worst=2.0, best=-1.0, halfway=1.5),
+        ExponentialValue(measure="m", worst=-1.0, best=2.0, halfway=0.5),
+        TargetValue(measure="m", target=0.5, too_low=-1.0, too_high=2.0),
+    ],
+)
+def test_columns_agree_with_single_values(function):
+    quantities = np.linspace(-2.0, 3.0, 101)
+    expected = [function.value_at(float(quantity)) for quantity in quantities]
+    np.testing.assert_allclose(value_column(function, quantities), expected, rtol=0, atol=1e-13)
+    assert np.isnan(value_column(function, np.array([math.nan]))).all()
+
+
+def test_a_column_of_an_unknown_kind_of_value():
+    class Other:
+        measure = "m"
+
+    with pytest.raises(TradeoffError, match="the value function of 'm' is of an unknown kind"):
+        value_column(Other(), np.zeros(1))

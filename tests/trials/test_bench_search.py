@@ -12,11 +12,11 @@ from rgss.trials.bench import (
     BenchSpec,
     PayloadLimit,
     Probe,
-    bench_digest,
     run_bench,
 )
+from rgss.trials.spec import bench_digest
 
-VERSIONS = {"pybullet": "3.2.7", "rgss-source": "abc", "ompl": "1.7.0"}
+VERSIONS = {"pybullet": "3.2.7", "rgss-bench": "abc", "ompl": "1.7.0", "rgss-plan": "def"}
 
 GRIPPER = Gripper(
     geometry=GripperGeometry(
@@ -201,9 +201,9 @@ def test_every_input_is_in_the_digest(changes):
 def test_what_is_no_input_is_not_in_the_digest():
     renamed = replace(SPEC, **changed_gripper(geometry=replace(GRIPPER.geometry, id="other")))
     assert bench_digest(renamed, VERSIONS) == bench_digest(SPEC, VERSIONS)
-    assert bench_digest(SPEC, {**VERSIONS, "ompl": "1.8.0"}) == bench_digest(SPEC, VERSIONS)
+    assert bench_digest(SPEC, {**VERSIONS, "ompl": "1.8.0", "rgss-plan": "other"}) == bench_digest(SPEC, VERSIONS)
 
 
-@pytest.mark.parametrize("name", ["pybullet", "rgss-source"])
+@pytest.mark.parametrize("name", ["pybullet", "rgss-bench"])
 def test_engine_and_code_are_in_the_digest(name):
     assert bench_digest(SPEC, {**VERSIONS, name: "another"}) != bench_digest(SPEC, VERSIONS)

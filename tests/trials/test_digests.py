@@ -11,18 +11,20 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import Fidelity
+from rgss.evidence import Fidelity, PieceKind
 from rgss.motion import ClockKind, PlanningClock
 from rgss.scenes import Pose
 from rgss.studies.expansion import trial_specs
 from rgss.trials.control import ControlSettings
 from rgss.trials.spec import digests_of
-from rgss.trials.versions import ENGINES, versions
+from rgss.trials.versions import ENGINES, ENTRIES, versions
 
-ALL = {"plan", "timing", "execution", "trial"}
-LATER = ALL - {"plan"}
+PLANNED = {"plan", "timing", "execution", "trial"}
+LATER = PLANNED - {"plan"}
 LAST = {"execution", "trial"}
-VERSIONS = {"pybullet": "3.2.7"}
+GRIPPED = {"execution", "bench", "trial"}
+ALL = PLANNED | {"bench"}
+VERSIONS = {"pybullet": "3.2.7", "ompl": "1.7.0", "toppra": "0.6.10", **{f"rgss-{name}": "a" for name in ENTRIES}}
 
 
 def changed(spec, other):
@@ -56,29 +58,37 @@ CHANGES = {
     "colour of a body": (set(), lambda spec: with_body(spec, colour=(0.0, 0.0, 0.0, 1.0))),
     "colour of the workpiece": (set(), lambda spec: with_workpiece(spec, colour=(0.0, 0.0, 0.0, 1.0))),
     "planning limit": ({"trial"}, lambda spec: replace(spec, planning_limit_s=3.0)),
-    "finger mass": (LAST, lambda spec: with_gripper(spec, finger_mass_kg=0.25)),
-    "base mass": (LAST, lambda spec: with_gripper(spec, base_mass_kg=0.25)),
-    "finger velocity": (LAST, lambda spec: with_gripper(spec, finger_velocity_m_s=0.03)),
-    "finger force": (LAST, lambda spec: with_gripper(spec, finger_force_n=9.0)),
-    "pad friction": (LAST, lambda spec: with_gripper(spec, friction=0.6)),
-    "fidelity": (LAST, lambda spec: replace(spec, fidelity=Fidelity.KINEMATIC)),
-    "physics rate": (LAST, lambda spec: with_settings(spec, "physics", rate_hz=480.0)),
-    "solver iterations": (LAST, lambda spec: with_settings(spec, "physics", solver_iterations=51)),
+    "mass of the workpiece": (LAST, lambda spec: with_workpiece(spec, mass_kg=0.3)),
+    "friction of a body": (LAST, lambda spec: with_body(spec, friction=0.3)),
+    "friction of the workpiece": (GRIPPED, lambda spec: with_workpiece(spec, friction=0.9)),
+    "force that the workpiece bears": (GRIPPED, lambda spec: with_workpiece(spec, force_limit_n=39.0)),
+    "gravity": (GRIPPED, lambda spec: with_scene(spec, gravity_m_s2=1.62)),
+    "finger mass": (GRIPPED, lambda spec: with_gripper(spec, finger_mass_kg=0.25)),
+    "base mass": (GRIPPED, lambda spec: with_gripper(spec, base_mass_kg=0.25)),
+    "finger velocity": (GRIPPED, lambda spec: with_gripper(spec, finger_velocity_m_s=0.03)),
+    "finger force": (GRIPPED, lambda spec: with_gripper(spec, finger_force_n=9.0)),
+    "pad friction": (GRIPPED, lambda spec: with_gripper(spec, friction=0.6)),
+    "physics rate": (GRIPPED, lambda spec: with_settings(spec, "physics", rate_hz=480.0)),
+    "solver iterations": (GRIPPED, lambda spec: with_settings(spec, "physics", solver_iterations=51)),
     "tool speed": (LATER, lambda spec: replace(spec, tool_speed_m_s=0.7)),
-    "planner": (ALL, lambda spec: replace(spec, planner="STRIDE")),
-    "seed": (ALL, lambda spec: replace(spec, seed=2)),
+    "planner": (PLANNED, lambda spec: replace(spec, planner="STRIDE")),
+    "seed": (PLANNED, lambda spec: replace(spec, seed=2)),
     "gripper's shape": (
         ALL,
         lambda spec: with_gripper(spec, geometry=replace(spec.gripper.geometry, grasp_depth_m=0.14)),
     ),
-    "pose of a body": (ALL, lambda spec: with_body(spec, pose=Pose(position_m=(0.0, 0.0, -0.02)))),
-    "pose of the workpiece": (ALL, lambda spec: with_workpiece(spec, pose=spec.scene.workpiece.pose.raised(0.001))),
-    "place": (ALL, lambda spec: with_scene(spec, place=replace(spec.scene.place, centre_m=(-0.25, 0.71, 0.9)))),
-    "task": (ALL, lambda spec: with_scene(spec, task=replace(spec.scene.task, lift_height_m=0.07))),
-    "clearance": (ALL, lambda spec: with_settings(spec, "planning", clearance_m=0.009)),
-    "search limit": (ALL, lambda spec: with_settings(spec, "planning", search_limit_s=9.0)),
-    "planning clock": (
+    "pose of a body": (PLANNED, lambda spec: with_body(spec, pose=Pose(position_m=(0.0, 0.0, -0.02)))),
+    "pose of the workpiece": (PLANNED, lambda spec: with_workpiece(spec, pose=spec.scene.workpiece.pose.raised(0.001))),
+    "place": (PLANNED, lambda spec: with_scene(spec, place=replace(spec.scene.place, centre_m=(-0.25, 0.71, 0.9)))),
+    "task": (PLANNED, lambda spec: with_scene(spec, task=replace(spec.scene.task, lift_height_m=0.07))),
+    "rated payload": (
         ALL,
+        lambda spec: with_scene(spec, robot=replace(spec.scene.robot, payload_kg=9.0)),
+    ),
+    "clearance": (PLANNED, lambda spec: with_settings(spec, "planning", clearance_m=0.009)),
+    "search limit": (PLANNED, lambda spec: with_settings(spec, "planning", search_limit_s=9.0)),
+    "planning clock": (
+        PLANNED,
         lambda spec: with_settings(spec, "planning", clock=PlanningClock(kind=ClockKind.WALL)),
     ),
 }
@@ -98,11 +108,36 @@ def test_every_threshold_is_an_input_of_the_execution(spec_of, name):
     assert changed(spec, with_settings(spec, "control", **{name: getattr(spec.settings.control, name) * 1.5})) == LAST
 
 
-def test_the_versions_are_inputs_of_every_piece(spec_of):
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("ompl", PLANNED),
+        ("toppra", LATER),
+        ("pybullet", GRIPPED),
+        ("rgss-plan", PLANNED),
+        ("rgss-timing", LATER),
+        ("rgss-execution", LAST),
+        ("rgss-bench", {"bench", "trial"}),
+        ("rgss-record", {"trial"}),
+    ],
+)
+def test_a_version_is_an_input_of_the_pieces_that_it_makes_and_of_those_after_them(spec_of, name, expected):
     before = digests_of(spec_of(), VERSIONS).as_mapping()
-    after = digests_of(spec_of(), {"pybullet": "3.2.8"}).as_mapping()
+    after = digests_of(spec_of(), {**VERSIONS, name: "another"}).as_mapping()
 
-    assert {name for name in before if before[name] != after[name]} == ALL
+    assert {name for name in before if before[name] != after[name]} == expected
+
+
+@pytest.mark.parametrize("fidelity", [Fidelity.KINEMATIC, Fidelity.DYNAMIC])
+def test_only_contact_knows_a_bench(spec_of, fidelity):
+    spec = spec_of()
+    other = digests_of(replace(spec, fidelity=fidelity), VERSIONS)
+
+    assert other.bench == ""
+    assert other.as_mapping().keys() == PLANNED
+    assert digests_of(spec, VERSIONS).as_mapping().keys() == ALL
+    assert (other.plan, other.timing) == (digests_of(spec, VERSIONS).plan, digests_of(spec, VERSIONS).timing)
+    assert other.execution != digests_of(spec, VERSIONS).execution
 
 
 def test_everything_in_a_scene_but_its_colours_is_an_input(spec_of):
@@ -131,23 +166,30 @@ def perturbed(value, path="scene"):
         yield path, value + 0.001
 
 
-def test_72_variants_and_a_seed_need_6_plans_12_timings_and_24_executions(project):
+def test_72_variants_and_a_seed_need_6_plans_12_timings_24_executions_and_4_benches(project):
     digests = [digests_of(spec, VERSIONS) for spec in trial_specs(project, seeds=[1])]
+    counts = {name: len({each.as_mapping()[name] for each in digests}) for name in digests[0].as_mapping()}
 
-    assert [len({getattr(each, name) for each in digests}) for name in ("plan", "timing", "execution", "trial")] == [
-        6,
-        12,
-        24,
-        72,
-    ]
+    assert counts == {"plan": 6, "timing": 12, "execution": 24, "bench": 4, "trial": 72}
 
 
-def test_versions_name_the_engines_and_the_source():
+def test_seeds_share_benches_and_nothing_else(project):
+    one, two = (
+        [digests_of(spec, VERSIONS).as_mapping() for spec in trial_specs(project, seeds=[seed])] for seed in (1, 2)
+    )
+
+    for name in ALL:
+        shared = {each[name] for each in one} & {each[name] for each in two}
+        assert len(shared) == (4 if name == "bench" else 0)
+
+
+def test_versions_name_the_engines_and_the_source_of_each_piece():
     found = versions()
+    engines = {name for names in ENGINES.values() for name in names}
 
-    assert set(found) == {*ENGINES, "rgss-source"}
-    assert re.fullmatch("[0-9a-f]{64}", found["rgss-source"])
-    assert all(re.match(r"\d+\.", found[engine]) for engine in ENGINES)
+    assert set(found) == {*engines, "rgss-record", *(f"rgss-{kind.value}" for kind in PieceKind)}
+    assert all(re.fullmatch("[0-9a-f]{64}", found[name]) for name in found if name.startswith("rgss-"))
+    assert all(re.match(r"\d+\.", found[engine]) for engine in engines)
 
 
 def test_another_process_finds_the_same_versions():

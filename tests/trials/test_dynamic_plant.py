@@ -37,6 +37,9 @@ KNOWN = {
     "peak_tool_acceleration_m_s2",
     "tracking_error_m",
     "peak_joint_torque_ratio",
+    "peak_joint_torque_n_m",
+    "most_loaded_joint",
+    "joint_saturated_s",
 }
 
 
@@ -126,6 +129,7 @@ def test_a_record_has_no_value_that_this_fidelity_cannot_know(dynamic):
         "peak_tool_acceleration_m_s2",
         "peak_joint_torque_n_m",
         "peak_joint_torque_ratio",
+        "most_loaded_joint",
         "joint_saturated_s",
         "opening_s",
     }

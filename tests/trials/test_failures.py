@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, replace
 
@@ -54,6 +55,26 @@ def with_control(spec, **changes):
     return replace(spec, settings=replace(spec.settings, control=replace(spec.settings.control, **changes)))
 
 
+def with_joint(spec, name, torque_n_m):
+    robot = spec.scene.robot
+    joints = tuple(replace(one, torque_n_m=torque_n_m) if one.name == name else one for one in robot.joints)
+    return with_scene(spec, robot=replace(robot, joints=joints))
+
+
+def with_slippery_slope(spec, slope_rad):
+    """The counter of the place without friction to speak of, turned about a line through the place."""
+    scene = spec.scene
+    about = Pose(position_m=scene.place.centre_m)
+    turn = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (slope_rad, 0.0, 0.0))
+    bodies = tuple(
+        replace(body, pose=about @ turn @ about.inverse() @ body.pose, friction=0.01)
+        if body.id == scene.place_support
+        else body
+        for body in scene.bodies
+    )
+    return with_scene(spec, bodies=bodies)
+
+
 def with_body(spec, size_m, position_m):
     body = SceneBody(
         id="obstacle", shape=Box(size_m=size_m), pose=Pose(position_m=position_m), friction=0.5, colour=(0, 0, 0, 1)
@@ -89,6 +110,14 @@ TRIALS = {
     "a place that is taken": (
         lambda spec: with_place(spec, centre_m=(-0.03, 0.68, 0.9)),
         (Failure.INVALID_GOAL, Phase.MOVE_TO_PLACE, "no collision-free configuration reaches place"),
+    ),
+    "a tool that hardly moves": (
+        lambda spec: replace(spec, tool_speed_m_s=1e-9),
+        (
+            Failure.TRAJECTORY_INFEASIBLE,
+            Phase.MOVE_TO_GRASP,
+            r"the move would take [\d.]+e\+08 s, more than 600 s \(the tool may move at 1e-09 m/s\)",
+        ),
     ),
     "fingers too weak": (
         lambda spec: with_gripper(spec, finger_force_n=0.3),
@@ -198,6 +227,26 @@ UNFORESEEN = {
         lambda spec: with_cup_at(spec, 0.74, -0.3),
         (Failure.OBJECT_DAMAGED, Phase.MOVE_TO_GRASP, r"a finger pressed with \d+\.\d\d N, the object bears 40 N"),
     ),
+    "a place that is not where it was": (
+        lambda spec: with_place(spec, centre_m=(-0.25, 0.64, 0.9)),
+        (
+            Failure.NOT_IN_PLACE_REGION,
+            Phase.PLACE,
+            r"the object is 60\.\d mm from the place and 0\.\d mm off its height",
+        ),
+    ),
+    "a counter that slopes and is slippery": (
+        lambda spec: with_slippery_slope(spec, math.radians(3.0)),
+        (Failure.NOT_RELEASED, Phase.PLACE, "1 fingers still touch the object"),
+    ),
+    "a shoulder too weak for its own arm": (
+        lambda spec: with_joint(spec, "shoulder_lift_joint", 60.0),
+        (
+            Failure.TRACKING_ERROR,
+            Phase.MOVE_TO_GRASP,
+            r"the tool was \d+\.\d\d mm from where it should be; at its torque limit: shoulder_lift_joint.*",
+        ),
+    ),
     "a cup that does not stay where it was": (
         lambda spec: with_workpiece(spec, pose=spec.scene.workpiece.pose.raised(0.008)),
         (Failure.OBJECT_COLLISION, Phase.MOVE_TO_GRASP, r"the object was pushed 8\.\d mm before the grasp"),
@@ -215,6 +264,37 @@ def test_what_planning_did_not_know_ends_the_trial(planned, name):
     assert re.fullmatch(detail, record.failure_detail)
     agrees_with_its_phases(record)
     assert (record.metrics["arm_scene_contacts"] > 0) is (failure is Failure.ARM_COLLISION)
+
+
+def test_every_failure_of_a_trial_is_produced_here():
+    produced = {failure for _, (failure, _, _) in (*TRIALS.values(), *UNFORESEEN.values())}
+    elsewhere = {
+        Failure.TRAJECTORY_IN_COLLISION,  # the next test
+        Failure.RUN_CRASHED,  # nothing that a trial finds out: the run itself broke
+    }
+
+    assert produced | elsewhere == set(Failure)
+    assert not produced & elsewhere
+
+
+@pytest.mark.verifies("SYS-016")
+def test_a_success_says_which_joint_was_at_its_limit(planned):
+    whole = planned.run_in(planned.spec)
+    needed = whole.metrics["peak_joint_torque_n_m"]
+    joints = [joint.name for joint in planned.spec.scene.robot.joints]
+    lift = joints.index("shoulder_lift_joint")
+    assert whole.metrics["joint_saturated_s"] == (0.0,) * 6
+    assert whole.metrics["most_loaded_joint"] == lift + 1
+
+    # So little less than the peak that the arm lags by less than a trial allows.
+    record = planned.run_in(with_joint(planned.spec, "shoulder_lift_joint", 0.999 * needed[lift]))
+    assert record.success
+    saturated = record.metrics["joint_saturated_s"]
+    assert saturated[lift] > 0.0
+    assert sum(saturated) == saturated[lift]
+    assert record.metrics["peak_joint_torque_n_m"][lift] == pytest.approx(0.999 * needed[lift])
+    assert record.metrics["peak_joint_torque_ratio"] == pytest.approx(1.0)
+    assert record.metrics["most_loaded_joint"] == lift + 1
 
 
 @pytest.mark.verifies("SYS-034")
@@ -278,7 +358,7 @@ class StickyWorld(World):
     [(StuckWorld, "a finger is still 2.0 mm from open"), (StickyWorld, "1 fingers still touch the object")],
 )
 def test_a_hand_that_does_not_let_go_is_named(planned, monkeypatch, world, detail):
-    monkeypatch.setattr("rgss.trials.run.World", world)
+    monkeypatch.setattr("rgss.trials.executing.World", world)
     record = planned.run_in(planned.spec)
 
     assert (record.failure, record.failed_phase) == (Failure.NOT_RELEASED, Phase.PLACE)

@@ -127,6 +127,7 @@ def made(spec, state):
     return simulation
 
 
+@pytest.mark.verifies("SYS-022")
 def test_from_the_first_to_the_last_state(trial):
     simulation = Simulation(trial())
     states = [simulation.state]
@@ -145,6 +146,7 @@ def test_from_the_first_to_the_last_state(trial):
     assert record.success
 
 
+@pytest.mark.verifies("SYS-022")
 @pytest.mark.parametrize(
     ("state", "action", "text"),
     [
@@ -197,6 +199,7 @@ def test_a_running_simulation_refuses_to_start_again(trial):
     ]
 
 
+@pytest.mark.verifies("SYS-039")
 def test_a_pause_holds_between_two_steps_and_leaves_no_trace(trial):
     spec = trial(Fidelity.CONTACT)
     bystander = Bystander(100)
@@ -258,6 +261,7 @@ def test_what_is_paused_and_resumed_before_it_runs_is_ready(trial):
         assert simulation.execute().success
 
 
+@pytest.mark.verifies("SYS-039")
 def test_a_dynamic_simulation_pauses_between_two_steps(trial, monkeypatch):
     spec, steps, step = trial(Fidelity.DYNAMIC), [], TorqueArm.step
 

@@ -61,6 +61,15 @@ def result(phase, **changes):
         "peak_tool_speed_m_s": 1.0 / number,
         "peak_tool_acceleration_m_s2": float(number == 4),
     }
+    metrics |= {
+        "peak_joint_torque_n_m": (float(number), 5.0, 5.0, 5.0, 5.0, 1.0 / number),
+        "joint_saturated_s": (0.0, 0.0, 0.0, 0.0, 0.0, 0.25),
+        "most_loaded_joint": number,
+    }
+    if phase is Phase.GRASP or phase in CARRYING:
+        metrics |= {"grasp_q_msv_1": float(number), "held_distance_m": 1e-4 * number, "contacts_slipping": number}
+    if phase in CARRYING:
+        metrics |= {"grasp_samples": 10, "grasp_samples_closed": 9}
     if phase is Phase.PLACE:
         metrics |= {"opening_s": 0.25, "place_error_m": 0.9, "place_tilt_rad": 0.8}
     if phase is Phase.MOVE_TO_GRASP_APPROACH:
@@ -126,7 +135,39 @@ def test_every_metric_is_named_with_its_length(spec, checks, execution):
 
     assert set(metrics) == set(METRICS)
     for name, kind in METRICS.items():
-        assert kind.length is None or len(metrics[name]) == kind.length
+        assert kind.length is None or metrics[name] is None or len(metrics[name]) == kind.length
+
+
+def test_the_load_of_each_joint_is_that_of_all_phases(spec):
+    metrics = assemble_record(spec, plan_of(*(1000,) * 5), {}, EXECUTION).metrics
+
+    # The torque of the first joint grows from phase to phase, that of the last falls.
+    assert metrics["peak_joint_torque_n_m"] == (8.0, 5.0, 5.0, 5.0, 5.0, 1.0)
+    assert metrics["joint_saturated_s"] == (0.0, 0.0, 0.0, 0.0, 0.0, 2.0)
+    # The greatest ratio is that of the last phase.
+    assert metrics["most_loaded_joint"] == 8
+
+
+def test_the_grasp_is_at_its_worst_over_the_carry_and_as_it_was_closed(spec):
+    metrics = assemble_record(spec, plan_of(*(1000,) * 5), {}, EXECUTION).metrics
+
+    # Phases 3 to 6 carry; the grasp itself, phase 2, would be the worst of all.
+    assert metrics["grasp_q_msv_1"] == 3.0
+    assert metrics["held_distance_m"] == pytest.approx(6e-4)
+    assert metrics["contacts_slipping"] == 6
+    assert (metrics["grasp_samples"], metrics["grasp_force_closure_share_1"]) == (40, pytest.approx(36 / 40))
+    assert (metrics["at_grasp_q_msv_1"], metrics["at_grasp_contacts_slipping"]) == (2.0, 2)
+    assert metrics["grasp_q_gpri_1"] is metrics["at_grasp_q_gpri_1"] is None
+
+
+def test_a_trial_that_never_carried_knows_nothing_of_the_carry(spec):
+    metrics = assemble_record(spec, plan_of(9000), {}, ()).metrics
+    assert metrics["at_grasp_q_msv_1"] is metrics["joint_saturated_s"] is metrics["most_loaded_joint"] is None
+
+    failed = result(Phase.LIFT, failure=Failure.ARM_COLLISION, detail="x", metrics={})
+    metrics = assemble_record(spec, plan_of(*(1000,) * 5), {}, (*EXECUTION[:2], failed)).metrics
+    assert metrics["at_grasp_q_msv_1"] == 2.0
+    assert metrics["grasp_q_msv_1"] is metrics["grasp_samples"] is metrics["grasp_force_closure_share_1"] is None
 
 
 def test_a_limit_cuts_the_trial_before_the_move_that_comes_too_late(spec):

@@ -12,7 +12,7 @@ import pytest
 from rgss.errors import DefinitionError
 from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, record_digest
 from rgss.trials.plan import plan_task
-from rgss.trials.run import Pieces, run_shared, run_trial
+from rgss.trials.run import Pieces, run_trial
 from rgss.trials.spec import digests_of
 from rgss.trials.versions import versions
 from rgss.trials.workcell import Workcell
@@ -38,9 +38,9 @@ def limited(replicate):
     return [number for number, record in replicate.records.items() if record.failure is Failure.PLANNING_LIMIT]
 
 
-def test_72_variants_need_6_plans_12_timings_and_24_executions(replicate):
+def test_72_variants_need_6_plans_12_timings_24_executions_and_4_benches(replicate):
     assert len(replicate.records) == 72
-    assert replicate.made == {"plan": 6, "timing": 12, "execution": 24}
+    assert replicate.made == {"plan": 6, "timing": 12, "execution": 24, "bench": 4}
 
 
 @pytest.mark.verifies("SYS-021")
@@ -61,7 +61,8 @@ def test_this_replicate_has_trials_that_a_limit_ends(replicate):
 @pytest.mark.verifies("SYS-021")
 def test_order_does_not_matter(replicate):
     some = [number for number in replicate.specs if replicate.specs[number].planner == "RRT"][:6]
-    records = {spec.variant: record for spec, _, record in run_shared(replicate.specs[number] for number in some[::-1])}
+    pieces = Pieces()
+    records = {number: pieces.record(replicate.specs[number]) for number in some[::-1]}
 
     assert {number: record_digest(record) for number, record in records.items()} == {
         number: record_digest(replicate.records[number]) for number in some
@@ -80,15 +81,6 @@ def test_another_process_gives_the_same_bits(replicate, project):
 
     assert (run.returncode, run.stderr) == (0, "")
     assert run.stdout.split() == [word for n in some for word in (str(n), record_digest(replicate.records[n]))]
-
-
-def test_shared_trials_come_with_their_digests(replicate):
-    spec = replicate.specs[65]
-    ((given, digests, record),) = run_shared([spec])
-
-    assert given is spec
-    assert digests == digests_of(spec, versions())
-    assert record.variant == 65
 
 
 def test_a_limit_beyond_the_search_is_refused(replicate):

@@ -32,9 +32,16 @@ class ScriptedWorld:
         self.tool = TOOL
         self.workpiece = TOOL @ HELD
         self.torques = (0.0,) * 6
+        self.velocity = (0.0, 0.0, 0.0)
 
     def contacts(self):
         return self.now
+
+    def finger_contacts(self):
+        return ()
+
+    def finger_travel_m(self):
+        return (0.0,) * self.gripper.geometry.fingers
 
     def tool_pose(self):
         return self.tool
@@ -42,8 +49,11 @@ class ScriptedWorld:
     def workpiece_pose(self):
         return self.workpiece
 
-    def arm_state(self):
-        return (0.0,) * 6, (0.0,) * 6, self.torques
+    def tool_velocity(self):
+        return self.tool.position_m, self.velocity
+
+    def motor_torques_n_m(self):
+        return self.torques
 
 
 @pytest.fixture
@@ -67,8 +77,8 @@ def contacts(*forces, other=0.0, robot=(), workpiece=()):
 
 def seen(world, watch, what, steps=1, load=9.81):
     world.now = what
-    for index in range(steps):
-        watch.after_step(index, load, None)
+    for _ in range(steps):
+        watch.after_step(load, None)
     return watch.failure, watch.detail
 
 
@@ -167,35 +177,103 @@ def test_fingers_may_let_go_of_what_is_not_carried(world):
 
 def test_slip_is_the_displacement_in_the_gripper(world):
     watch = watch_of(world, carried=True)
+    looked = 4  # steps from one look to the next
     # Arm and object moved together: no slip.
     moved = Pose(position_m=(0.5, -0.4, 0.9), quaternion_xyzw=(0.0, 1.0, 0.0, 0.0))
     world.tool, world.workpiece = moved, moved @ HELD
-    seen(world, watch, contacts(9.0, 9.0))
+    seen(world, watch, contacts(9.0, 9.0), steps=looked)
     assert watch.metrics()["slip_m"] == pytest.approx(0.0, abs=1e-12)
 
     world.workpiece = moved @ Pose(position_m=(0.0, 0.004, 0.013))
-    seen(world, watch, contacts(9.0, 9.0))
+    seen(world, watch, contacts(9.0, 9.0), steps=looked)
     assert watch.metrics()["slip_m"] == pytest.approx(0.005)
     assert watch.failure is None
 
     world.workpiece = moved @ Pose(position_m=(0.0, 0.0, 0.0305))
-    assert seen(world, watch, contacts(9.0, 9.0)) == (
+    assert seen(world, watch, contacts(9.0, 9.0), steps=looked) == (
         Failure.OBJECT_DROPPED,
         "the object slipped 20.5 mm in the gripper",
     )
 
 
+def test_the_object_is_looked_at_when_the_phase_ends(world):
+    watch = watch_of(world, carried=True)
+    world.workpiece = TOOL @ Pose(position_m=(0.0, 0.003, 0.01))
+    seen(world, watch, contacts(9.0, 9.0))
+    assert watch.metrics()["slip_m"] == 0.0
+
+    watch.finish()
+    assert watch.metrics()["slip_m"] == pytest.approx(0.003)
+
+
+def test_the_grasp_is_sampled_four_times_a_second_and_at_the_end(world):
+    watch = watch_of(world, carried=True)
+    seen(world, watch, contacts(9.0, 9.0), steps=150)
+    assert watch.metrics()["grasp_samples"] == 2
+
+    watch.finish()
+    metrics = watch.metrics()
+    assert metrics["grasp_samples"] == 3
+    # The scripted world has no contacts to analyse: such a grasp holds nothing.
+    assert (metrics["grasp_samples_closed"], metrics["grasp_force_closure"], metrics["grasp_q_smw_n"]) == (0, 0, 0.0)
+    assert (metrics["held_distance_m"], metrics["held_speed_m_s"]) == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert "contact_gap_min_m" not in metrics
+
+
+def test_a_sample_at_the_end_is_not_counted_twice(world):
+    watch = watch_of(world, carried=True)
+    seen(world, watch, contacts(9.0, 9.0), steps=120)
+    watch.finish()
+
+    assert watch.metrics()["grasp_samples"] == 2
+
+
+def follow(world, watch, commanded, steps=1):
+    for _ in range(steps):
+        watch.after_step(9.81, commanded)
+
+
 def test_a_tool_that_strays_is_a_failure(world):
     watch = watch_of(world)
-    watch.finish((0.1, 0.2, 0.3015))
+    follow(world, watch, (0.1, 0.2, 0.3015))
     assert watch.failure is None
     assert watch.metrics()["tracking_error_m"] == pytest.approx(0.0015)
 
-    watch.finish((0.1, 0.2, 0.3025))
+    follow(world, watch, (0.1, 0.2, 0.3025))
     assert (watch.failure, watch.detail) == (
         Failure.TRACKING_ERROR,
         "the tool was 2.50 mm from where it should be",
     )
+
+
+def test_a_tool_that_strays_because_joints_are_at_their_limit_names_them(world):
+    watch = watch_of(world)
+    limits = [joint.torque_n_m for joint in world.scene.robot.joints]
+    names = [joint.name for joint in world.scene.robot.joints]
+    for saturated in ((2,), (0, 2)):
+        world.torques = tuple(-limit if index in saturated else 0.1 * limit for index, limit in enumerate(limits))
+        follow(world, watch, TOOL.position_m, steps=3)
+    follow(world, watch, (0.1, 0.2, 0.4))
+
+    assert watch.failure is Failure.TRACKING_ERROR
+    assert watch.detail == (
+        f"the tool was 100.00 mm from where it should be; at its torque limit: {names[2]}, then {names[0]}"
+    )
+    metrics = watch.metrics()
+    step_s = world.settings.step_s
+    assert metrics["joint_saturated_s"] == pytest.approx((4 * step_s, 0.0, 7 * step_s, 0.0, 0.0, 0.0))
+    assert metrics["peak_joint_torque_ratio"] == 1.0
+    assert metrics["most_loaded_joint"] == 1
+
+
+def test_no_saturation_between_two_looks_is_missed(world):
+    watch = watch_of(world, carried=True)
+    limits = [joint.torque_n_m for joint in world.scene.robot.joints]
+    for index in range(8):
+        world.torques = tuple(limits) if index == 2 else (0.0,) * 6
+        seen(world, watch, contacts(9.0, 9.0))
+
+    assert watch.metrics()["joint_saturated_s"] == pytest.approx((world.settings.step_s,) * 6)
 
 
 def test_the_torque_ratio_is_the_largest_share_of_a_joints_limit(world):
@@ -203,7 +281,44 @@ def test_the_torque_ratio_is_the_largest_share_of_a_joints_limit(world):
     limits = [joint.torque_n_m for joint in world.scene.robot.joints]
     for torques in ((-0.5 * limits[0], 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.25 * limits[4], 0.0)):
         world.torques = torques
-        watch.finish(None)
+        watch.after_step(9.81, None)
 
-    assert watch.metrics()["peak_joint_torque_ratio"] == pytest.approx(0.5)
-    assert watch.metrics()["tracking_error_m"] == 0.0
+    metrics = watch.metrics()
+    assert metrics["peak_joint_torque_ratio"] == pytest.approx(0.5)
+    assert metrics["most_loaded_joint"] == 1
+    assert metrics["peak_joint_torque_n_m"] == pytest.approx((0.5 * limits[0], 0, 0, 0, 0.25 * limits[4], 0))
+    assert metrics["joint_saturated_s"] == (0.0,) * 6
+    assert metrics["tracking_error_m"] == 0.0
+
+
+def test_the_tool_is_measured_while_it_follows(world):
+    watch = watch_of(world)
+    follow(world, watch, TOOL.position_m)
+    assert watch.metrics()["peak_tool_speed_m_s"] == 0.0
+
+    world.velocity = (0.3, 0.0, -0.4)
+    follow(world, watch, TOOL.position_m)
+    world.velocity = (0.1, 0.0, 0.0)
+    follow(world, watch, TOOL.position_m)
+    assert watch.metrics()["peak_tool_speed_m_s"] == pytest.approx(0.5)
+
+
+def test_the_acceleration_is_averaged_as_a_sensor_does(world):
+    watch = watch_of(world)
+    step_s = world.settings.step_s
+    for index in range(1, 25):
+        # 2 m/s² along x, with a ripple that from one step to the next is 96 m/s².
+        world.velocity = (2.0 * index * step_s + (0.4 if index == 12 else 0.0), 0.0, 0.0)
+        follow(world, watch, TOOL.position_m)
+    window_s = round(CONTROL.acceleration_window_s / step_s) * step_s
+
+    assert watch.metrics()["peak_tool_acceleration_m_s2"] == pytest.approx(2.0 + 0.4 / window_s)
+
+
+def test_a_tool_that_is_not_followed_is_not_measured(world):
+    watch = watch_of(world)
+    world.velocity = (1.0, 0.0, 0.0)
+    seen(world, watch, QUIET, steps=5)
+
+    assert watch.metrics()["peak_tool_speed_m_s"] is None
+    assert watch.metrics()["peak_tool_acceleration_m_s2"] is None

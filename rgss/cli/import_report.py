@@ -1,0 +1,71 @@
+"""What an import changes, for people and for programs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rgss.exchange.applying import FileChange
+    from rgss.exchange.comparison import ElementChange
+
+_LONGEST = 70
+_CONTEXT = 15
+
+
+def print_report(changes: Sequence[ElementChange], notes: Sequence[str]) -> None:
+    """Print each change by id, attribute by attribute, and what of the file is left aside."""
+    for change in changes:
+        print(f"{change.kind.value} {change.part.value} {_safe(change.id)}")
+        for each in change.attributes:
+            old, new = _excerpts(each.old, each.new)
+            if each.attribute.name == "id":
+                continue
+            before = f"{old} -> " if change.kind.value == "changed" else ""
+            print(f"  {each.attribute.name}: {before}{new}")
+    for note in notes:
+        print(f"note: {_safe(note)}")
+
+
+def report_as_json(
+    changes: Sequence[ElementChange], notes: Sequence[str], files: Sequence[FileChange], *, applied: bool
+) -> dict[str, Any]:
+    """The changes in full, as plain data."""
+    return {
+        "applied": applied,
+        "files": [file.name for file in files],
+        "changes": [
+            {
+                "kind": change.kind.value,
+                "part": change.part.value,
+                "id": change.id,
+                "attributes": [
+                    {"name": each.attribute.name, "old": each.old, "new": each.new} for each in change.attributes
+                ],
+            }
+            for change in changes
+        ],
+        "notes": list(notes),
+    }
+
+
+def _excerpts(old: str, new: str) -> tuple[str, str]:
+    """Both texts, cut to where they differ."""
+    shared = next(
+        (at for at, pair in enumerate(zip(old, new, strict=False)) if pair[0] != pair[1]), min(len(old), len(new))
+    )
+    start = 0 if max(len(old), len(new)) <= _LONGEST else max(0, shared - _CONTEXT)
+    return _excerpt(old, start), _excerpt(new, start)
+
+
+def _excerpt(text: str, start: int) -> str:
+    if not text:
+        return "(empty)"
+    cut = text[start : start + _LONGEST]
+    before, after = "…" if start else "", "…" if start + _LONGEST < len(text) else ""
+    return f"'{before}{_safe(cut)}{after}'"
+
+
+def _safe(text: str) -> str:
+    """Text that comes from a file must not steer the terminal; breaks of lines are shown as ⏎."""
+    return "".join(each if each.isprintable() else "⏎" if each == "\n" else "�" for each in text)

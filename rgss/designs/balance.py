@@ -1,0 +1,119 @@
+"""A balanced part of a set of designs.
+
+A part is balanced when each level of each factor, and each pair of levels of two factors, is in it
+as often as in any other design of its size. Xu's measure of this for designs of mixed levels is
+
+    J2 = Σ_{i<j} δ_ij²,   δ_ij = Σ_k w_k [design i and design j have the same level of factor k]
+
+with the number of levels of a factor as its weight; it is least for orthogonal arrays (H. Xu, *An
+algorithm for constructing orthogonal and nearly-orthogonal arrays with mixed levels and small runs*,
+Technometrics 44, 2002). The same sum with δ in place of δ² counts single levels alone. Designs are
+taken one by one so that the two grow least, single levels first, and then exchanged
+for better ones; of several starts the best is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from random import Random
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+
+LARGEST_BLOCK = 2_048
+"""Designs among which a part is chosen at once; of more, each block of so many gives its part."""
+
+_BINS = 4
+_MOST_PASSES = 20
+_MOST_STARTS = 32
+_WORK = 100_000
+"""Pairs of designs that starts may compare in all; one start is made whatever it costs."""
+
+
+def balanced_part(rows: Sequence[Sequence[int]], count: int) -> tuple[int, ...]:
+    """Choose designs that are balanced over the levels of their factors.
+
+    The same rows and count give the same part on every machine: all arithmetic is in whole numbers,
+    and of equally good designs the first is taken.
+
+    Args:
+        rows: The level of each factor of each design, as a number.
+        count: How many to choose, from 0 to all.
+
+    Returns:
+        Their places in the rows, rising.
+    """
+    chosen: list[int] = []
+    total = len(rows)
+    for start in range(0, total, LARGEST_BLOCK):
+        end = min(start + LARGEST_BLOCK, total)
+        here = count * end // total - count * start // total
+        chosen += [start + place for place in _part(rows[start:end], here)]
+    return tuple(chosen)
+
+
+def binned(share: float) -> int:
+    """The quarter of a range in which a value lies, which stands for its level.
+
+    Args:
+        share: How far the value is from the low end, as a share of the range.
+    """
+    return min(int(share * _BINS), _BINS - 1)
+
+
+def _part(rows: Sequence[Sequence[int]], count: int) -> list[int]:
+    import numpy as np
+
+    if not rows or not rows[0] or count in (0, len(rows)):
+        return list(range(count))
+    levels = np.asarray(rows, dtype=np.int64)
+    weights = np.array([len(np.unique(column)) for column in levels.T], dtype=np.int64)
+    # So heavy that no sum of squares over the part outweighs a difference in the counts of single levels.
+    single = int(weights.sum()) ** 2 * (count + 1) + 1
+
+    def alike(place: int) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+        """How much each design has in common with one of them."""
+        common = (levels == levels[place]) @ weights
+        return np.asarray(single * common + common**2, dtype=np.int64)
+
+    best: tuple[int, list[int]] | None = None
+    for start in range(max(1, min(_MOST_STARTS, _WORK // (len(rows) * count)))):
+        # The first start takes the designs one by one, the others exchange what chance took.
+        first = [] if start == 0 else Random(start).sample(range(len(rows)), count)  # noqa: S311 - no secret
+        found = _improved(len(rows), count, first, alike)
+        if best is None or found < best:
+            best = found
+    return [] if best is None else best[1]
+
+
+def _improved(
+    size: int, count: int, first: Sequence[int], alike: Callable[[int], np.ndarray[tuple[int], np.dtype[np.int64]]]
+) -> tuple[int, list[int]]:
+    """Fill a part, exchange its designs while that makes it more balanced, and say how far it is from that."""
+    import numpy as np
+
+    taken = np.zeros(size, dtype=bool)
+    score = np.zeros(size, dtype=np.int64)
+    never = np.iinfo(np.int64).max
+    for place in first:
+        taken[place] = True
+        score += alike(place)
+    for _ in range(count - len(first)):
+        place = int(np.argmin(np.where(taken, never, score)))
+        taken[place] = True
+        score += alike(place)
+    for _ in range(_MOST_PASSES):
+        changed = False
+        for place in [int(one) for one in np.flatnonzero(taken)]:
+            own = alike(place)
+            # What each other design would have in common with the part without this one.
+            others = np.where(taken, never, score - own)
+            best = int(np.argmin(others))
+            if others[best] < score[place] - own[place]:
+                taken[place], taken[best] = False, True
+                score += alike(best) - own
+                changed = True
+        if not changed:
+            break
+    return int(score[taken].sum()), [int(place) for place in np.flatnonzero(taken)]

@@ -1,0 +1,162 @@
+"""Choosing some of the variants of a design space by a text, as ``--only`` takes it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+
+from rgss.designs.balance import balanced_part, binned
+from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
+from rgss.designs.findings import near_hint
+from rgss.designs.parameters import ParameterKind
+from rgss.designs.sources import COMPONENT_PREFIX, DESIGN_PREFIX, source_units
+from rgss.designs.space import DesignSpace
+from rgss.designs.variants import DesignVariant
+from rgss.errors import DefinitionError, QuantityError
+from rgss.findings import shown
+
+_FRACTION = re.compile(r"([0-9]{1,6})\s*/\s*([0-9]{1,6})", re.ASCII)
+_RANGE = re.compile(r"([0-9]{1,12})(?:\s*-\s*([0-9]{1,12}))?", re.ASCII)
+_EQUALS = re.compile(r"(?P<name>[A-Za-z][A-Za-z0-9_.-]*)\s*(?P<sign>!=|==|=)\s*(?P<value>[^=<>!]+)")
+_COMPARISON = re.compile(r"[<>]|==|!=")
+
+Filter = Callable[[DesignVariant], bool]
+
+
+def picked(space: DesignSpace, terms: Sequence[str], *, option: str = "--only") -> tuple[DesignVariant, ...]:
+    """The variants that every one of some terms chooses.
+
+    A term is one of
+
+    - ids and filters with commas between them, which choose what any of them does: ``1,5,60-72``,
+      ``d8=RRT,d8=TRRT``. A filter compares a parameter, a factor's level or a component with a value
+      (``d8=RRT``, ``fingers=two``, ``gripper!=kg-2-light``), or is a constraint as in the file of
+      the design space (``d7 <= 0.8 m/s``, ``d1 * d2 < 1 kg``);
+    - a fraction such as ``1/4``: so many of the variants that the terms before it choose, balanced
+      over the levels of their factors.
+
+    Args:
+        space: The design space.
+        terms: The terms, in order.
+        option: What the user knows them by.
+
+    Raises:
+        DefinitionError: A term says nothing that is known, or nothing is left.
+    """
+    variants = space.expand()
+    for term in terms:
+        fraction = _FRACTION.fullmatch(term.strip())
+        before = variants
+        if fraction is not None:
+            variants = _fraction(space, variants, int(fraction[1]), int(fraction[2]), option)
+        else:
+            filters = [_filter(space, part.strip(), option) for part in term.split(",")]
+            variants = tuple(one for one in variants if any(holds(one) for holds in filters))
+        if before and not variants:
+            raise DefinitionError(
+                f"{option}: no variant is left at {term.strip()!r}", hint="'rgss variants' lists all of them"
+            )
+    return variants
+
+
+def _fraction(
+    space: DesignSpace, variants: tuple[DesignVariant, ...], part: int, of: int, option: str
+) -> tuple[DesignVariant, ...]:
+    if not 0 < part < of:
+        raise DefinitionError(f"{option}: {part}/{of} is no part of the variants", hint="write a fraction such as 1/4")
+    count = max(1, (2 * len(variants) * part + of) // (2 * of))
+    rows = [_codes(space, variant) for variant in variants]
+    return tuple(variants[place] for place in balanced_part(rows, min(count, len(variants))))
+
+
+def _codes(space: DesignSpace, variant: DesignVariant) -> list[int]:
+    """The level of each factor as a number; of a range, the quarter of it."""
+    codes = []
+    for factor in space.factors:
+        if factor.span is not None:
+            span = factor.span
+            codes.append(binned((float(variant.parameters[span.parameter]) - span.low) / (span.high - span.low)))
+        else:
+            codes.append(next(place for place, one in enumerate(factor.levels) if one.id == variant.levels[factor.id]))
+    return codes
+
+
+def _filter(space: DesignSpace, text: str, option: str) -> Filter:
+    if _RANGE.fullmatch(text):
+        return _ids(space, text, option)
+    if _FRACTION.fullmatch(text):
+        raise DefinitionError(
+            f"{option}: the fraction {text!r} stands among others", hint=f"give it an {option} of its own"
+        )
+    equals = _EQUALS.fullmatch(text)
+    if equals is not None:
+        found = _equals(space, equals["name"], equals["value"].strip(), option)
+        if found is not None:
+            return found if equals["sign"] != "!=" else lambda variant: not found(variant)
+    if _COMPARISON.search(text):
+        try:
+            constraint = parse_constraint(text, source_units(space.parameters, space.catalogue))
+        except ConstraintProblem as problem:
+            raise DefinitionError(f"{option}: {shown(text)}: {problem.message}", hint=problem.hint) from None
+        return lambda variant: constraint.holds(variant.parameters, variant.components)
+    if equals is not None:
+        hint = near_hint(equals["name"], _known_names(space), "known names")
+        raise DefinitionError(f"{option}: nothing is named {equals['name']!r}", hint=hint)
+    raise DefinitionError(f"{option}: {text!r} is no id or range", hint="write ids such as 1,5,60-72")
+
+
+def _ids(space: DesignSpace, text: str, option: str) -> Filter:
+    match = _RANGE.fullmatch(text)
+    first = int(match[1]) if match else 0
+    last = int(match[2]) if match and match[2] else first
+    known = {variant.id for variant in space.expand()}
+    excluded = {one.id: one.rules for one in space.excluded()}
+    repeats = space.sample.repeats if space.sample is not None else {}
+    looked_at = {*known, *excluded, *repeats}
+    unknown = next((number for number in range(first, last + 1) if number not in looked_at), None)
+    if unknown is not None or first > last:
+        raise DefinitionError(
+            f"{option}: there is no variant {text if unknown is None else unknown}",
+            hint=f"ids go from {min(known)} to {max(known)}",
+        )
+    if first == last and first not in known:
+        why = f"repeats variant {repeats[first]}" if first in repeats else f"breaks rule {excluded[first][0]!r}"
+        raise DefinitionError(f"{option}: {first} is no variant: it {why}", hint="'rgss variants' lists all of them")
+    return lambda variant: first <= variant.id <= last
+
+
+def _equals(space: DesignSpace, name: str, value: str, option: str) -> Filter | None:
+    """A filter on one name and its value; None if nothing has the name."""
+    bare = name.removeprefix(DESIGN_PREFIX)
+    parameter = next((one for one in space.parameters if one.id == bare), None)
+    if parameter is not None:
+        try:
+            counted = parameter.kind is ParameterKind.COUNT and value.isdecimal()
+            wanted = parameter.read(int(value) if counted else value)
+        except QuantityError as error:
+            raise DefinitionError(f"{option}: {name}: {error.message}", hint=error.hint) from error
+        if parameter.kind is ParameterKind.NAME:
+            _require(option, name, value, {str(one.parameters[bare]) for one in space.expand()})
+        return lambda variant: variant.parameters[bare] == wanted
+    factor = next((one for one in space.factors if one.id == name), None)
+    if factor is not None:
+        if factor.span is None:
+            _require(option, name, value, {level.id for level in factor.levels})
+        return lambda variant: variant.levels[name] == value
+    role = name.removeprefix(COMPONENT_PREFIX)
+    if role in {one.id for one in space.catalogue.roles}:
+        _require(option, name, value, {one.id for one in space.catalogue.of_role(role)})
+        return lambda variant: variant.components[role].id == value
+    return None
+
+
+def _require(option: str, name: str, value: str, known: set[str]) -> None:
+    if value not in known:
+        raise DefinitionError(
+            f"{option}: {name} is never {value!r}", hint=near_hint(value, known, f"known values of {name}")
+        )
+
+
+def _known_names(space: DesignSpace) -> set[str]:
+    parameters, factors = ({one.id for one in some} for some in (space.parameters, space.factors))
+    return parameters | factors | {role.id for role in space.catalogue.roles}

@@ -1,0 +1,228 @@
+"""From the events of a YAML parser to plain data and the place of each part of it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import yaml
+from yaml.events import (
+    AliasEvent,
+    DocumentStartEvent,
+    Event,
+    MappingEndEvent,
+    ScalarEvent,
+    SequenceEndEvent,
+    SequenceStartEvent,
+    StreamEndEvent,
+)
+
+from rgss.documents.positions import ListPlaces, MappingPlaces, Mark, Places, Position, mark_of, position_of
+from rgss.documents.refusals import MOST_PROBLEMS, cut_short, end_of, refusal
+from rgss.errors import DocumentError
+from rgss.findings import Finding, shown
+
+DEEPEST_NESTING = 40
+MOST_VALUES = 250_000
+
+# What YAML counts as printable. A byte order mark may stand only at the start.
+_NOT_PRINTABLE = re.compile(r"[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
+_LONE_SURROGATE = re.compile(r"[\ud800-\udfff]")
+_INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]{0,17})")
+_FLOAT = re.compile(
+    r"[+-]?(((0|[1-9][0-9]*)\.[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,3})?|(0|[1-9][0-9]*)[eE][+-]?[0-9]{1,3})"
+)
+_NUMBER_START = frozenset("+-.0123456789")
+_CONSTANTS: Mapping[str, bool | None] = {"": None, "~": None, "null": None, "true": True, "false": False}
+
+
+class Composer:
+    """Builds data and places from parser events, within the nesting and the size that are allowed."""
+
+    def __init__(self, text: str, label: str) -> None:
+        """Take a text.
+
+        Args:
+            text: The text of a file.
+            label: The file's name in messages.
+        """
+        self._text = text
+        self._label = label
+        self._findings: list[Finding] = []
+        self._end: Position | None = None
+        self._room = MOST_VALUES
+        self._next: Callable[[], Any] = lambda: None
+
+    def compose(self) -> tuple[Any, Places]:
+        """Read the whole text.
+
+        Returns:
+            Its data, and where each part of it stands.
+
+        Raises:
+            DocumentError: It is not YAML, empty, or uses a part of YAML that is refused; with
+                every such problem that could be found.
+        """
+        data: Any = None
+        places: Places = mark_of(0, 0)
+        unprintable = _NOT_PRINTABLE.search(self._text)
+        if unprintable:
+            character = f"U+{ord(unprintable[0]):04X}"
+            place = end_of(self._text[: unprintable.start()])
+            self._report("character", f"the character {character} is not allowed", place, "remove it")
+        else:
+            try:
+                data, places = self._compose_stream()
+            except yaml.MarkedYAMLError as error:
+                mark: Any = error.problem_mark or error.context_mark
+                place = self._position(mark_of(mark.line, mark.column))
+                problem = " ".join(str(part) for part in (error.context, error.problem) if part)
+                self._report("syntax", f"not valid YAML: {problem}", place)
+        if self._findings:
+            raise self._error()
+        return data, places
+
+    def end(self) -> Position:
+        """Line and column of the end of the text.
+
+        Where a file does not end with a line break, libyaml counts one more line than there is.
+        """
+        if self._end is None:
+            self._end = end_of(self._text)
+        return self._end
+
+    def _compose_stream(self) -> tuple[Any, Places]:
+        loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)(self._text)
+        try:
+            self._next = loader.get_event
+            return self._compose_documents()
+        finally:
+            loader.dispose()
+
+    def _compose_documents(self) -> tuple[Any, Places]:
+        data: Any = None
+        places: Places = mark_of(0, 0)
+        documents = 0
+        event = self._next()
+        while not isinstance(event, StreamEndEvent):
+            if isinstance(event, DocumentStartEvent):
+                documents += 1
+                if documents > 1:
+                    self._report("several", "a second document in one file", self._at(event), "remove the '---'")
+                    return data, places
+                data, places = self._compose_node(self._next(), 0)
+            event = self._next()
+        if data is None and not self._findings:
+            self._report("empty", "the file is empty", (1, 1), "give it the keys that its kind of file has")
+        return data, places
+
+    def _compose_node(self, event: Any, depth: int) -> tuple[Any, Places]:
+        start = event.start_mark
+        mark = mark_of(start.line, start.column)
+        if depth > DEEPEST_NESTING:
+            self._report("nesting", f"nested more than {DEEPEST_NESTING} deep", self._at(event))
+            raise self._error()
+        self._room -= 1
+        if self._room < 0:
+            hint = "divide it into several files"
+            self._report("values", f"holds more than {MOST_VALUES} values", self._at(event), hint)
+            raise self._error()
+        if isinstance(event, AliasEvent):
+            self._report("alias", f"alias *{event.anchor} is refused", self._at(event), "write the value out")
+            return None, mark
+        if event.anchor is not None or event.tag is not None:
+            self._refuse_extras(event)
+        if isinstance(event, ScalarEvent):
+            if event.style == '"' and _LONE_SURROGATE.search(event.value):
+                self._report("character", "half a surrogate pair is no character", self._at(event), "remove it")
+            return _resolve(event.value, event.style), mark
+        if isinstance(event, SequenceStartEvent):
+            return self._compose_sequence(mark, depth)
+        return self._compose_mapping(mark, depth)
+
+    def _refuse_extras(self, event: Any) -> None:
+        if event.anchor is not None:
+            self._report("alias", f"anchor &{event.anchor} is refused", self._at(event), "write the value out")
+        if event.tag is not None:
+            self._report("tag", f"tag {shown(event.tag)} is refused", self._at(event), "remove the tag")
+
+    def _compose_sequence(self, mark: Mark, depth: int) -> tuple[Any, Places]:
+        items: list[Any] = []
+        inner: list[Places] = []
+        while type(event := self._next()) is not SequenceEndEvent:
+            item, place = self._compose_node(event, depth + 1)
+            items.append(item)
+            inner.append(place)
+        return items, ListPlaces(mark, inner)
+
+    def _compose_mapping(self, mark: Mark, depth: int) -> tuple[Any, Places]:
+        mapping: dict[str, Any] = {}
+        keys: dict[str, Mark] = {}
+        inner: dict[str, Places] = {}
+        while type(event := self._next()) is not MappingEndEvent:
+            key = event.value if _is_plain(event) and event.value != "<<" else self._key(event, depth)
+            if key in mapping:
+                first, _ = self._position(keys[key])
+                message = f"key {shown(key)} stands already in line {first}"
+                self._report("duplicate-key", message, self._at(event), "keep one")
+            value_event = self._next()
+            place: Places
+            if _is_plain(value_event) and self._room > 0 and depth < DEEPEST_NESTING:
+                # What a file has most of, without the steps that it does not need.
+                self._room -= 1
+                start = value_event.start_mark
+                value, place = _resolve(value_event.value, value_event.style), mark_of(start.line, start.column)
+            else:
+                value, place = self._compose_node(value_event, depth + 1)
+            if key not in mapping:
+                start = event.start_mark
+                mapping[key], keys[key], inner[key] = value, mark_of(start.line, start.column), place
+        return mapping, MappingPlaces(mark, keys, inner)
+
+    def _key(self, event: Any, depth: int) -> str:
+        if isinstance(event, ScalarEvent):
+            self._refuse_extras(event)
+            if event.value == "<<" and not event.style:
+                self._report("merge-key", "merge key << is refused", self._at(event), "write the keys out")
+            return str(event.value)
+        if not isinstance(event, AliasEvent):
+            self._report("key", "a key must be a text", self._at(event), "write one word or a quoted text")
+        stand_in = f"<key at {self._at(event)}>"
+        self._compose_node(event, depth + 1)
+        return stand_in
+
+    def _at(self, event: Event) -> Position:
+        start: Any = event.start_mark
+        return self._position(mark_of(start.line, start.column))
+
+    def _position(self, mark: Mark) -> Position:
+        return min(position_of(mark), self.end())
+
+    def _report(self, rule: str, message: str, position: Position, hint: str = "") -> None:
+        self._findings.append(refusal(self._label, rule, message, position, hint=hint))
+        if len(self._findings) > MOST_PROBLEMS:
+            raise self._error()
+
+    def _error(self) -> DocumentError:
+        return DocumentError(cut_short(self._label, self._findings))
+
+
+def _is_plain(event: Any) -> bool:
+    """A scalar without a tag, an anchor or an escape: nothing about it can be refused but its place."""
+    return type(event) is ScalarEvent and event.style != '"' and event.anchor is None and event.tag is None
+
+
+def _resolve(text: str, style: str | None) -> str | int | float | bool | None:
+    if style:  # PyYAML's two parsers call the style of a plain scalar None and ""
+        return text
+    if text in _CONSTANTS:
+        return _CONSTANTS[text]
+    if text[0] not in _NUMBER_START:
+        return text
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    if _FLOAT.fullmatch(text) and math.isfinite(float(text)):
+        return float(text)
+    return text

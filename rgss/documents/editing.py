@@ -1,0 +1,255 @@
+"""Changes to a YAML file that leave the rest of its text, and its comments, as they are."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from rgss.documents.positions import Location
+from rgss.documents.yaml_text import entry_lines, inline_text, value_lines
+from rgss.errors import DefinitionError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetKey:
+    """Give a key of a mapping a value; the key may be new.
+
+    Attributes:
+        location: The mapping.
+        key: The key.
+        value: Its value.
+        before: Keys that a new key stands behind, where the mapping has them.
+    """
+
+    location: Location
+    key: str
+    value: Any
+    before: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RemoveKey:
+    """Take a key with its value out of a mapping.
+
+    Attributes:
+        location: The mapping.
+        key: The key.
+    """
+
+    location: Location
+    key: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AppendEntry:
+    """Put an entry at the end of a list of the file's top mapping; the list may be new.
+
+    Attributes:
+        key: The key of the list.
+        entry: The entry.
+    """
+
+    key: str
+    entry: Any
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RemoveEntry:
+    """Take an entry out of a list.
+
+    Attributes:
+        location: The list.
+        index: The entry.
+    """
+
+    location: Location
+    index: int
+
+
+Edit = SetKey | RemoveKey | AppendEntry | RemoveEntry
+
+
+@dataclass(frozen=True, slots=True)
+class _Splice:
+    start: int
+    end: int
+    text: str
+
+
+def edited(text: str, edits: Sequence[Edit]) -> str:
+    """The text of a YAML file after some changes.
+
+    Comments stay, but those within a value that is replaced or removed.
+
+    Args:
+        text: The text of a file that `rgss.documents` reads, without a byte order mark.
+        edits: The changes; each at another place.
+
+    Raises:
+        DefinitionError: A place is not in the file.
+    """
+    editor = _Editor(text)
+    splices = sorted((editor.splice(edit) for edit in edits), key=lambda splice: (splice.start, splice.end))
+    parts, done = [], 0
+    for splice in splices:
+        if splice.start < done:
+            raise DefinitionError("two changes of one file meet at one place", hint="apply them one after the other")
+        parts += [text[done : splice.start], splice.text]
+        done = splice.end
+    return "".join([*parts, text[done:]])
+
+
+class _Editor:
+    def __init__(self, text: str) -> None:
+        self._text = text
+        root = yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        if root is None:
+            raise _missing(())
+        self._root: Node = root
+        self._begun: set[str] = set()
+        self._newline = "\r\n" if "\r\n" in text else "\n"
+
+    def splice(self, edit: Edit) -> _Splice:
+        if isinstance(edit, AppendEntry):
+            return self._append(edit)
+        around = self._at(edit.location)
+        if isinstance(edit, RemoveEntry):
+            return self._remove_entry(around, edit)
+        if not isinstance(around, MappingNode):
+            raise _missing(edit.location)
+        keys = [key.value for key, _ in around.value]
+        if isinstance(edit, RemoveKey):
+            return self._remove_key(around, keys.index(edit.key))
+        if edit.key in keys:
+            return self._replace(around, keys.index(edit.key), edit.value)
+        behind = max((index for index, key in enumerate(keys) if key in edit.before), default=len(keys) - 1)
+        return self._insert(around, behind, edit)
+
+    def _at(self, location: Location) -> Node:
+        node = self._root
+        for part in location:
+            found: Node | None = None
+            if isinstance(node, MappingNode):
+                found = next((value for key, value in node.value if key.value == part), None)
+            elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.value):
+                found = node.value[part]
+            if found is None:
+                raise _missing(location)
+            node = found
+        return node
+
+    def _end(self, node: Node) -> int:
+        """Where the last character of a node ends; a parser's own mark may be behind comments."""
+        if isinstance(node, ScalarNode):
+            start, end = node.start_mark.index, node.end_mark.index
+            return start + len(self._text[start:end].rstrip()) if node.style in ("|", ">") else end
+        if not isinstance(node, (MappingNode, SequenceNode)) or node.flow_style or not node.value:
+            return node.end_mark.index
+        last = node.value[-1]
+        return self._end(last[1] if isinstance(node, MappingNode) else last)
+
+    def _line_end(self, index: int) -> int:
+        """The end of the line of an index, before its line break."""
+        found = re.compile(r"\r?\n|\Z").search(self._text, index)
+        return len(self._text) if found is None else found.start()
+
+    def _next_line(self, index: int) -> int:
+        end = self._text.find("\n", index)
+        return len(self._text) if end < 0 else end + 1
+
+    def _line_start(self, index: int) -> int:
+        return self._text.rfind("\n", 0, index) + 1
+
+    def _joined(self, lines: Sequence[str]) -> str:
+        return self._newline.join(lines)
+
+    def _replace(self, around: MappingNode, index: int, value: Any) -> _Splice:
+        key, old = around.value[index]
+        start, end = old.start_mark.index, self._end(old)
+        if around.flow_style:
+            return _Splice(start, end, inline_text(value))
+        colon = self._text.index(":", key.end_mark.index) + 1
+        comment = re.match(r"[ \t]*(#[^\r\n]*)", self._text[colon:start])
+        stop = self._line_end(end)
+        rest = self._text[end:stop] if comment is None else f" {comment[1]}"
+        first, *more = value_lines(value, key.start_mark.column, key.end_mark.column + 1)
+        head = f" {first}{rest}" if first else rest
+        return _Splice(colon, stop, self._joined([head.rstrip(), *more]))
+
+    def _insert(self, around: MappingNode, behind: int, edit: SetKey) -> _Splice:
+        end = self._end(around.value[behind][1])
+        if around.flow_style:
+            return _Splice(end, end, f", {edit.key}: {inline_text(edit.value)}")
+        column = around.value[behind][0].start_mark.column
+        head = f"{' ' * column}{edit.key}:"
+        first, *more = value_lines(edit.value, column, len(head))
+        return self._lines_behind(end, [f"{head} {first}" if first else head, *more])
+
+    def _remove_key(self, around: MappingNode, index: int) -> _Splice:
+        key, value = around.value[index]
+        start = key.start_mark.index
+        if around.flow_style and index:
+            return _Splice(self._end(around.value[index - 1][1]), self._end(value), "")
+        if index:
+            return _Splice(self._line_start(start), self._next_line(self._end(value)), "")
+        # The first key of a mapping stands behind a dash or a brace, which stays.
+        stop = self._end(value) if len(around.value) == 1 else around.value[1][0].start_mark.index
+        return _Splice(start, stop, "")
+
+    def _append(self, edit: AppendEntry) -> _Splice:
+        try:
+            node = self._at((edit.key,))
+        except DefinitionError:
+            stop = len(self._text)
+            gap = "" if self._text.endswith("\n") else self._newline
+            head = [gap, f"{edit.key}:"] if edit.key not in self._begun else []
+            self._begun.add(edit.key)
+            return _Splice(stop, stop, self._joined([*head, *entry_lines(edit.entry, 2), ""]))
+        if not isinstance(node, SequenceNode):
+            raise _missing((edit.key,))
+        end = self._end(node)
+        if node.flow_style or not node.value:
+            return _Splice(end - 1, end - 1, f"{', ' if node.value else ''}{inline_text(edit.entry)}")
+        apart = [""] if self._entries_stand_apart(node) else []
+        return self._lines_behind(end, [*apart, *entry_lines(edit.entry, node.start_mark.column)])
+
+    def _lines_behind(self, end: int, lines: Sequence[str]) -> _Splice:
+        """Whole lines behind the line in which something ends."""
+        place = self._next_line(end)
+        if self._text[:place].endswith("\n"):
+            return _Splice(place, place, self._joined([*lines, ""]))
+        return _Splice(place, place, self._joined(["", *lines]))
+
+    def _entries_stand_apart(self, node: SequenceNode) -> bool:
+        if len(node.value) == 1:
+            return not node.value[0].flow_style
+        between = self._text[self._end(node.value[-2]) : node.value[-1].start_mark.index]
+        return re.search(r"\n[ \t]*\r?\n", between) is not None
+
+    def _remove_entry(self, node: Node, edit: RemoveEntry) -> _Splice:
+        if not isinstance(node, SequenceNode) or edit.index >= len(node.value):
+            raise _missing((*edit.location, edit.index))
+        items, index = node.value, edit.index
+        if node.flow_style:
+            if index:
+                return _Splice(self._end(items[index - 1]), self._end(items[index]), "")
+            stop = self._end(items[0]) if len(items) == 1 else items[1].start_mark.index
+            return _Splice(items[0].start_mark.index, stop, "")
+        dash = self._text.rindex("-", 0, items[index].start_mark.index)
+        start, stop = self._line_start(dash), self._next_line(self._end(items[index]))
+        while self._is_blank(stop) and start and self._is_blank(self._line_start(start - 1)):
+            start = self._line_start(start - 1)
+        return _Splice(start, stop, "")
+
+    def _is_blank(self, start: int) -> bool:
+        """Whether a line is empty, or the file ends there."""
+        return not self._text[start : self._line_end(start)].strip()
+
+
+def _missing(location: Sequence[str | int]) -> DefinitionError:
+    return DefinitionError(f"the file has nothing at {'.'.join(map(str, location))}", hint="read it again")

@@ -1,0 +1,143 @@
+"""Where each key and value of a file stands, looked up by its location."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+Location = tuple["str | int", ...]
+"""Keys and indices from the top of a file, such as ``("bodies", 2, "mass")``."""
+
+Position = tuple[int, int]
+"""Line and column, from 1."""
+
+
+Mark = int
+"""A position in one number: a file has hundreds of thousands, which the collector of garbage passes over so."""
+
+_COLUMN_BITS = 32
+
+
+def mark_of(line: int, column: int) -> Mark:
+    """The mark of a line and a column, both from 0, as a parser counts."""
+    return line << _COLUMN_BITS | column
+
+
+def position_of(mark: Mark) -> Position:
+    """Line and column, from 1, of a mark."""
+    return (mark >> _COLUMN_BITS) + 1, (mark & ((1 << _COLUMN_BITS) - 1)) + 1
+
+
+@dataclass(frozen=True, slots=True)
+class ListPlaces:
+    """Where a list and its entries stand.
+
+    Attributes:
+        mark: Where it starts.
+        inner: Where its entries stand.
+    """
+
+    mark: Mark
+    inner: list[Places]
+
+
+@dataclass(frozen=True, slots=True)
+class MappingPlaces:
+    """Where a mapping, its keys and their values stand.
+
+    Attributes:
+        mark: Where it starts.
+        keys: Where each key stands.
+        inner: Where the value of each key stands.
+    """
+
+    mark: Mark
+    keys: dict[str, Mark]
+    inner: dict[str, Places]
+
+
+Places = ListPlaces | MappingPlaces | Mark
+"""Where a value and everything in it stands, in the shape of the value itself."""
+
+
+class ValuePositions(Mapping[Location, Position]):
+    """The position of the value at each location."""
+
+    def __init__(self, places: Places, end: Callable[[], Position]) -> None:
+        """Take the places of a whole file.
+
+        Args:
+            places: The places.
+            end: Where the file ends; nothing stands after that.
+        """
+        self._places = places
+        self._end = end
+
+    def __getitem__(self, location: Location) -> Position:
+        return min(position_of(_mark_of(_places_at(self._places, location))), self._end())
+
+    def __iter__(self) -> Iterator[Location]:
+        return (location for location, _ in _walk(self._places))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+class KeyPositions(Mapping[Location, Position]):
+    """The position of the key at each location within a mapping."""
+
+    def __init__(self, places: Places, end: Callable[[], Position]) -> None:
+        """Take the places of a whole file.
+
+        Args:
+            places: The places.
+            end: Where the file ends; nothing stands after that.
+        """
+        self._places = places
+        self._end = end
+
+    def __getitem__(self, location: Location) -> Position:
+        around = _places_at(self._places, location[:-1])
+        key = location[-1] if location else None
+        if not isinstance(around, MappingPlaces) or not isinstance(key, str):
+            raise KeyError(location)
+        return min(position_of(around.keys[key]), self._end())
+
+    def __iter__(self) -> Iterator[Location]:
+        return (location for location, has_key in _walk(self._places) if has_key)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+def _places_at(places: Places, location: Location) -> Places:
+    for part in location:
+        found = _inner(places, part)
+        if found is None:
+            raise KeyError(location)
+        places = found
+    return places
+
+
+def _inner(places: Places, part: str | int) -> Places | None:
+    if isinstance(places, MappingPlaces):
+        return places.inner.get(part) if isinstance(part, str) else None
+    if isinstance(places, ListPlaces) and isinstance(part, int) and 0 <= part < len(places.inner):
+        return places.inner[part]
+    return None
+
+
+def _mark_of(places: Places) -> Mark:
+    return places.mark if isinstance(places, (ListPlaces, MappingPlaces)) else places
+
+
+def _walk(places: Places) -> Iterator[tuple[Location, bool]]:
+    """Every location, and whether it has a key, in the file's order."""
+    pending: list[tuple[Location, bool, Places]] = [((), False, places)]
+    while pending:
+        location, has_key, here = pending.pop()
+        yield location, has_key
+        if isinstance(here, MappingPlaces):
+            pending += reversed([((*location, name), True, inner) for name, inner in here.inner.items()])
+        elif isinstance(here, ListPlaces):
+            pending += reversed([((*location, index), False, inner) for index, inner in enumerate(here.inner)])

@@ -1,0 +1,35 @@
+"""Texts for foreign programs: nothing that a spreadsheet computes, nothing that XML cannot hold."""
+
+from __future__ import annotations
+
+import re
+
+_FORMULA = re.compile("^[ \u00a0\u3000]*[=+\\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
+_NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
+
+
+def starts_like_a_formula(text: str) -> bool:
+    """Whether a spreadsheet may take a text for a formula when it opens a text file.
+
+    The signs are those of the OWASP page on CSV injection, their full-width forms, and either
+    behind blanks, which some programs cut off.
+    """
+    return _FORMULA.match(text) is not None
+
+
+def neutralised(text: str) -> str:
+    """A text that no spreadsheet takes for a formula: with an apostrophe before what one might.
+
+    What stands behind apostrophes already gets one more, so that `restored` gives back every text.
+    """
+    return f"'{text}" if starts_like_a_formula(text.lstrip("'")) else text
+
+
+def restored(text: str) -> str:
+    """The text that `neutralised` was given."""
+    return text[1:] if text.startswith("'") and starts_like_a_formula(text.lstrip("'")) else text
+
+
+def printable(text: str) -> str:
+    """A text that UTF-8 and XML can hold: what they cannot is replaced by U+FFFD."""
+    return _NO_TEXT.sub("\ufffd", text)

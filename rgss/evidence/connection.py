@@ -1,0 +1,158 @@
+"""The database file of a store: opening it, transactions, errors in our words."""
+
+from __future__ import annotations
+
+import sqlite3
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from rgss.errors import EvidenceError
+from rgss.evidence.packing import LARGEST_TEXT
+
+BUSY_TIMEOUT_S = 30.0
+"""How long a connection waits for another process that is writing."""
+
+LARGEST_ROW = LARGEST_TEXT + 1024 * 1024
+"""Bytes of the longest row that is read: a text that cannot be compressed, and what stands beside it."""
+
+Row = tuple[Any, ...]
+
+PROBLEMS = (sqlite3.Error, UnicodeError)
+"""What a database file can raise; the second when an error's text repeats bytes of a damaged schema."""
+
+_HINTS: Mapping[str, str] = {
+    "locked": "another process is using it; try again when it is done",
+    "readonly": "choose a file and a folder that can be written",
+    "unable to open": "check that it is a file in a folder that can be written",
+    "not a database": "choose another file; this one is left as it is",
+    "malformed": "'rgss evidence verify' tells what is left of it",
+    "full": "free some space on the disk; what was put before is kept",
+    "disk I/O": "free some space on the disk or look for its health; what was put before is kept",
+    "closed": "open the store again",
+    "thread": "open the store in the thread that uses it",
+}
+
+
+class Database:
+    """An open database file; every error of SQLite comes as one of ours, with the file's name.
+
+    Attributes:
+        connection: The connection, in autocommit mode.
+        name: The file's name in messages.
+    """
+
+    def __init__(self, connection: sqlite3.Connection, name: str) -> None:
+        self.connection = connection
+        self.name = name
+
+    def one(self, statement: str, values: Iterable[object] = ()) -> Row | None:
+        """The first row of a query; None if there is none."""
+        with in_our_words(self.name):
+            row: Row | None = self.connection.execute(statement, tuple(values)).fetchone()
+        return row
+
+    def rows(self, statement: str, values: Iterable[object] = ()) -> list[Row]:
+        """All rows of a query."""
+        with in_our_words(self.name):
+            return self.connection.execute(statement, tuple(values)).fetchall()
+
+    def change(self, statement: str, values: Iterable[object] = ()) -> int:
+        """Change rows; returns how many were."""
+        with in_our_words(self.name):
+            return self.connection.execute(statement, tuple(values)).rowcount
+
+    def size_bytes(self) -> int:
+        """Bytes of the pages, with those that are still in the log and those that are free."""
+        return int(self.one("PRAGMA page_count")[0]) * int(self.one("PRAGMA page_size")[0])  # type: ignore[index]
+
+    @contextmanager
+    def transaction(self, kind: str = "IMMEDIATE") -> Iterator[None]:
+        """Let what is done within take effect as a whole, or not at all.
+
+        Args:
+            kind: ``IMMEDIATE`` to write, ``DEFERRED`` to read.
+
+        Raises:
+            EvidenceError: The database cannot be read or written.
+        """
+        with in_our_words(self.name):
+            self.connection.execute(f"BEGIN {kind}")
+            try:
+                yield
+                self.connection.execute("COMMIT")
+            except BaseException:
+                # SQLite may have rolled back by itself, as it does when the disk is full.
+                if self.connection.in_transaction:
+                    self.connection.execute("ROLLBACK")
+                raise
+
+    def close(self) -> None:
+        """Close the file; a second time does nothing."""
+        with in_our_words(self.name):
+            self.connection.close()
+
+
+def connect(path: Path, *, though_damaged: bool = False) -> sqlite3.Connection:
+    """Open a database file so that a commit outlasts a loss of power and nothing in the file can act.
+
+    Args:
+        path: The file.
+        though_damaged: Also if it is shorter than it says that it is; only for reading.
+
+    Raises:
+        sqlite3.Error: It cannot be opened.
+    """
+    # In autocommit mode, so that transactions begin and end where the store says.
+    connection = sqlite3.connect(path, timeout=BUSY_TIMEOUT_S, isolation_level=None)
+    # A text that is not Unicode is damage of one row, which the row's digests will tell.
+    connection.text_factory = lambda content: content.decode("utf-8", "surrogateescape")
+    try:
+        if sys.version_info >= (3, 11):
+            # A longer row is an error before it is read.
+            connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_ROW)
+        if though_damaged:
+            # SQLite reads such a file only for who may mend its schema.
+            connection.execute("PRAGMA writable_schema = ON")
+            connection.execute("PRAGMA query_only = ON")
+        for setting in (
+            "synchronous = FULL",
+            "fullfsync = ON",
+            "checkpoint_fullfsync = ON",
+            # Nothing that a foreign file defines in its schema may call functions.
+            "trusted_schema = OFF",
+            "cell_size_check = ON",
+            # A file that is cut short under a map would end the process.
+            "mmap_size = 0",
+        ):
+            connection.execute(f"PRAGMA {setting}")
+    except BaseException:
+        connection.close()
+        raise
+    return connection
+
+
+def problem_of(error: Exception) -> str:
+    """What one of the `PROBLEMS` says, in one line."""
+    if isinstance(error, UnicodeError):
+        return "a text of its schema is not Unicode"
+    text = "".join(character if character.isprintable() else " " for character in str(error))
+    return " ".join(text.split())[:200] or type(error).__name__
+
+
+@contextmanager
+def in_our_words(name: str) -> Iterator[None]:
+    """Turn errors of SQLite into ours.
+
+    Raises:
+        EvidenceError: For any error of SQLite.
+    """
+    try:
+        yield
+    except PROBLEMS as error:
+        problem = problem_of(error)
+        hints = (hint for words, hint in _HINTS.items() if words in problem)
+        hint = next(hints, "'rgss evidence verify' looks for damage")
+        raise EvidenceError(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error

@@ -1,0 +1,59 @@
+"""Texts as the store keeps them: compressed, and never longer than what is read."""
+
+from __future__ import annotations
+
+import zlib
+
+from rgss.errors import EvidenceError
+
+LARGEST_TEXT = 16 * 1024 * 1024
+"""Bytes of the longest text that is kept, which also bounds what a forged file can unpack to."""
+
+# Records shrink to a quarter at the fastest level; the slowest saves a tenth more for ten times the time.
+_LEVEL = 1
+
+
+def pack(text: str, name: str) -> bytes:
+    """Compress a text.
+
+    Args:
+        text: The text.
+        name: What to call it in messages.
+
+    Raises:
+        EvidenceError: It is too long, or is not Unicode.
+    """
+    try:
+        content = text.encode("utf-8")
+    except UnicodeEncodeError as error:
+        raise EvidenceError(f"the {name} cannot be written as UTF-8: {error.reason}") from error
+    if len(content) > LARGEST_TEXT:
+        raise EvidenceError(f"the {name} has {len(content)} bytes; at most {LARGEST_TEXT} are kept")
+    return zlib.compress(content, _LEVEL)
+
+
+def unpack(content: object, name: str) -> str:
+    """Read a text that `pack` compressed.
+
+    Args:
+        content: The compressed text.
+        name: What to call it in messages.
+
+    Raises:
+        EvidenceError: It is something else, or would be too long.
+    """
+    if not isinstance(content, bytes):
+        raise EvidenceError(f"its {name} is not of bytes")
+    unpacking = zlib.decompressobj()
+    try:
+        text = unpacking.decompress(content, LARGEST_TEXT + 1)
+    except zlib.error as error:
+        raise EvidenceError(f"its {name} cannot be unpacked") from error
+    if len(text) > LARGEST_TEXT:
+        raise EvidenceError(f"its {name} is longer than the {LARGEST_TEXT} bytes that are read")
+    if not unpacking.eof or unpacking.unused_data:
+        raise EvidenceError(f"its {name} cannot be unpacked")
+    try:
+        return text.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise EvidenceError(f"its {name} is not UTF-8") from error

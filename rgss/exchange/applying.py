@@ -1,0 +1,178 @@
+"""Writing changes into the YAML files of a project: all of them, checked, or none."""
+
+from __future__ import annotations
+
+import codecs
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
+from rgss.errors import DefinitionError
+from rgss.exchange.attributes import ATTRIBUTES, Part
+from rgss.exchange.comparison import ChangeKind, ElementChange
+from rgss.exchange.content import part_of
+from rgss.exchange.files import read_bytes, write_bytes
+from rgss.requirements import RequirementSet
+
+_KEYS: Mapping[Part, str] = {
+    Part.STAKEHOLDER: "requirements",
+    Part.SYSTEM: "requirements",
+    Part.BLOCK: "blocks",
+    Part.BEHAVIOUR: "behaviours",
+}
+_GROUPS: Mapping[Part, str] = {
+    Part.STAKEHOLDER: "kind",
+    Part.SYSTEM: "group",
+    Part.BLOCK: "level",
+    Part.BEHAVIOUR: "kind",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FileChange:
+    """One file before and after.
+
+    Attributes:
+        name: Its name, relative to the project.
+        old: What it holds.
+        new: What it is to hold.
+    """
+
+    name: str
+    old: bytes
+    new: bytes
+
+
+def planned(
+    folder: Path, requirements: RequirementSet, changes: Sequence[ElementChange], *, remove: bool
+) -> tuple[FileChange, ...]:
+    """What the changes make of the files; nothing is written.
+
+    An element that is new stands behind the last of its kind, in the file of that.
+
+    Args:
+        folder: The project.
+        requirements: What its files say.
+        changes: What is to become of it.
+        remove: Also remove what is to be removed.
+
+    Raises:
+        DefinitionError: There is no file that an element could stand in.
+        DocumentError: A file cannot be read any more.
+    """
+    edits: dict[str, list[Edit]] = {}
+    homes = _homes(requirements)
+    for change in changes:
+        if change.kind is ChangeKind.ADDED:
+            home = _home(homes, change)
+            edits.setdefault(home, []).append(AppendEntry(key=_KEYS[change.part], entry=dict(change.entry)))
+            continue
+        place = requirements.places[change.id]
+        here = edits.setdefault(place.document.label, [])
+        if change.kind is ChangeKind.CHANGED:
+            here += _key_edits(requirements, change)
+        elif remove:
+            *around, index = place.location
+            here.append(RemoveEntry(location=tuple(around), index=int(index)))
+    return tuple(_file_change(folder, name, each) for name, each in sorted(edits.items()) if each)
+
+
+def rehearsed(
+    folder: Path, files: Sequence[FileChange], check: Callable[[Path], object], *, folders: Sequence[str]
+) -> None:
+    """Check what the changes would make of a project, in a copy of it.
+
+    Args:
+        folder: The project.
+        files: The changes.
+        check: Loads the project in a folder, and raises what is wrong with it.
+        folders: What of the project it takes to load it.
+    """
+    with tempfile.TemporaryDirectory(prefix="rgss-import-") as name:
+        copy = Path(name)
+        for each in folders:
+            shutil.copytree(folder / each, copy / each)
+        for file in files:
+            (copy / file.name).write_bytes(file.new)
+        check(copy)
+
+
+def written(folder: Path, files: Sequence[FileChange]) -> None:
+    """Write the changes; if one file cannot be written, those before it get back what they held.
+
+    Args:
+        folder: The project.
+        files: The changes.
+
+    Raises:
+        DefinitionError: A file cannot be written, or somebody has changed it in the meantime.
+    """
+    for file in files:
+        if read_bytes(folder / file.name) != file.old:
+            raise DefinitionError(f"{file.name} has changed in the meantime", hint="import again")
+    done: list[FileChange] = []
+    try:
+        for file in files:
+            write_bytes(folder / file.name, file.new)
+            done.append(file)
+    except BaseException:
+        for file in done:
+            write_bytes(folder / file.name, file.old)
+        raise
+
+
+def _file_change(folder: Path, name: str, edits: Sequence[Edit]) -> FileChange:
+    old = read_bytes(folder / name)
+    mark = codecs.BOM_UTF8 if old.startswith(codecs.BOM_UTF8) else b""
+    text = old.removeprefix(mark).decode("utf-8")
+    return FileChange(name=name, old=old, new=mark + edited(text, edits).encode("utf-8"))
+
+
+def _key_edits(requirements: RequirementSet, change: ElementChange) -> Iterator[Edit]:
+    place = requirements.places[change.id]
+    held = place.document.data
+    for key in place.location:
+        held = held[key]
+    order = tuple(dict.fromkeys(attribute.path[0] for attribute in ATTRIBUTES[change.part]))
+    touched = dict.fromkeys(each.attribute.path for each in change.attributes)
+    gone = {path[0] for path in touched if path[0] not in change.entry}
+    for key in dict.fromkeys(path[0] for path in touched):
+        if key in gone:
+            if key in held:
+                yield RemoveKey(location=place.location, key=key)
+            continue
+        value = change.entry[key]
+        inner = [path[1] for path in touched if path[0] == key and len(path) > 1]
+        if inner and held.get(key) is not None:
+            for name in inner:
+                if name in value:
+                    yield SetKey(location=(*place.location, key), key=name, value=value[name], before=tuple(value))
+                elif name in held[key]:
+                    yield RemoveKey(location=(*place.location, key), key=name)
+        else:
+            before = tuple(name for name in order[: order.index(key)] if name not in gone)
+            yield SetKey(location=place.location, key=key, value=value, before=before)
+
+
+def _homes(requirements: RequirementSet) -> dict[tuple[Part, str], str]:
+    """The file of the last element of each part and group, and of each part."""
+    homes: dict[tuple[Part, str], str] = {}
+    for element in requirements.elements:
+        part, label = part_of(element), requirements.places[element.id].document.label
+        homes[part, getattr(element, _GROUPS[part]).value] = homes[part, ""] = label
+    # Blocks and behaviours may stand in one file.
+    for part, other in ((Part.BLOCK, Part.BEHAVIOUR), (Part.BEHAVIOUR, Part.BLOCK)):
+        if (other, "") in homes:
+            homes.setdefault((part, ""), homes[other, ""])
+    return homes
+
+
+def _home(homes: Mapping[tuple[Part, str], str], change: ElementChange) -> str:
+    """The file that an element that is new belongs into."""
+    home = homes.get((change.part, change.entry[_GROUPS[change.part]]), homes.get((change.part, "")))
+    if home is None:
+        raise DefinitionError(f"there is no file for {change.id!r}", hint="begin one with one such element by hand")
+    return home

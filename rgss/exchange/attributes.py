@@ -1,0 +1,169 @@
+"""What needs, requirements, blocks and behaviours have: one list for every format of exchange."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from types import MappingProxyType
+
+from rgss.documents import DocumentModel
+from rgss.requirements import (
+    BehaviourKind,
+    BlockLevel,
+    BlockRelation,
+    Comparison,
+    LinkKind,
+    NeedKind,
+    Priority,
+    RequirementGroup,
+    Statistic,
+    Status,
+    VerificationMethod,
+    VerificationPhase,
+)
+from rgss.requirements.architecture_files import BehaviourFile, BlockFile
+from rgss.requirements.files import NeedFile, RequirementFile
+
+
+class Part(str, Enum):
+    """What an element is."""
+
+    STAKEHOLDER = "stakeholder"
+    SYSTEM = "system"
+    BLOCK = "block"
+    BEHAVIOUR = "behaviour"
+
+
+class Form(str, Enum):
+    """How an attribute is written down as one text."""
+
+    LINE = "line"
+    """A short text."""
+    PROSE = "prose"
+    """A text of any length."""
+    CHOICE = "choice"
+    """One of a closed list."""
+    FLAG = "flag"
+    """``true``, or nothing."""
+    LINKS = "links"
+    """Ids, set apart by semicolons, in no order."""
+    EXEMPTIONS = "exemptions"
+    """``rule: reason``, set apart by semicolons."""
+    DETAIL = "detail"
+    """A flow, an interaction or a state machine, as JSON."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Attribute:
+    """One attribute of an element.
+
+    Attributes:
+        name: What it is called in files of exchange.
+        path: The keys that lead to it in an entry of a YAML file.
+        form: How it is written as one text.
+        choices: What it chooses from; empty unless it is a choice.
+        link: The relation that it states; None if it states none, or one that is no link.
+    """
+
+    name: str
+    path: tuple[str, ...]
+    form: Form
+    choices: tuple[str, ...] = ()
+    link: LinkKind | None = None
+
+    @property
+    def holds_ids(self) -> bool:
+        """Whether it names other elements, one or more."""
+        return self.form is Form.LINKS or self.link is not None
+
+
+def _line(name: str, *path: str, link: LinkKind | None = None) -> Attribute:
+    return Attribute(name=name, path=path or (name,), form=Form.LINE, link=link)
+
+
+def _prose(name: str) -> Attribute:
+    return Attribute(name=name, path=(name,), form=Form.PROSE)
+
+
+def _choice(name: str, choices: type[Enum], *path: str) -> Attribute:
+    values = tuple(str(choice.value) for choice in choices)
+    return Attribute(name=name, path=path or (name,), form=Form.CHOICE, choices=values)
+
+
+def _links(name: str, link: LinkKind | None = None) -> Attribute:
+    return Attribute(name=name, path=(name,), form=Form.LINKS, link=link)
+
+
+def _detail(name: str) -> Attribute:
+    return Attribute(name=name, path=(name,), form=Form.DETAIL)
+
+
+_EXEMPT = Attribute(name="exempt", path=("exempt",), form=Form.EXEMPTIONS)
+_PARENT = _line("parent", link=LinkKind.CONTAINMENT)
+_STATE = (_choice("priority", Priority), _choice("status", Status), _line("owner"), _EXEMPT)
+
+ATTRIBUTES: Mapping[Part, tuple[Attribute, ...]] = MappingProxyType(
+    {
+        Part.STAKEHOLDER: (
+            _line("id"),
+            _choice("kind", NeedKind),
+            _PARENT,
+            _prose("text"),
+            _prose("rationale"),
+            _prose("source"),
+            *_STATE,
+        ),
+        Part.SYSTEM: (
+            _line("id"),
+            _choice("group", RequirementGroup),
+            _PARENT,
+            _prose("text"),
+            _prose("rationale"),
+            _prose("source"),
+            _links("derived_from", LinkKind.DERIVE),
+            _links("traces", LinkKind.TRACE),
+            _links("satisfied_by", LinkKind.SATISFY),
+            _choice("verification", VerificationMethod),
+            _line("facility"),
+            _choice("phase", VerificationPhase),
+            _line("measure", "criterion", "measure", link=LinkKind.VERIFY),
+            _choice("statistic", Statistic, "criterion", "statistic"),
+            _choice("comparison", Comparison, "criterion", "comparison"),
+            _line("threshold", "criterion", "threshold"),
+            _prose("criterion_exemption"),
+            _prose("success"),
+            *_STATE,
+        ),
+        Part.BLOCK: (
+            _line("id"),
+            _line("name"),
+            _choice("level", BlockLevel),
+            _PARENT,
+            _choice("relation", BlockRelation),
+            _prose("text"),
+            Attribute(name="actor", path=("actor",), form=Form.FLAG),
+            _EXEMPT,
+        ),
+        Part.BEHAVIOUR: (
+            _line("id"),
+            _line("name"),
+            _choice("kind", BehaviourKind),
+            _links("allocated_to", LinkKind.ALLOCATE),
+            _links("refines", LinkKind.REFINE),
+            _links("includes"),
+            _prose("text"),
+            _links("actors"),
+            _detail("flow"),
+            _detail("interaction"),
+            _detail("machine"),
+            _EXEMPT,
+        ),
+    }
+)
+"""The attributes of each part, in the order of the YAML files."""
+
+MODELS: Mapping[Part, type[DocumentModel]] = MappingProxyType(
+    {Part.STAKEHOLDER: NeedFile, Part.SYSTEM: RequirementFile, Part.BLOCK: BlockFile, Part.BEHAVIOUR: BehaviourFile}
+)
+"""What an entry of a YAML file must be."""

@@ -1,0 +1,204 @@
+"""What a file of another tool would change in a project."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from rgss.documents.validation import validated
+from rgss.exchange.attributes import ATTRIBUTES, MODELS, Attribute, Form, Part
+from rgss.exchange.cells import CellError, cells_of, entry_of, ids_in
+from rgss.exchange.content import Content, Row
+from rgss.exchange.files import problem, refusal_of
+from rgss.findings import Finding, shown
+
+_CONTROL = frozenset(map(chr, (*range(9), 11, 12, *range(14, 32), 127)))
+
+
+class ChangeKind(str, Enum):
+    """What happens to an element."""
+
+    ADDED = "added"
+    REMOVED = "removed"
+    CHANGED = "changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AttributeChange:
+    """One attribute before and after.
+
+    Attributes:
+        attribute: The attribute.
+        old: What it is, as one text; empty if it is open.
+        new: What it becomes.
+    """
+
+    attribute: Attribute
+    old: str
+    new: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ElementChange:
+    """One element before and after.
+
+    Attributes:
+        kind: What happens to it.
+        part: What it is.
+        id: Its id.
+        attributes: What differs; of an element that is added, all that it has.
+        entry: What stands in a YAML file afterwards; empty if it is removed.
+    """
+
+    kind: ChangeKind
+    part: Part
+    id: str
+    attributes: tuple[AttributeChange, ...]
+    entry: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wishes:
+    """What the user says about elements that a file leaves open.
+
+    Attributes:
+        part: What an element is where the file does not tell.
+        defaults: Attributes of elements that are new, where the file has none, by name.
+    """
+
+    part: Part | None
+    defaults: Mapping[str, str]
+
+
+def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChange, ...]:
+    """What a file would change: what it changes and adds in its own order, then what it removes.
+
+    Ids under one attribute have no order, so another order is no change.
+
+    Args:
+        own: The project.
+        foreign: The file.
+        wishes: What the user says of what the file leaves open.
+
+    Raises:
+        DocumentError: The file has an id twice or none, an attribute that is not what it should
+            be, lacks one that must be there, or names an element that neither has; with every
+            such problem.
+    """
+    known = {row.id: row for row in own.rows}
+    findings: list[Finding] = []
+    changes: list[ElementChange] = []
+    seen: dict[str, int] = {}
+    for row in foreign.rows:
+        if not row.id:
+            findings.append(_at(foreign, row, "id", "missing", "an element without an id"))
+        elif row.id in seen:
+            findings.append(_at(foreign, row, "id", "duplicate", f"{row.id!r} stands already in line {seen[row.id]}"))
+        else:
+            seen[row.id] = row.line
+            found = _change(known.get(row.id), foreign, row, wishes)
+            if isinstance(found, ElementChange):
+                changes.append(found)
+            else:
+                findings += found
+    gone = [row for row in own.rows if row.part in foreign.whole and row.id not in seen]
+    changes += [_removal(row) for row in gone]
+    findings += _dangling(known.keys() | seen.keys(), foreign)
+    if findings:
+        raise refusal_of(findings)
+    return tuple(change for change in changes if change.kind is not ChangeKind.CHANGED or change.attributes)
+
+
+def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> ElementChange | list[Finding]:
+    part = row.part or (own.part if own is not None else wishes.part)
+    if part is None:
+        hint = "give --as stakeholder or --as system"
+        return [_at(foreign, row, "id", "part", f"it is not said what the new element {row.id!r} is", hint)]
+    if own is not None and own.part is not part:
+        here = own.part.value if own.part is not None else ""
+        return [_at(foreign, row, "id", "part", f"{row.id!r} is of part {here!r} in the project, not {part.value!r}")]
+    names = {attribute.name for attribute in ATTRIBUTES[part]}
+    base: Mapping[str, str] = own.cells if own is not None else _for_new(wishes, names)
+    stated = {name: cell for name, cell in row.cells.items() if name in names}
+    if own is None:
+        stated = {name: cell for name, cell in stated.items() if cell.strip() or name not in base}
+    cells = {**base, **stated}
+    entry, findings = _entry(part, cells, foreign, row)
+    if findings:
+        return findings
+    model, problems = validated(entry, MODELS[part])
+    if model is None:
+        return [_value_problem(part, foreign, row, location, message) for location, message in problems]
+    after = cells_of(part, model.model_dump(mode="json"))
+    before = own.cells if own is not None else dict.fromkeys(after, "")
+    return ElementChange(
+        kind=ChangeKind.ADDED if own is None else ChangeKind.CHANGED,
+        part=part,
+        id=row.id,
+        attributes=tuple(
+            AttributeChange(attribute=each, old=before[each.name], new=after[each.name])
+            for each in ATTRIBUTES[part]
+            if _differs(each, before[each.name], after[each.name])
+        ),
+        entry=model.model_dump(mode="json", exclude_defaults=True),
+    )
+
+
+def _for_new(wishes: Wishes, names: set[str]) -> dict[str, str]:
+    return {name: value for name, value in wishes.defaults.items() if name in names}
+
+
+def _entry(part: Part, cells: Mapping[str, str], foreign: Content, row: Row) -> tuple[dict[str, Any], list[Finding]]:
+    findings = []
+    sound = dict(cells)
+    for attribute in ATTRIBUTES[part]:
+        cell = cells.get(attribute.name, "")
+        try:
+            if not _CONTROL.isdisjoint(cell):
+                raise CellError("a control character is no text")
+            entry_of(part, {attribute.name: cell})
+        except CellError as error:
+            findings.append(_at(foreign, row, attribute.name, "value", f"{row.id}: {attribute.name}: {error}"))
+            del sound[attribute.name]
+    return entry_of(part, sound), findings
+
+
+def _removal(row: Row) -> ElementChange:
+    if row.part is None:
+        raise ValueError("an element of the project has a part")
+    return ElementChange(kind=ChangeKind.REMOVED, part=row.part, id=row.id, attributes=(), entry={})
+
+
+def _differs(attribute: Attribute, old: str, new: str) -> bool:
+    return set(ids_in(old)) != set(ids_in(new)) if attribute.form is Form.LINKS else old != new
+
+
+def _dangling(known: set[str], foreign: Content) -> Iterator[Finding]:
+    """Ids that a file names and nobody has; measures are checked when the result is loaded."""
+    named = [each for attributes in ATTRIBUTES.values() for each in attributes if each.holds_ids]
+    names = {each.name for each in named if each.name != "measure"}
+    for row in foreign.rows:
+        for name in sorted(names & row.cells.keys()):
+            for other in ids_in(row.cells[name]):
+                if other not in known:
+                    message = f"{row.id}: {name}: there is no element {shown(other)}"
+                    yield _at(foreign, row, name, "unknown-id", message, "correct the id, or add the element")
+
+
+def _value_problem(part: Part, foreign: Content, row: Row, location: Sequence[str | int], message: str) -> Finding:
+    keys = tuple(key for key in location if isinstance(key, str))
+    name = next((each.name for each in ATTRIBUTES[part] if each.path == keys[: len(each.path)]), "id")
+    if name == "id" and keys and keys[0] != "id":
+        name = next((each.name for each in ATTRIBUTES[part] if each.path[0] == keys[0]), "id")
+    hint = ""
+    if message == "is missing":
+        hint = f"fill it in, or give --default {name}=…"
+    label = f"{row.id}: {name}" if keys else row.id
+    return _at(foreign, row, name, "value", f"{label}: {message}", hint)
+
+
+def _at(foreign: Content, row: Row, name: str, rule: str, message: str, hint: str = "") -> Finding:
+    column = row.columns.get(name, 1)
+    return problem(foreign.file, rule, message, line=row.line, column=column, hint=hint)

@@ -1,0 +1,96 @@
+"""What a project and a file of another tool say, in one shape, so that they can be compared."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+from rgss.exchange.attributes import MODELS, Part
+from rgss.exchange.cells import Cells, cells_of
+from rgss.requirements import Behaviour, Block, Element, Requirement, RequirementSet, StakeholderNeed
+
+_PARTS: Mapping[type[Element], Part] = MappingProxyType(
+    {
+        StakeholderNeed: Part.STAKEHOLDER,
+        Requirement: Part.SYSTEM,
+        Block: Part.BLOCK,
+        Behaviour: Part.BEHAVIOUR,
+    }
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """One element as a file says it.
+
+    Attributes:
+        part: What it is; None where the file does not tell.
+        cells: Its attributes as texts. What the file does not speak of is not among them.
+        line: The line, or the row of a sheet, that it begins in.
+        columns: The column of each attribute, where there are columns.
+    """
+
+    part: Part | None
+    cells: Cells
+    line: int = 1
+    columns: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def id(self) -> str:
+        """The element's id; empty if there is none."""
+        return self.cells.get("id", "").strip()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Content:
+    """Elements as a file says them.
+
+    Attributes:
+        rows: The elements, in the file's order.
+        measures: Id and definition of each measure.
+        whole: Parts of which the file has every element, so that one that it lacks is gone.
+        notes: What of the file is not taken over.
+        file: The file's name.
+    """
+
+    rows: tuple[Row, ...]
+    measures: tuple[tuple[str, str], ...] = ()
+    whole: frozenset[Part] = frozenset(Part)
+    notes: tuple[str, ...] = ()
+    file: str = ""
+
+
+def part_of(element: Element) -> Part:
+    """What an element is."""
+    return _PARTS[type(element)]
+
+
+def content_of(requirements: RequirementSet, measures: Mapping[str, str] | None = None) -> Content:
+    """What a project says.
+
+    Args:
+        requirements: Its requirements and architecture, as loaded.
+        measures: The definition of each measure by id.
+    """
+    rows = tuple(
+        Row(part=part_of(element), cells=cells_of(part_of(element), full_entry(part_of(element), entry)))
+        for element, entry in _entries(requirements)
+    )
+    return Content(rows=rows, measures=tuple((measures or {}).items()))
+
+
+def full_entry(part: Part, entry: Mapping[str, Any]) -> dict[str, Any]:
+    """A sound entry of a YAML file with every key, also those that it leaves open."""
+    return MODELS[part].model_validate_json(json.dumps(entry)).model_dump(mode="json")
+
+
+def _entries(requirements: RequirementSet) -> Iterator[tuple[Element, Mapping[str, Any]]]:
+    for element in requirements.elements:
+        place = requirements.places[element.id]
+        entry: Any = place.document.data
+        for key in place.location:
+            entry = entry[key]
+        yield element, entry

@@ -1,0 +1,141 @@
+"""Objects of a ReqIF file with their attributes as texts."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rgss.exchange.attributes import ATTRIBUTES, Form, Part
+from rgss.exchange.reqif.prose import from_xhtml
+from rgss.exchange.reqif.vocabulary import MEASURE, TOOL, TYPE_NAMES, attribute_name
+from rgss.exchange.reqif.writing import type_identifier
+
+_ESCAPES_BREAKS = "strictdoc"
+r"""StrictDoc writes a break of a line in a string as ``\n``, since XML would make a blank of it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForeignObject:
+    """One object.
+
+    Attributes:
+        identifier: Its identifier in the file.
+        type_name: The name of its type.
+        part: What it is here; None if that is open, or it is a measure.
+        is_ours: Its type is one that we have written.
+        id: Its id.
+        cells: Its attributes by our names, as texts.
+        line: The line that it begins in.
+    """
+
+    identifier: str
+    type_name: str
+    part: Part | None
+    is_ours: bool
+    id: str
+    cells: Mapping[str, str]
+    line: int
+
+
+class ObjectReader:
+    """Reads objects, and remembers what it could not take over."""
+
+    def __init__(self, bundle: Any, known: Mapping[str, Part], part: Part | None) -> None:
+        """Take a file.
+
+        Args:
+            bundle: What the library has read.
+            known: What the elements of the project are, by id.
+            part: What an element is that neither the file nor the project tells.
+        """
+        core = bundle.core_content.req_if_content
+        tool = getattr(bundle.req_if_header, "req_if_tool_id", None) or ""
+        self._exact = tool == TOOL
+        self._escapes_breaks = tool.lower() == _ESCAPES_BREAKS
+        self._known, self._part = known, part
+        self._types = {each.identifier: each for each in core.spec_types or []}
+        self._choices = {
+            value.identifier: value.long_name or value.key or ""
+            for each in core.data_types or []
+            for value in getattr(each, "values", None) or ()
+        }
+        self._parts = {name.lower(): kind for kind, name in TYPE_NAMES.items()}
+        self._nameless: Counter[str] = Counter()
+        self._unused: dict[str, None] = {}
+        self.own_parts = [kind for kind in Part if type_identifier(kind.value) in self._types]
+
+    def read(self, objects: Sequence[Any]) -> dict[str, ForeignObject]:
+        """The objects that have an id, by their identifiers in the file.
+
+        Args:
+            objects: The objects as the library has them.
+
+        Raises:
+            ValueError: Two objects have one identifier, or one is of no type.
+        """
+        found: dict[str, ForeignObject] = {}
+        for each in objects:
+            if each.identifier in found:
+                raise ValueError(f"two objects have the identifier {each.identifier!r}")
+            made = self._object(each)
+            if made is not None:
+                found[each.identifier] = made
+        return found
+
+    def notes(self) -> Iterator[str]:
+        """What was not taken over."""
+        for name, count in sorted(self._nameless.items()):
+            yield f"{count} objects of type {name!r} are left aside: they have no id or no text"
+        for name in self._unused:
+            yield f"the attribute {name!r} is left aside: there is none of that name here"
+
+    def _object(self, each: Any) -> ForeignObject | None:
+        kind = self._types.get(each.spec_object_type)
+        if kind is None:
+            raise ValueError(f"the object {each.identifier!r} is of no type")
+        type_name = kind.long_name or kind.identifier
+        is_ours = kind.identifier in {type_identifier(own) for own in (*[part.value for part in Part], MEASURE)}
+        stated = {definition.identifier: definition for definition in kind.attribute_definitions or ()}
+        values: dict[str, str] = {}
+        for value in each.attributes:
+            definition = stated[value.definition_ref]
+            long = definition.long_name or definition.identifier
+            values[long] = self._text(value)
+        line = int(getattr(each.xml_node, "sourceline", None) or 1)
+        by_name = {attribute_name(long): text for long, text in values.items()}
+        element_id = by_name.get("id", "").strip()
+        if not is_ours and not (element_id and by_name.get("text", "").strip()):
+            self._nameless[type_name] += 1
+            return None
+        is_measure = is_ours and kind.identifier == type_identifier(MEASURE)
+        part = None if is_measure else self._parts.get(type_name.lower()) or self._known.get(element_id) or self._part
+        names = {attribute.name: attribute for attribute in ATTRIBUTES[part]} if part is not None else {}
+        cells = {}
+        for definition in stated.values():
+            long = definition.long_name or definition.identifier
+            name = attribute_name(long)
+            if (name in names and not names[name].holds_ids) or (part is None and name in ("id", "text")):
+                cells[name] = values.get(long, "")
+                if names and names[name].form is Form.FLAG and cells[name] == "false":
+                    cells[name] = ""
+            elif values.get(long, "").strip():
+                self._unused.setdefault(long)
+        return ForeignObject(
+            identifier=each.identifier,
+            type_name=MEASURE if is_measure else type_name,
+            part=part,
+            is_ours=is_ours,
+            id=element_id,
+            cells=cells,
+            line=line,
+        )
+
+    def _text(self, value: Any) -> str:
+        if isinstance(value.value, list):
+            return "; ".join(self._choices[each] for each in value.value)
+        if value.attribute_type.name == "XHTML":
+            return from_xhtml(value.xml_node.find("THE-VALUE"), exact=self._exact)
+        text = str(value.value)
+        return text.replace("\\n", "\n") if self._escapes_breaks else text

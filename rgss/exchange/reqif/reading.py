@@ -1,0 +1,117 @@
+"""A ReqIF file of any tool as elements of ours."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rgss.errors import DefinitionError, DocumentError
+from rgss.exchange.attributes import ATTRIBUTES, Part
+from rgss.exchange.content import Content, Row
+from rgss.exchange.files import problem, read_bytes, refusal_of
+from rgss.exchange.reqif.objects import ForeignObject, ObjectReader
+from rgss.exchange.reqif.relations import RelationReader
+from rgss.exchange.reqif.vocabulary import MEASURE
+from rgss.exchange.xml_guard import require_plain_xml
+
+_COMMENT = re.compile(r"(<!\[CDATA\[.*?\]\]>)|<!--.*?-->", re.DOTALL)
+
+
+def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Part | None = None) -> Content:
+    """Read requirements, architecture and measures from ReqIF.
+
+    Attributes and relations of other tools are recognised by their names; what is not
+    recognised is told in the notes.
+
+    Args:
+        path: The file.
+        known: What the elements of the project are, by id; for types that are not ours.
+        part: What an element is that is neither known nor of a type of ours.
+
+    Raises:
+        DefinitionError: The package reqif is not installed.
+        DocumentError: The file cannot be read, is no ReqIF, or has a document type, an entity or
+            a relation to an object that is not there.
+    """
+    file = str(path)
+    content = read_bytes(path)
+    require_plain_xml(content, file)
+    bundle = _parsed(content, file)
+    core = getattr(bundle.core_content, "req_if_content", None)
+    if core is None:
+        raise DocumentError([problem(file, "empty", "has no content of ReqIF")])
+    try:
+        objects = ObjectReader(bundle, known or {}, part)
+        found = objects.read(core.spec_objects or [])
+        relations = RelationReader(core, found)
+        parents = relations.containment()
+        links = relations.links()
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        raise _unreadable(file, error) from None
+    findings = [problem(file, "relation", each, line=line) for line, each in relations.broken]
+    if findings:
+        raise refusal_of(findings)
+    rows = [each for each in found.values() if each.part is not None or each.type_name != MEASURE]
+    return Content(
+        rows=tuple(_row(each, links, parents, relations.stated) for each in rows),
+        measures=tuple((each.id, each.cells.get("text", "")) for each in found.values() if each.type_name == MEASURE),
+        whole=frozenset(objects.own_parts),
+        notes=(*objects.notes(), *relations.notes()),
+        file=file,
+    )
+
+
+def _parsed(content: bytes, file: str) -> Any:
+    try:
+        from rgss.exchange.reqif import library
+    except ImportError as error:
+        raise DefinitionError(
+            "ReqIF needs the package reqif, which is not installed", hint="pip install 'rgss[exchange]'"
+        ) from error
+    try:
+        bundle = library.ReqIFParser.parse_from_string(_without_comments(content.decode("utf-8-sig")))
+    except Exception as error:
+        raise _unreadable(file, error) from None
+    if bundle.exceptions:
+        raise DocumentError(
+            [problem(file, "relation", str(each.get_description()), line=_line(each)) for each in bundle.exceptions]
+        )
+    return bundle
+
+
+def _without_comments(text: str) -> str:
+    """The same XML without comments, which the library does not expect within XHTML."""
+    # What is well formed has no comment within a tag, so only sections of CDATA could look like one.
+    return _COMMENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
+
+
+def _unreadable(file: str, error: Exception) -> DocumentError:
+    reason = str(error) or type(error).__name__
+    return DocumentError([problem(file, "syntax", f"is XML, but not ReqIF that can be read: {reason[:200]}")])
+
+
+def _line(error: Any) -> int:
+    return int(getattr(getattr(error, "xml_node", None), "sourceline", None) or 1)
+
+
+def _row(
+    each: ForeignObject,
+    links: Mapping[tuple[str, str], Sequence[str]],
+    parents: Mapping[str, str],
+    stated: frozenset[str],
+) -> Row:
+    cells = dict(each.cells)
+    names = {attribute.name: attribute for attribute in ATTRIBUTES.get(each.part, ())} if each.part else {}
+    cells.update(_linked(each, links, stated & names.keys()))
+    if "parent" in names and (each.is_ours or each.id in parents):
+        cells["parent"] = parents.get(each.id, "")
+    return Row(part=each.part, cells=cells, line=each.line)
+
+
+def _linked(
+    each: ForeignObject, links: Mapping[tuple[str, str], Sequence[str]], names: set[str] | frozenset[str]
+) -> Iterator[tuple[str, str]]:
+    for name in sorted(names):
+        yield name, "; ".join(links.get((each.id, name), ()))

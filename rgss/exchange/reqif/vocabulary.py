@@ -1,0 +1,88 @@
+"""What our attributes and relations are called in ReqIF, and other tools' names for them."""
+
+from __future__ import annotations
+
+import re
+import uuid
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from rgss.exchange.attributes import Attribute, Form, Part
+from rgss.requirements import LinkKind
+
+TOOL = "rgss"
+MEASURE = "Measure"
+INCLUDE, ACTOR = "include", "actor"
+
+TYPE_NAMES: Mapping[Part, str] = MappingProxyType(
+    {
+        Part.STAKEHOLDER: "Stakeholder requirement",
+        Part.SYSTEM: "System requirement",
+        Part.BLOCK: "Block",
+        Part.BEHAVIOUR: "Behaviour",
+    }
+)
+"""The types of objects."""
+
+RELATIONS: tuple[str, ...] = (
+    *(kind.value for kind in LinkKind if kind is not LinkKind.CONTAINMENT),
+    INCLUDE,
+    ACTOR,
+)
+"""The types of relations; containment is the hierarchy."""
+
+_STANDARD: Mapping[str, str] = MappingProxyType({"id": "ReqIF.ForeignID", "text": "ReqIF.Text", "name": "ReqIF.Name"})
+# Names of the ReqIF Implementation Guide, of StrictDoc and of Doorstop.
+_OTHERS: Mapping[str, str] = MappingProxyType(
+    {"foreignid": "id", "uid": "id", "statement": "text", "title": "name", "chaptername": "name"}
+)
+_OTHER_RELATIONS: Mapping[str, str] = MappingProxyType(
+    {
+        "parent": LinkKind.DERIVE.value,
+        "derive": LinkKind.DERIVE.value,
+        "derives": LinkKind.DERIVE.value,
+        "derivesfrom": LinkKind.DERIVE.value,
+        "derivedfrom": LinkKind.DERIVE.value,
+        "satisfies": LinkKind.SATISFY.value,
+        "verifies": LinkKind.VERIFY.value,
+        "refines": LinkKind.REFINE.value,
+        "traces": LinkKind.TRACE.value,
+        "allocates": LinkKind.ALLOCATE.value,
+        "includes": INCLUDE,
+    }
+)
+_NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, "https://www.omg.org/spec/ReqIF/rgss")
+
+
+def identifier(*parts: str) -> str:
+    """The identifier of whatever some texts name; an XML name that depends on these texts alone."""
+    return f"_{uuid.uuid5(_NAMESPACE, chr(10).join(parts))}"
+
+
+def long_name(attribute: Attribute) -> str:
+    """What an attribute is called in ReqIF."""
+    return _STANDARD.get(attribute.name, attribute.name)
+
+
+def attribute_name(long: str) -> str:
+    """What an attribute of any tool is called here; a name of ours where there is one for it."""
+    plain = re.sub(r"[\s-]+", "_", long.strip()).lower()
+    plain = plain.removeprefix("reqif.")
+    return _OTHERS.get(plain, plain)
+
+
+def relation_name(long: str) -> str | None:
+    """The relation of any tool among ours; None if it is none of them."""
+    plain = re.sub(r"[^a-z]", "", long.lower())
+    known = {name.lower(): name for name in RELATIONS}
+    return known.get(plain, _OTHER_RELATIONS.get(plain))
+
+
+def is_string(attribute: Attribute) -> bool:
+    """Whether an attribute is a plain string in ReqIF: one that holds no prose, so no breaks of lines."""
+    return attribute.form is Form.DETAIL or attribute.name in ("id", "threshold")
+
+
+def is_relation(attribute: Attribute) -> bool:
+    """Whether an attribute is relations in ReqIF, or the hierarchy, and no attribute."""
+    return attribute.holds_ids

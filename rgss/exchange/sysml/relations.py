@@ -1,0 +1,76 @@
+"""The links of the model as SysML v2 relations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.exchange.sysml.behaviour import reference
+from rgss.exchange.sysml.notation import body, documentation, name
+from rgss.exchange.sysml.structure import Parts
+from rgss.requirements import Behaviour, BehaviourKind, Block, LinkKind, Requirement, RequirementSet, StakeholderNeed
+
+NEEDS = "Stakeholder requirements"
+SYSTEM = "System requirements"
+
+
+class Relations:
+    """Writes every link of a set of requirements between the elements' qualified names."""
+
+    def __init__(self, requirements: RequirementSet, parts: Parts) -> None:
+        """Look at the elements.
+
+        Args:
+            requirements: The requirements and the architecture.
+            parts: Where the parts of the blocks stand.
+        """
+        self._requirements = requirements
+        self._parts = parts
+
+    def lines(self) -> Iterator[str]:
+        """Derivations, satisfactions, refinements, allocations, traces, inclusions, verifications."""
+        for link in self._requirements.links:
+            source, target = self._name(link.source), self._name(link.target)
+            if link.kind is LinkKind.DERIVE:
+                yield from body(
+                    "#derivation connection", [f"end #original ::> {target};", f"end #derive ::> {source};"]
+                )
+            elif link.kind is LinkKind.SATISFY:
+                yield f"satisfy {target} by {source};"
+            elif link.kind is LinkKind.ALLOCATE:
+                yield f"allocate {source} to {target};"
+            elif link.kind is LinkKind.REFINE:
+                yield f"#refinement dependency from {source} to {target};"
+            elif link.kind is LinkKind.TRACE:
+                yield f"dependency {name(f'trace {link.source} {link.target}')} from {source} to {target};"
+            elif link.kind is not LinkKind.CONTAINMENT:
+                raise NotImplementedError(link.kind)
+        for behaviour in self._requirements.architecture.behaviours:
+            if behaviour.kind is not BehaviourKind.USE_CASE:
+                for other in behaviour.includes:
+                    head = f"dependency {name(f'include {behaviour.id} {other}')}"
+                    yield f"{head} from {reference(behaviour.id)} to {reference(other)};"
+        for requirement in self._requirements.system:
+            if requirement.verification is not None:
+                yield from self._verification(requirement)
+
+    def _verification(self, requirement: Requirement) -> list[str]:
+        text = f"By {requirement.verification.value}." if requirement.verification is not None else ""
+        text += f" Facility: {requirement.facility}." if requirement.facility else ""
+        text += f" Phase: {requirement.phase.value}." if requirement.phase is not None else ""
+        objective = f"objective {{ verify {self._name(requirement.id)}; }}"
+        return body(f"verification {name(f'verify {requirement.id}')}", [documentation(text), objective])
+
+    def _name(self, element_id: str) -> str:
+        element = self._requirements.element(element_id)
+        if isinstance(element, Block):
+            return self._parts.path(element_id)
+        if isinstance(element, Behaviour):
+            return reference(element_id)
+        chain = [name(element_id)]
+        while element.parent is not None:
+            chain.append(name(element.parent))
+            parent = self._requirements.element(element.parent)
+            assert isinstance(parent, (StakeholderNeed, Requirement))  # noqa: S101 - loading refuses other parents
+            element = parent
+        package = NEEDS if isinstance(element, StakeholderNeed) else SYSTEM
+        return "::".join([name(package), *reversed(chain)])

@@ -1,0 +1,109 @@
+"""CSV (RFC 4180): one table of stakeholder and system requirements."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from rgss.documents.spreadsheet_cells import neutralised, restored
+from rgss.errors import DocumentError
+from rgss.exchange.attributes import Part
+from rgss.exchange.content import Content, Row
+from rgss.exchange.files import problem, read_bytes
+from rgss.exchange.tables.heads import (
+    MOST_ROWS,
+    PART,
+    PARTS,
+    columns_of,
+    columns_of_both,
+    found_columns,
+    table_content,
+)
+from rgss.findings import Finding, shown
+
+_DIVIDERS = (",", ";", "\t")
+
+
+def csv_text(content: Content) -> str:
+    """Write requirements as CSV, one row each.
+
+    A text that a spreadsheet might compute gets an apostrophe before it, which `read_csv` takes off.
+
+    Args:
+        content: The project.
+    """
+    heads = columns_of_both()
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, lineterminator="\r\n")
+    writer.writerow(heads)
+    for row in content.rows:
+        if row.part in PARTS:
+            cells = {**row.cells, PART: row.part.value}
+            writer.writerow([neutralised(cells.get(name, "")) for name in heads])
+    return out.getvalue()
+
+
+def read_csv(path: Path) -> Content:
+    """Read requirements from CSV; the columns may stand in any order.
+
+    Args:
+        path: The file, in UTF-8. Commas, semicolons or tabs divide its cells.
+
+    Raises:
+        DocumentError: The file cannot be read, is not UTF-8 or not CSV, or has other columns.
+    """
+    file = str(path)
+    content = read_bytes(path)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        hint = "save it as CSV UTF-8"
+        raise DocumentError([problem(file, "encoding", "is not UTF-8", line=line, hint=hint)]) from None
+    first = text.partition("\n")[0]
+    divider = max(_DIVIDERS, key=first.count)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=divider, strict=True)
+    try:
+        heads = next(reader, [])
+        columns = found_columns(file, [restored(head) for head in heads], columns_of_both())
+        findings: list[Finding] = []
+        rows = list(_rows(file, reader, columns, findings))
+    except csv.Error as error:
+        raise DocumentError([problem(file, "syntax", f"not CSV: {error}", line=reader.line_num)]) from None
+    return table_content(file, rows, findings)
+
+
+def _rows(file: str, reader: Iterator[list[str]], columns: Mapping[str, int], findings: list[Finding]) -> Iterator[Row]:
+    line = getattr(reader, "line_num", 1) + 1
+    for count, cells in enumerate(reader):
+        here, line = line, getattr(reader, "line_num", 1) + 1
+        if count >= MOST_ROWS:
+            findings.append(problem(file, "size", f"more than {MOST_ROWS} rows", line=here))
+            return
+        if not any(cell.strip() for cell in cells):
+            continue
+        if len(cells) < len(columns) or any(cell.strip() for cell in cells[len(columns) :]):
+            message = f"{len(columns)} cells are expected, {len(cells)} found"
+            findings.append(problem(file, "row", message, line=here))
+            continue
+        yield from _row(file, [restored(cell) for cell in cells], columns, here, findings)
+
+
+def _row(
+    file: str, cells: Sequence[str], columns: Mapping[str, int], line: int, findings: list[Finding]
+) -> Iterator[Row]:
+    named = {name: cells[number - 1] for name, number in columns.items()}
+    word = named.pop(PART).strip().lower()
+    if word not in [part.value for part in PARTS]:
+        message = f"part: {shown(word)} is not one of {', '.join(part.value for part in PARTS)}"
+        findings.append(problem(file, "value", message, line=line, column=columns[PART]))
+        return
+    part = Part(word)
+    own = columns_of(part)
+    for name, cell in named.items():
+        if name not in own and cell.strip():
+            message = f"{named['id'].strip()}: a {part.value} requirement has no {name!r}"
+            findings.append(problem(file, "value", message, line=line, column=columns[name], hint="empty the cell"))
+    yield Row(part=part, cells={name: named[name] for name in own}, line=line, columns=columns)

@@ -1,0 +1,200 @@
+"""Excel: a workbook with a sheet of stakeholder requirements and one of system requirements."""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from rgss.documents.spreadsheet_cells import starts_like_a_formula
+from rgss.errors import DefinitionError, DocumentError
+from rgss.exchange.attributes import ATTRIBUTES, Form, Part
+from rgss.exchange.content import Content, Row
+from rgss.exchange.files import LARGEST_FILE_BYTES, problem, read_bytes
+from rgss.exchange.tables.heads import MOST_COLUMNS, MOST_ROWS, PARTS, columns_of, found_columns, table_content
+from rgss.exchange.xml_guard import require_plain_xml
+from rgss.findings import Finding
+
+LONGEST_CELL = 32_767
+"""As many characters a cell of Excel holds."""
+
+_MOST_MEMBERS = 1_000
+_WIDE, _NARROW = 60.0, 18.0
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+_CLOCK = re.compile(rb"(<dcterms:(created|modified)[^>]*>)[^<]*(</dcterms:)")
+
+
+def excel_bytes(content: Content) -> bytes:
+    """Write requirements as a workbook, one sheet for each part and one row for each requirement.
+
+    Texts are cells of texts, also where they look like formulas; the same content gives the same bytes.
+
+    Args:
+        content: The project.
+
+    Raises:
+        DefinitionError: The package openpyxl is not installed, or a text is longer than a cell holds.
+    """
+    _require_openpyxl()
+    from openpyxl import Workbook
+
+    # Before there is a workbook, which cannot be left half-written.
+    for row in content.rows:
+        long = next((name for name, cell in row.cells.items() if len(cell) > LONGEST_CELL), None)
+        if row.part in PARTS and long is not None:
+            raise DefinitionError(f"{row.id}: {long} is longer than a cell of Excel holds", hint="export csv or reqif")
+    workbook = Workbook(write_only=True)
+    for part in PARTS:
+        _write_sheet(workbook.create_sheet(part.value), part, [row for row in content.rows if row.part is part])
+    file = io.BytesIO()
+    workbook.save(file)
+    return _without_clock(file.getvalue())
+
+
+def read_excel(path: Path) -> Content:
+    """Read requirements from a workbook; the columns of a sheet may stand in any order.
+
+    Args:
+        path: The file, with the sheets ``stakeholder`` and ``system``.
+
+    Raises:
+        DefinitionError: The package openpyxl is not installed.
+        DocumentError: The file is no workbook, would unpack to too much, or has other sheets or columns.
+    """
+    _require_openpyxl()
+    from openpyxl import load_workbook
+
+    file = str(path)
+    content = read_bytes(path)
+    _require_harmless(content, file)
+    findings: list[Finding] = []
+    rows: list[Row] = []
+    try:
+        with warnings.catch_warnings():
+            # It warns of what it does not know of a workbook's looks, which are nothing to us.
+            warnings.simplefilter("ignore")
+            workbook = load_workbook(io.BytesIO(content), read_only=True)
+            names = workbook.sheetnames
+            missing = [part.value for part in PARTS if part.value not in names]
+            if missing:
+                message = f"there is no sheet {' and no sheet '.join(map(repr, missing))}"
+                raise DocumentError([problem(file, "sheet", message, hint=f"sheets: {', '.join(names)}")])
+            for part in PARTS:
+                rows += _rows(file, workbook[part.value], part, findings)
+    except DocumentError:
+        raise
+    except Exception as error:  # noqa: BLE001, RUF100 - a damaged workbook breaks openpyxl in many ways
+        message = f"is not a workbook that can be read: {type(error).__name__}"
+        raise DocumentError([problem(file, "syntax", message, hint="save it again as .xlsx")]) from None
+    others = [name for name in names if name not in [part.value for part in PARTS]]
+    notes = [f"the sheet {name!r} is left aside" for name in others]
+    return table_content(file, rows, findings, notes)
+
+
+def _require_openpyxl() -> None:
+    try:
+        import openpyxl  # noqa: F401
+    except ImportError as error:
+        raise DefinitionError(
+            "an Excel file needs the package openpyxl, which is not installed", hint="pip install 'rgss[exchange]'"
+        ) from error
+
+
+def _require_harmless(content: bytes, file: str) -> None:
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            members = archive.infolist()
+            if len(members) > _MOST_MEMBERS or sum(member.file_size for member in members) > LARGEST_FILE_BYTES:
+                limit = LARGEST_FILE_BYTES // (1024 * 1024)
+                raise DocumentError([problem(file, "size", f"would unpack to more than {limit} MiB, and is refused")])
+            for member in members:
+                if member.filename.endswith((".xml", ".rels")):
+                    require_plain_xml(archive.read(member), f"{file} ({member.filename})")
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, ValueError, OSError):
+        raise DocumentError([problem(file, "syntax", "is not an Excel file (.xlsx), or a damaged one")]) from None
+
+
+def _rows(file: str, sheet: Any, part: Part, findings: list[Finding]) -> Iterator[Row]:
+    where = f"sheet {part.value!r}: "
+    # What a sheet says of its own size need not be true.
+    sheet.reset_dimensions()
+    columns: Mapping[str, int] | None = None
+    for number, cells in enumerate(sheet.iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1), start=1):
+        if number > MOST_ROWS + 1:
+            findings.append(problem(file, "size", f"{where}more than {MOST_ROWS} rows", line=number))
+            return
+        texts = [_text(file, cell, f"{where}row {number}", findings) for cell in cells]
+        if columns is None:
+            columns = found_columns(file, texts, columns_of(part), where=where)
+            continue
+        if any(text.strip() for text in texts):
+            yield Row(
+                part=part,
+                cells={name: texts[at - 1] if at <= len(texts) else "" for name, at in columns.items()},
+                line=number,
+                columns=columns,
+            )
+    if columns is None:
+        found_columns(file, [], columns_of(part), where=where)
+
+
+def _text(file: str, cell: Any, where: str, findings: list[Finding]) -> str:
+    value, kind = cell.value, getattr(cell, "data_type", "n")
+    if value is None:
+        return ""
+    if kind in ("f", "e", "d"):
+        what = {"f": "a formula", "e": "an error", "d": "a date"}[kind]
+        message = f"{where}: the cell holds {what}, not a text"
+        findings.append(problem(file, "value", message, line=cell.row, column=cell.column, hint="write it as text"))
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value)
+
+
+def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:
+    from openpyxl.cell import WriteOnlyCell
+    from openpyxl.styles import Alignment, Font
+    from openpyxl.utils import get_column_letter
+
+    attributes = ATTRIBUTES[part]
+    for index, attribute in enumerate(attributes, start=1):
+        wide = attribute.form is Form.PROSE
+        sheet.column_dimensions[get_column_letter(index)].width = _WIDE if wide else _NARROW
+    sheet.freeze_panes = "B2"
+    aligned, bold = Alignment(vertical="top", wrap_text=True), Font(bold=True)
+
+    def made(text: str) -> Any:
+        cell = WriteOnlyCell(sheet, text)
+        cell.data_type = "s"  # openpyxl takes what begins with = for a formula
+        # Excel then keeps it a text also when somebody edits the cell.
+        cell.quotePrefix = starts_like_a_formula(text)
+        cell.alignment = aligned
+        return cell
+
+    heads = [made(attribute.name) for attribute in attributes]
+    for head in heads:
+        head.font = bold
+    sheet.append(heads)
+    for row in rows:
+        cells = [row.cells[attribute.name] for attribute in attributes]
+        sheet.append([made(text) if text else None for text in cells])
+
+
+def _without_clock(content: bytes) -> bytes:
+    """The same file without the time at which it was made, which stands in it twice."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as source, zipfile.ZipFile(out, "w") as target:
+        for name in source.namelist():
+            part = source.read(name)
+            if name == "docProps/core.xml":
+                part = _CLOCK.sub(rb"\g<1>1980-01-01T00:00:00Z\3", part)
+            entry = zipfile.ZipInfo(name, date_time=_EPOCH)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            target.writestr(entry, part)
+    return out.getvalue()

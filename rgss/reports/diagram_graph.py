@@ -1,0 +1,99 @@
+"""Diagrams as nodes and edges, before they have a place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Shape(str, Enum):
+    """The outline of a node."""
+
+    BOX = "box"
+    ROUND = "round"
+    ELLIPSE = "ellipse"
+    DIAMOND = "diamond"
+    BAR = "bar"
+    INITIAL = "initial"
+    FINAL = "final"
+    ACTOR = "actor"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Node:
+    """A node of a diagram.
+
+    Attributes:
+        id: Its id within the diagram.
+        shape: Its outline.
+        name: Its name; may be empty.
+        stereotype: What it is, shown in guillemets above the name; may be empty.
+        texts: Further texts below the name, each broken into lines where it needs them.
+        tint: The sort that colours it besides its stereotype: ``need``, ``requirement``,
+            ``behaviour``, ``measure``, ``fail`` or empty.
+        cluster: Id of the cluster that it stands in; empty for none.
+    """
+
+    id: str
+    shape: Shape
+    name: str = ""
+    stereotype: str = ""
+    texts: tuple[str, ...] = ()
+    tint: str = ""
+    cluster: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edge:
+    """A line from node to node.
+
+    Attributes:
+        source: Id of the node where it begins.
+        target: Id of the node where it ends.
+        head: What is at its end: ``open``, ``filled``, ``triangle``, ``diamond``, ``crosshair`` or
+            nothing.
+        dashed: Whether it is dashed.
+        labels: What stands beside it, one line each.
+        backwards: The target is laid out before the source, as what it rests on.
+        straight: It is to be as short and straight as can be, where others have to bend.
+    """
+
+    source: str
+    target: str
+    head: str = "open"
+    dashed: bool = False
+    labels: tuple[str, ...] = ()
+    backwards: bool = False
+    straight: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cluster:
+    """A frame round nodes.
+
+    Attributes:
+        id: Its id within the diagram.
+        title: What it says.
+    """
+
+    id: str
+    title: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Graph:
+    """A diagram of nodes and edges.
+
+    Attributes:
+        nodes: The nodes.
+        edges: The edges; both ends are nodes.
+        clusters: The frames.
+        rightwards: Edges lead to the right; otherwise downwards.
+        node_width: The greatest width of a line in a node, in pixels.
+    """
+
+    nodes: tuple[Node, ...]
+    edges: tuple[Edge, ...]
+    clusters: tuple[Cluster, ...] = ()
+    rightwards: bool = False
+    node_width: float = 190.0

@@ -1,0 +1,155 @@
+"use strict";
+(() => {
+  const root = document.documentElement;
+  root.classList.remove("no-js");
+  const all = (selector, within = document) => Array.from(within.querySelectorAll(selector));
+
+  // ------------------------------------------------------------------ filter
+  const search = document.getElementById("search");
+  const gapsOnly = document.getElementById("gaps-only");
+  const count = document.getElementById("count");
+  const rows = all("[data-row]");
+  const texts = new Map(rows.map((row) => [row, row.textContent.toLowerCase()]));
+  const filter = () => {
+    const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const gaps = gapsOnly !== null && gapsOnly.checked;
+    let shown = 0;
+    for (const row of rows) {
+      const wanted = words.every((word) => texts.get(row).includes(word));
+      row.hidden = !wanted || (gaps && row.dataset.row !== "gap");
+      shown += row.hidden ? 0 : 1;
+    }
+    const filtered = words.length > 0 || gaps;
+    count.textContent = filtered ? `${shown} of ${rows.length} rows and diagrams` : "";
+    for (const none of all("[data-none]")) {
+      const mine = all("[data-row]", none.closest("section"));
+      none.hidden = !filtered || mine.some((row) => !row.hidden);
+    }
+  };
+  if (search !== null) {
+    let waiting = 0;
+    search.form.addEventListener("submit", (event) => event.preventDefault());
+    search.addEventListener("input", () => {
+      clearTimeout(waiting);
+      waiting = setTimeout(filter, 120);
+    });
+    search.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") {
+        search.value = "";
+        filter();
+      }
+    });
+    if (gapsOnly !== null) gapsOnly.addEventListener("change", filter);
+    // A link to a row that the filter hides shows it again.
+    const reveal = () => {
+      const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+      const row = target && target.closest("[data-row]");
+      if (row && row.hidden) {
+        search.value = "";
+        if (gapsOnly !== null) gapsOnly.checked = false;
+        filter();
+        target.scrollIntoView();
+      }
+    };
+    addEventListener("hashchange", reveal);
+    filter();
+  }
+
+  // ------------------------- what is scrolled to must not end below sticky heads
+  const makeRoom = () => {
+    for (const box of all(".scroll")) {
+      const table = box.querySelector("table");
+      const first = table.classList.contains("matrix") ? table.tBodies[0].querySelector("th") : null;
+      const left = first === null ? 0 : first.offsetWidth;
+      box.style.scrollPadding = `${table.tHead.offsetHeight}px 0 0 ${left}px`;
+    }
+  };
+  makeRoom();
+  addEventListener("resize", makeRoom);
+
+  // -------------------------------------------------- cells by the arrow keys
+  for (const table of all("table.matrix")) {
+    const told = document.getElementById(table.dataset.told);
+    const heads = all("thead th", table);
+    const body = table.tBodies[0];
+    let marked = [];
+    const tell = (cell) => {
+      const row = cell.parentElement;
+      const head = heads[cell.cellIndex];
+      for (const one of marked) one.classList.remove("cross");
+      marked = [head, row.cells[0], cell];
+      for (const one of marked) one.classList.add("cross");
+      const relation = cell.classList.contains("y") ? table.dataset.relation : `has no link to`;
+      told.textContent = `${row.dataset.id} ${relation} ${head.title}`;
+    };
+    const visible = () => Array.from(body.rows).filter((row) => !row.hidden);
+    const go = (cell) => {
+      if (!cell || cell.tagName !== "TD") return;
+      const before = table.querySelector('td[tabindex="0"]');
+      if (before) before.tabIndex = -1;
+      cell.tabIndex = 0;
+      cell.focus();
+      cell.scrollIntoView({ block: "nearest", inline: "nearest" });
+    };
+    const first = body.querySelector("td");
+    if (first) first.tabIndex = 0;
+    table.addEventListener("focusin", (event) => {
+      if (event.target.tagName === "TD") tell(event.target);
+    });
+    table.addEventListener("mouseover", (event) => {
+      const cell = event.target.closest("td");
+      if (cell && table.contains(cell)) tell(cell);
+    });
+    table.addEventListener("click", (event) => {
+      if (!event.target.closest("a")) go(event.target.closest("td"));
+    });
+    table.addEventListener("keydown", (event) => {
+      const cell = event.target;
+      if (cell.tagName !== "TD" || event.altKey || event.ctrlKey || event.metaKey) return;
+      const there = visible();
+      const at = there.indexOf(cell.parentElement);
+      const column = cell.cellIndex;
+      const last = heads.length - 1;
+      const within = (index) => there[Math.max(0, Math.min(there.length - 1, index))];
+      const moves = {
+        ArrowRight: () => cell.parentElement.cells[Math.min(column + 1, last)],
+        ArrowLeft: () => cell.parentElement.cells[Math.max(column - 1, 1)],
+        ArrowDown: () => within(at + 1).cells[column],
+        ArrowUp: () => within(at - 1).cells[column],
+        Home: () => cell.parentElement.cells[1],
+        End: () => cell.parentElement.cells[last],
+        PageDown: () => within(at + 10).cells[column],
+        PageUp: () => within(at - 10).cells[column],
+      };
+      if (event.key in moves) {
+        event.preventDefault();
+        go(moves[event.key]());
+      }
+    });
+  }
+
+  // ---------------------------------------------------------------- diagrams
+  for (const button of all("button[data-fit]")) {
+    const drawing = document.getElementById(button.dataset.fit);
+    const say = () => {
+      const fits = drawing.classList.contains("fit");
+      button.textContent = fits ? "Show at full size" : "Fit to the page";
+      button.setAttribute("aria-pressed", String(fits));
+    };
+    button.addEventListener("click", () => {
+      drawing.classList.toggle("fit");
+      say();
+    });
+    say();
+  }
+
+  // ------------------------------------------------------------------- print
+  let opened = [];
+  addEventListener("beforeprint", () => {
+    opened = all("details:not([open])");
+    for (const one of opened) one.open = true;
+  });
+  addEventListener("afterprint", () => {
+    for (const one of opened) one.open = false;
+  });
+})();

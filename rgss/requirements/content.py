@@ -1,0 +1,45 @@
+"""The content of an element as a reader judges it, and its digest."""
+
+from __future__ import annotations
+
+import dataclasses
+from enum import Enum
+from typing import Any
+
+from rgss.documents.digests import digest
+from rgss.requirements.architecture import Behaviour, Block
+from rgss.requirements.needs import StakeholderNeed
+from rgss.requirements.requirement import Requirement
+
+Element = StakeholderNeed | Requirement | Block | Behaviour
+"""Whatever an id of the requirements names."""
+
+_NOT_CONTENT = frozenset({"exemptions"})
+
+
+def content_digest_of(element: Element) -> str:
+    """The SHA-256 of what a reader judges: text, attributes and the links that the element states.
+
+    Neither its place in a file, nor how its texts are wrapped, nor the order of the ids under one
+    key, nor the rules that it is exempt from are content. What an element leaves open is left
+    out, so that an attribute that elements may have from now on changes no digest of those without.
+    """
+    return digest({"element": type(element).__name__, "content": _content(element)})
+
+
+def _content(value: Any) -> Any:
+    if dataclasses.is_dataclass(value):
+        names = [field.name for field in dataclasses.fields(value) if field.name not in _NOT_CONTENT]
+        stated = {name: _content(getattr(value, name)) for name in names}
+        return {name: part for name, part in stated.items() if not _is_open(part)}
+    if isinstance(value, tuple):
+        parts = [_content(part) for part in value]
+        return sorted(parts) if all(isinstance(part, str) for part in parts) else parts
+    if isinstance(value, Enum):
+        return value.value
+    return " ".join(value.split()) if isinstance(value, str) else value
+
+
+def _is_open(part: Any) -> bool:
+    # Not "not part": a threshold of 0 is stated.
+    return part is None or part is False or part == "" or part == []

@@ -1,0 +1,18 @@
+"""Leave to break a rule, with the reason for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Exemption:
+    """One element's leave to break one rule.
+
+    Attributes:
+        rule: Id of the rule, such as ``wording.R7``.
+        reason: Why it may be broken here.
+    """
+
+    rule: str
+    reason: str

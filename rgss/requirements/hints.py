@@ -1,0 +1,36 @@
+"""Hints that name what was probably meant, for no longer than anybody would wait for them."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+
+_MOST_COMPARISONS = 100_000
+
+
+class Hints:
+    """Finds the id most like a wrong one, until so many ids were compared that it takes too long.
+
+    A project in which every id is wrong would otherwise compare each with each.
+    """
+
+    def __init__(self, most_comparisons: int = _MOST_COMPARISONS) -> None:
+        """Begin with nothing compared.
+
+        Args:
+            most_comparisons: How many ids may be compared in all.
+        """
+        self._left = most_comparisons
+
+    def nearest(self, name: str, names: Collection[str]) -> str:
+        """A hint that names the id most like a wrong one; empty if none is like it or it takes too long.
+
+        Args:
+            name: The wrong id.
+            names: The ids that it may be.
+        """
+        if len(names) > self._left:
+            return ""
+        self._left -= len(names)
+        near = difflib.get_close_matches(name, list(names), n=1)
+        return f"did you mean {near[0]!r}?" if near else ""

@@ -1,0 +1,64 @@
+"""Ids within one behaviour: the nodes of a flow, the messages of a sequence, the states of a machine."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+
+from rgss.findings import Finding
+from rgss.requirements.hints import Hints
+from rgss.requirements.references import Declaration
+
+At = tuple["str | int", ...]
+
+
+def repeated(declaration: Declaration, at: At, ids: Sequence[str]) -> Iterator[Finding]:
+    """Find ids that two entries of a list have.
+
+    Args:
+        declaration: The behaviour.
+        at: The list within it.
+        ids: The ids of its entries, in their order.
+    """
+    seen: set[str] = set()
+    for index, each in enumerate(ids):
+        if each in seen:
+            yield declaration.finding("duplicate-id", f"id {each!r} stands twice in {at[-1]}", (*at, index, "id"))
+        seen.add(each)
+
+
+def unknown(
+    declaration: Declaration, at: At, named: str, known: Collection[str], what: str, hints: Hints
+) -> Iterator[Finding]:
+    """Find an id that names nothing in the same behaviour.
+
+    Args:
+        declaration: The behaviour.
+        at: Where the id stands within it.
+        named: The id.
+        known: What it may name.
+        what: What that is, in the words of the message.
+        hints: Names what was probably meant.
+    """
+    if named not in known:
+        message = f"{at[-1]}: {named!r} is no {what}"
+        yield declaration.finding("dangling-id", message, at, hint=hints.nearest(named, known))
+
+
+def reached_from(starts: Iterable[str], ways: Iterable[tuple[str, str]]) -> frozenset[str]:
+    """The ids that are reached from some others over any number of ways, with these others.
+
+    Args:
+        starts: Where to begin.
+        ways: Source and target of each way.
+    """
+    onward: dict[str, list[str]] = {}
+    for source, target in ways:
+        onward.setdefault(source, []).append(target)
+    reached: set[str] = set()
+    pending = [*starts]
+    while pending:
+        here = pending.pop()
+        if here not in reached:
+            reached.add(here)
+            pending += onward.get(here, [])
+    return frozenset(reached)

@@ -1,0 +1,23 @@
+"""Reviews: what was read, by whom, and what it rested on then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Review:
+    """The stamp of one element.
+
+    Attributes:
+        id: The element.
+        digest: Content digest of the element when it was reviewed.
+        upstream: Content digests, at that time, of the elements that it rests on.
+        reviewer: Who reviewed it.
+    """
+
+    id: str
+    digest: str
+    upstream: Mapping[str, str]
+    reviewer: str

@@ -1,0 +1,59 @@
+"""What differs between two values, named by where it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+ABSENT = "–"
+_TITLES = ("phase", "subtask", "id", "name")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """Something that differs between then and now.
+
+    Attributes:
+        name: What it is.
+        then: What it was, as text.
+        now: What it is.
+    """
+
+    name: str
+    then: str
+    now: str
+
+
+def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
+    """Every value that differs, by its dotted name, in the order in which they stand.
+
+    Args:
+        then: Plain data: mappings, lists, texts, numbers.
+        now: The same as it is now.
+    """
+    before, after = dict(_leaves(then, "")), dict(_leaves(now, ""))
+    return tuple(
+        Change(name=name, then=before.get(name, ABSENT), now=after.get(name, ABSENT))
+        for name in dict.fromkeys([*before, *after])
+        if before.get(name) != after.get(name)
+    )
+
+
+def _leaves(value: Any, name: str) -> Iterator[tuple[str, str]]:
+    """Every value within, by where it is; what is empty is a value too, so that no difference is lost."""
+    if value and isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from _leaves(item, f"{name}.{key}" if name else str(key))
+    elif value and isinstance(value, Sequence) and not isinstance(value, str):
+        for index, item in enumerate(value):
+            yield from _leaves(item, f"{name}[{_title(item, index)}]")
+    else:
+        yield name, repr(value)
+
+
+def _title(item: Any, index: int) -> str:
+    """What has a name goes by it, anything else by its position."""
+    if isinstance(item, Mapping):
+        return str(next((item[title] for title in _TITLES if title in item), index))
+    return str(index)

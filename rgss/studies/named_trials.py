@@ -1,0 +1,94 @@
+"""Which trials of the evidence a project's studies name, with the project and the code as they are now."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rgss.errors import DefinitionError, DocumentError
+from rgss.evidence import Fidelity
+from rgss.findings import Finding
+from rgss.studies.document import MOST_REPLICATES
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import Project, load_project
+from rgss.studies.screening import screening_specs
+from rgss.studies.sweep import trials_of
+from rgss.trials.spec import TrialSpec
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedTrials:
+    """Trials that a study names.
+
+    Attributes:
+        trials: Their keys.
+        pieces: The digests of their pieces.
+    """
+
+    trials: frozenset[str]
+    pieces: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamingStudy:
+    """A study of the project with the trials that it names.
+
+    Attributes:
+        file: Its file, relative to the project.
+        project: The project with this study.
+        own: The trials that it asks for, at its fidelity and with its number of replicates.
+        all: These, and what ``--fidelity`` and ``--replicates`` make of them as far as the
+            evidence has the seeds.
+    """
+
+    file: str
+    project: Project
+    own: NamedTrials
+    all: NamedTrials
+
+
+def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[NamingStudy, ...]:
+    """Every study of a project, in the order of the files, with what it names.
+
+    Args:
+        folder: The project's folder.
+        seeds: The seeds that the evidence has of each fidelity.
+
+    Raises:
+        DocumentError: Files are wrong, with the problems of all studies: what cannot be read may
+            name anything.
+        DefinitionError: There is no study.
+    """
+    names = sorted(path.relative_to(folder).as_posix() for path in (folder / "studies").glob("*.yaml"))
+    if not names:
+        raise DefinitionError("the project has no study", hint="a study is a file studies/NAME.yaml")
+    projects: dict[str, Project] = {}
+    findings: list[Finding] = []
+    for name in names:
+        try:
+            projects[name] = load_project(folder, name)
+        except DocumentError as error:  # noqa: PERF203 - all problems are told at once
+            findings += [finding for finding in error.findings if finding not in findings]
+    if findings:
+        raise DocumentError(findings)
+    return tuple(_naming(name, project, seeds) for name, project in projects.items())
+
+
+def _naming(name: str, project: Project, seeds: Mapping[str, Iterable[int]]) -> NamingStudy:
+    own = (*trial_specs(project), *screening_specs(project))
+    every = {spec.seed for spec in own}
+    first = project.study.seed
+    more: list[TrialSpec] = []
+    for fidelity in Fidelity:
+        replicates = every | {seed for seed in seeds.get(fidelity.value, ()) if 0 <= seed - first < MOST_REPLICATES}
+        more += trial_specs(project.with_fidelity(fidelity.value), seeds=sorted(replicates))
+    return NamingStudy(file=name, project=project, own=_named(own), all=_named((*own, *more)))
+
+
+def _named(specs: Sequence[TrialSpec]) -> NamedTrials:
+    trials = trials_of(specs)
+    return NamedTrials(
+        trials=frozenset(trial.key for trial in trials),
+        pieces=frozenset(digest for trial in trials for digest in trial.digests.as_mapping().values()),
+    )

@@ -1,0 +1,148 @@
+"""What runs in a worker process: it answers one task at a time until nobody asks any more.
+
+This module imports nothing heavy, so that the process can set its limits before engines are loaded.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pickle
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from multiprocessing import connection, parent_process
+from typing import Any
+
+_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+_STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ready:
+    """The worker has started and takes tasks.
+
+    Attributes:
+        error: Why it cannot, in one line; empty if it can.
+    """
+
+    error: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """What came of a task.
+
+    Attributes:
+        result: The result; None if there is none.
+        error: The exception that ended it, in one line; empty if there was none.
+        ours: Whether that exception is one that this package raises by intention.
+        out_of_memory: Whether it was for want of memory.
+        took_s: The task's time by the wall clock.
+    """
+
+    result: Any
+    error: str
+    ours: bool
+    out_of_memory: bool
+    took_s: float
+
+
+def serve(function: bytes, asked: connection.Connection, memory_limit_bytes: int, output: str) -> None:
+    """Answer tasks until the other end is closed.
+
+    Args:
+        function: What makes a result from a task's arguments, pickled by its name.
+        asked: Arguments come in here, answers go out.
+        memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
+        output: File for what engines print, which nobody may want but who asks why one has crashed.
+    """
+    # The processes share the cores between them; threads within one would only get in their way.
+    for name in _ONE_THREAD:
+        os.environ.setdefault(name, "1")
+    _redirect_output(output)
+    _limit_memory(memory_limit_bytes)
+    _end_with_parent()
+    # From here on engines may be loaded. What is read here was written by the process that started this one.
+    try:
+        make = pickle.loads(function)  # noqa: S301
+    except Exception as error:
+        asked.send(Ready(error=_line(error)))
+        return
+    asked.send(Ready())
+    while True:
+        try:
+            arguments = asked.recv()
+        except (EOFError, OSError):
+            return
+        # What is in the file when the process dies was printed by the task that it died of.
+        os.ftruncate(_STANDARD_OUTPUT, 0)
+        try:
+            asked.send(answer_to(make, arguments))
+        except OSError:
+            return
+
+
+def answer_to(make: Callable[..., Any], arguments: Sequence[Any]) -> Answer:
+    """Carry out one task.
+
+    Args:
+        make: What makes a result.
+        arguments: What it is called with.
+    """
+    from time import perf_counter
+
+    from rgss.errors import RgssError
+
+    result, error, ours, out_of_memory = None, "", False, False
+    begun = perf_counter()
+    try:
+        result = make(*arguments)
+    except MemoryError:
+        error, out_of_memory = "MemoryError", True
+    except RgssError as caught:
+        error, ours = str(caught), True
+    except Exception as caught:
+        error = _line(caught)
+    return Answer(result=result, error=error, ours=ours, out_of_memory=out_of_memory, took_s=perf_counter() - begun)
+
+
+def _line(error: Exception) -> str:
+    """An exception that is not ours, in one line."""
+    text = " ".join(str(error).split())
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def _redirect_output(file: str) -> None:
+    descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o600)
+    for standard in (_STANDARD_OUTPUT, _STANDARD_ERROR):
+        os.dup2(descriptor, standard)
+    os.close(descriptor)
+
+
+def _limit_memory(limit_bytes: int) -> None:
+    """Let allocations beyond a size fail; on Linux this counts what is written to, not what is mapped."""
+    if not limit_bytes or sys.platform == "win32":
+        return
+    import resource
+
+    kind = resource.RLIMIT_DATA if sys.platform == "linux" else resource.RLIMIT_AS
+    _, hard = resource.getrlimit(kind)
+    limit = limit_bytes if hard == resource.RLIM_INFINITY else min(limit_bytes, hard)
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(kind, (limit, hard))
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent does, even when that is killed, and even in the middle of a task."""
+    parent = parent_process()
+    if parent is None:
+        return
+    sentinel = parent.sentinel
+
+    def watch() -> None:
+        connection.wait([sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

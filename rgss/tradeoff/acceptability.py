@@ -1,0 +1,170 @@
+"""SMAA-2: how acceptable each alternative is over weights and over the noise of replicates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.alternatives import Array
+from rgss.tradeoff.sampling import sample_weights
+from rgss.tradeoff.values import TIE_TOLERANCE
+from rgss.tradeoff.weight_set import WeightSet
+
+UNRANKED = 0
+"""The rank of an alternative that cannot be chosen."""
+
+_ROWS_AT_ONCE = 4_096
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Outcomes:
+    """What the evidence may say: the values of every alternative in each outcome of the noise.
+
+    Attributes:
+        values: Single values, shape (b, n, m), from 0 to 1; NaN only where not feasible.
+        feasible: Which alternatives can be chosen in each outcome, shape (b, n).
+        probabilities: The probability of each outcome, shape (b,).
+        exact: Whether these are all the outcomes there are, so that sums over them have no
+            sampling error.
+    """
+
+    values: Array
+    feasible: NDArray[np.bool_]
+    probabilities: Array
+    exact: bool
+
+    @staticmethod
+    def certain(values: Array, feasible: NDArray[np.bool_]) -> Outcomes:
+        """One outcome, without noise.
+
+        Args:
+            values: Shape (n, m).
+            feasible: Shape (n,).
+        """
+        return Outcomes(values=values[None], feasible=feasible[None], probabilities=np.ones(1), exact=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Acceptability:
+    """The indices of SMAA-2 for each alternative.
+
+    Attributes:
+        iterations: How many pairs of weights and outcomes were drawn.
+        ranks: The rank acceptability b_i^r: the share of draws in which alternative i has rank r,
+            shape (n, n), rank 1 in the first column. Equals share the better rank, so that the
+            first column may sum to more than 1.
+        rank_errors: The standard error of each of these, shape (n, n).
+        unranked: The share of draws in which it cannot be chosen, shape (n,).
+        central_weights: The mean of the weights at which it is best, shape (n, m); NaN where it
+            never is.
+        confidence: The probability that it is best at its central weights, over the noise alone,
+            shape (n,); NaN where it has none.
+        confidence_errors: The standard errors of these; 0 where all outcomes are known.
+    """
+
+    iterations: int
+    ranks: Array
+    rank_errors: Array
+    unranked: Array
+    central_weights: Array
+    confidence: Array
+    confidence_errors: Array
+
+    @property
+    def first(self) -> Array:
+        """The first-rank acceptability of each alternative, shape (n,)."""
+        return np.asarray(self.ranks[:, 0], dtype=np.float64)
+
+
+def smaa2(outcomes: Outcomes, weights: WeightSet, *, iterations: int, generator: np.random.Generator) -> Acceptability:
+    """Draw weights and outcomes, rank, and count.
+
+    Lahdelma and Salminen, "SMAA-2: Stochastic multicriteria acceptability analysis for group
+    decision making", Operations Research 49(3), 2001: the rank of i is one more than the number of
+    alternatives that are better; the central weights are the mean of the weights that make i the
+    best; the confidence factor is the probability that i is best when they are used. An alternative
+    that misses a threshold in an outcome has no rank in it.
+
+    Args:
+        outcomes: What the evidence may say.
+        weights: The admitted weights; they are drawn uniformly.
+        iterations: How many draws.
+        generator: Where randomness comes from.
+
+    Returns:
+        The indices; the same for the same generator state, on any machine up to ties.
+
+    Raises:
+        TradeoffError: The outcomes contradict themselves, or the admitted weights have no interior.
+    """
+    _check(outcomes, weights)
+    _, count, size = outcomes.values.shape
+    drawn = sample_weights(weights, iterations, generator)
+    which = np.sort(generator.choice(len(outcomes.probabilities), size=iterations, p=outcomes.probabilities))
+    tally = np.zeros((count, count + 1), dtype=np.int64)
+    sums = np.zeros((count, size))
+    for outcome in np.unique(which):
+        rows = np.flatnonzero(which == outcome)
+        for start in range(0, len(rows), _ROWS_AT_ONCE):
+            here = drawn[rows[start : start + _ROWS_AT_ONCE]]
+            ranks = _ranks(here, outcomes.values[outcome], outcomes.feasible[outcome])
+            for rank, column in enumerate(ranks.T):
+                tally[rank] += np.bincount(column, minlength=count + 1)
+            sums += (ranks == 1).T.astype(np.float64) @ here
+    shares = tally[:, 1:] / iterations
+    best = tally[:, 1]
+    central = np.divide(sums, best[:, None], out=np.full_like(sums, np.nan), where=best[:, None] > 0)
+    confidence = np.array([_confidence(outcomes, row, weight) for row, weight in enumerate(central)])
+    draws = np.inf if outcomes.exact else float(len(outcomes.probabilities))
+    return Acceptability(
+        iterations=iterations,
+        ranks=shares,
+        rank_errors=np.sqrt(shares * (1.0 - shares) / iterations),
+        unranked=tally[:, UNRANKED] / iterations,
+        central_weights=central,
+        confidence=confidence,
+        confidence_errors=np.sqrt(confidence * (1.0 - confidence) / draws),
+    )
+
+
+def _check(outcomes: Outcomes, weights: WeightSet) -> None:
+    shape = outcomes.values.shape
+    if len(shape) != 3 or shape[2] != weights.size or 0 in shape:
+        raise TradeoffError(
+            f"outcomes of the shape {shape} do not fit {weights.size} weights",
+            hint="give one value for each outcome, alternative and weighted measure",
+        )
+    possible = outcomes.values[outcomes.feasible]
+    if not ((possible >= 0.0) & (possible <= 1.0)).all():
+        raise TradeoffError(
+            "an alternative that can be chosen has a value that is not a number from 0 to 1",
+            hint="an alternative whose evidence does not tell a weighted measure cannot be chosen",
+        )
+
+
+def _ranks(weights: Array, values: Array, feasible: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """The rank of each alternative at each of k weights, shape (k, n)."""
+    ranks = np.full((len(weights), len(values)), UNRANKED, dtype=np.int64)
+    possible = np.flatnonzero(feasible)
+    if not len(possible):
+        return ranks
+    totals = weights @ values[possible].T
+    # Values lie in [0, 1]: shifted by two a row, all rows are ranked in one sorted sequence.
+    shift = 2.0 * np.arange(len(weights))[:, None]
+    ranked = np.sort(totals, axis=1) + shift
+    after = np.searchsorted(ranked.ravel(), (totals + shift + TIE_TOLERANCE).ravel(), side="right")
+    ends = (np.arange(len(weights))[:, None] + 1) * len(possible)
+    ranks[:, possible] = 1 + ends - after.reshape(totals.shape)
+    return ranks
+
+
+def _confidence(outcomes: Outcomes, row: int, weights: Array) -> float:
+    if np.isnan(weights).any():
+        return float("nan")
+    totals = np.where(outcomes.feasible, np.where(outcomes.feasible[..., None], outcomes.values, 0.0) @ weights, -1.0)
+    best = outcomes.feasible[:, row] & (totals[:, row] >= totals.max(axis=1) - TIE_TOLERANCE)
+    # Probabilities that sum to 1 may do so up to rounding.
+    return min(1.0, float(outcomes.probabilities[best].sum()))

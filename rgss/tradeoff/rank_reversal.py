@@ -1,0 +1,100 @@
+"""Rank reversal: whether the order of alternatives depends on which others are there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.tradeoff.alternatives import Array
+from rgss.tradeoff.values import TIE_TOLERANCE
+
+Scoring = Callable[[NDArray[np.intp]], Array]
+"""Gives the score of each of the alternatives that are there, more being better, shape (k,)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RankReversal:
+    """What the removal of one alternative changes among the others.
+
+    Attributes:
+        removed: The alternative that is taken away.
+        best_before: The best of the others while it was there; the first of equals.
+        best_after: The best without it.
+        swapped: How many pairs of the others change their order; ties that open or close count.
+    """
+
+    removed: int
+    best_before: int
+    best_after: int
+    swapped: int
+
+
+def rank_reversals(count: int, score: Scoring) -> tuple[RankReversal, ...]:
+    """Take each alternative away in turn and see whether the others keep their order.
+
+    Scores that depend on the alternative alone, such as weighted values anchored on requirements,
+    never reverse: the order of two alternatives is that of two numbers which nothing else touches.
+    Scores that depend on the sample, such as values stretched between its extremes, may (Belton
+    and Gear, "On a short-coming of Saaty's method of analytic hierarchies", 1983).
+
+    Args:
+        count: The number of alternatives.
+        score: What orders them.
+
+    Returns:
+        The removals that change an order, by ascending alternative; empty where none does.
+    """
+    everyone = np.arange(count)
+    before = np.asarray(score(everyone), dtype=np.float64)
+    found = []
+    for removed in range(count):
+        rest = np.delete(everyone, removed)
+        if not len(rest):
+            continue
+        old, new = before[rest], np.asarray(score(rest), dtype=np.float64)
+        swapped = int(np.triu(_order(old) != _order(new), 1).sum())
+        if swapped:
+            found.append(
+                RankReversal(
+                    removed=removed,
+                    best_before=int(rest[_best(old)]),
+                    best_after=int(rest[_best(new)]),
+                    swapped=swapped,
+                )
+            )
+    return tuple(found)
+
+
+def sample_anchored(quantities: Array, more_is_better: NDArray[np.bool_], weights: Array) -> Scoring:
+    """Weighted values stretched between the extremes of whatever alternatives are there.
+
+    It is not how this project values anything; it is what rank reversal is shown on. A measure in
+    which the alternatives that are there do not differ is worth the same to all of them.
+
+    Args:
+        quantities: Shape (n, m).
+        more_is_better: The direction of each measure, shape (m,).
+        weights: Shape (m,).
+    """
+    signed = np.where(more_is_better, quantities, -quantities)
+
+    def score(rows: NDArray[np.intp]) -> Array:
+        here = signed[rows]
+        low, span = here.min(axis=0), np.ptp(here, axis=0)
+        shares = np.divide(here - low, span, out=np.zeros_like(here), where=span > 0.0)
+        return np.asarray(shares @ weights, dtype=np.float64)
+
+    return score
+
+
+def _order(scores: Array) -> NDArray[np.int8]:
+    """For each pair, 1 where the first is better, -1 where it is worse, 0 in a tie."""
+    gap = scores[:, None] - scores[None, :]
+    return np.asarray(np.where(np.abs(gap) <= TIE_TOLERANCE, 0, np.sign(gap)), dtype=np.int8)
+
+
+def _best(scores: Array) -> int:
+    return int(np.flatnonzero(scores >= scores.max() - TIE_TOLERANCE)[0])

@@ -1,0 +1,179 @@
+"""For each alternative, the exact region of weights where it wins."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.alternatives import Array, Mask, checked_values, classes
+from rgss.tradeoff.polytope import THINNEST, Polytope
+from rgss.tradeoff.sampling import sample_weights
+from rgss.tradeoff.weight_set import WeightSet
+
+SHARE_SAMPLES = 1 << 16
+"""Weights that are drawn where a volume cannot be computed from vertices."""
+
+
+class RegionKind(str, Enum):
+    """How much of the weights an alternative wins."""
+
+    EMPTY = "empty"
+    TIES = "ties"
+    OPEN = "open"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WeightRegion:
+    """The weights w for which no other alternative is worth more: (v_i - v_j) w >= 0 for every j.
+
+    Attributes:
+        kind: Empty; without interior, so that it only ever ties; or open.
+        centre: The centre of its largest ball (Chebyshev), shape (m,); None if it is empty.
+        radius: The radius of that ball: how far weights may be off the centre, as a Euclidean
+            distance, and the alternative still wins.
+        low: The least value of each weight in it, shape (m,); None if it is empty.
+        high: The largest value of each weight in it, shape (m,); None if it is empty.
+        share: Its volume as a share of that of all admitted weights.
+        share_error: The standard error of the share; 0 where it was computed from vertices.
+        vertices: Its corners, shape (v, m); None where they were not computed.
+    """
+
+    kind: RegionKind
+    centre: Array | None
+    radius: float
+    low: Array | None
+    high: Array | None
+    share: float
+    share_error: float
+    vertices: Array | None
+
+
+def winning_polytope(values: Array, row: int, weights: WeightSet) -> Polytope:
+    """The region of one alternative as a polytope.
+
+    Args:
+        values: The single values of the alternatives, shape (n, m).
+        row: The alternative.
+        weights: The admitted weights.
+    """
+    differences = np.delete(values, row, axis=0) - values[row]
+    differences = differences[np.abs(differences).max(axis=1) > 0.0] if len(differences) else differences
+    return Polytope.of(weights, differences, np.zeros(len(differences)))
+
+
+def winning_regions(
+    values: Array, feasible: Mask, weights: WeightSet, *, generator: np.random.Generator
+) -> tuple[WeightRegion, ...]:
+    """The region of each alternative among the feasible ones.
+
+    Alternatives with the same values share a region. Regions of different values overlap in ties
+    alone, so that the shares of distinct ones sum to 1.
+
+    Args:
+        values: The single values, shape (n, m), from 0 to 1; rows that are not feasible may hold NaN.
+        feasible: Which alternatives can be chosen, shape (n,).
+        weights: The admitted weights.
+        generator: For shares that cannot be computed from vertices; otherwise it is not used.
+
+    Returns:
+        One region for each row; those of rows that are not feasible are empty.
+
+    Raises:
+        TradeoffError: A value of a feasible alternative is not a number from 0 to 1, or the
+            admitted weights are empty or without interior.
+    """
+    regions = [_EMPTY] * len(values)
+    if not feasible.any():
+        return tuple(regions)
+    distinct, membership = classes(checked_values(values[feasible]))
+    whole = _whole(weights)
+    found = [_region(distinct, row, weights, whole) for row in range(len(distinct))]
+    if any(math.isnan(region.share) for region in found):
+        found = _sampled_shares(found, distinct, weights, generator)
+    for row, kind in zip(np.flatnonzero(feasible), membership, strict=True):
+        regions[row] = found[kind]
+    return tuple(regions)
+
+
+_EMPTY = WeightRegion(
+    kind=RegionKind.EMPTY,
+    centre=None,
+    radius=0.0,
+    low=None,
+    high=None,
+    share=0.0,
+    share_error=0.0,
+    vertices=None,
+)
+
+
+def _whole(weights: WeightSet) -> float:
+    """The volume of all admitted weights; NaN where it cannot be computed from vertices."""
+    polytope = Polytope.of(weights)
+    ball = polytope.largest_ball()
+    if ball is None or (ball[1] <= THINNEST and weights.directions().shape[1]):
+        raise TradeoffError(
+            "the elicited bounds and orders leave no room for weights",
+            hint="widen a bound, or drop an order",
+        )
+    vertices = polytope.vertices(ball[0])
+    volume = None if vertices is None else polytope.volume(vertices)
+    return math.nan if volume is None else volume
+
+
+def _region(values: Array, row: int, weights: WeightSet, whole: float) -> WeightRegion:
+    polytope = winning_polytope(values, row, weights)
+    ball = polytope.largest_ball()
+    if ball is None:
+        return _EMPTY
+    centre, radius = ball
+    if radius <= THINNEST and weights.directions().shape[1]:
+        low, high = polytope.extent()
+        return WeightRegion(
+            kind=RegionKind.TIES,
+            centre=centre,
+            radius=0.0,
+            low=low,
+            high=high,
+            share=0.0,
+            share_error=0.0,
+            vertices=None,
+        )
+    vertices = polytope.vertices(centre)
+    volume = None if vertices is None else polytope.volume(vertices)
+    low, high = polytope.extent() if vertices is None else (vertices.min(axis=0), vertices.max(axis=0))
+    return WeightRegion(
+        kind=RegionKind.OPEN,
+        centre=centre,
+        radius=radius,
+        low=low,
+        high=high,
+        share=math.nan if volume is None else volume / whole,
+        share_error=0.0,
+        vertices=vertices,
+    )
+
+
+def _sampled_shares(
+    regions: list[WeightRegion], values: Array, weights: WeightSet, generator: np.random.Generator
+) -> list[WeightRegion]:
+    """The regions with every share counted among random weights."""
+    drawn = sample_weights(weights, SHARE_SAMPLES, generator)
+    winners = np.bincount((drawn @ values.T).argmax(axis=1), minlength=len(values)) / SHARE_SAMPLES
+    return [
+        WeightRegion(
+            kind=region.kind,
+            centre=region.centre,
+            radius=region.radius,
+            low=region.low,
+            high=region.high,
+            share=float(share),
+            share_error=math.sqrt(float(share) * (1.0 - float(share)) / SHARE_SAMPLES),
+            vertices=region.vertices,
+        )
+        for region, share in zip(regions, winners, strict=True)
+    ]

@@ -1,0 +1,62 @@
+"""The corners of the set of weights that agree with what was elicited."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import TradeoffError
+
+MOST_CANDIDATES = 2_000_000
+"""So many choices of binding bounds are looked at; more would take minutes."""
+
+_TOLERANCE = 1e-9
+_BLOCK = 20_000
+
+
+def weight_vertices(matrix: NDArray[np.float64], limits: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The corners of ``{w : w >= 0, sum(w) = 1, matrix @ w <= limits}``.
+
+    A corner is where m - 1 of the inequalities bind beside the sum. Every such choice is solved
+    and kept if it is feasible; that is exact up to rounding and, for the handful of measures that
+    people can weigh, fast.
+
+    Args:
+        matrix: Coefficients, shape (k, m).
+        limits: Right-hand sides, shape (k,).
+
+    Returns:
+        The corners in lexicographic order, shape (c, m); none if the bounds contradict each other.
+
+    Raises:
+        TradeoffError: There are too many bounds to look at every corner.
+    """
+    count = matrix.shape[1]
+    rows = np.vstack([matrix, -np.eye(count)])
+    ends = np.concatenate([limits, np.zeros(count)])
+    candidates = math.comb(len(rows), count - 1)
+    if candidates > MOST_CANDIDATES:
+        raise TradeoffError(
+            f"{count} weights with {len(matrix)} bounds may have {candidates} corners",
+            hint=f"at most {MOST_CANDIDATES} are looked at; weigh fewer measures or give fewer bounds",
+        )
+    found: list[NDArray[np.float64]] = []
+    choices = itertools.combinations(range(len(rows)), count - 1)
+    while block := list(itertools.islice(choices, _BLOCK)):
+        binding = np.array(block, dtype=np.intp).reshape(len(block), count - 1)
+        systems = np.concatenate([np.ones((len(block), 1, count)), rows[binding]], axis=1)
+        sides = np.concatenate([np.ones((len(block), 1)), ends[binding]], axis=1)
+        # Rows of very different length would hide a singular system behind its determinant.
+        lengths = np.linalg.norm(systems, axis=2, keepdims=True)
+        scale = np.where(lengths > 0.0, lengths, 1.0)
+        regular = np.abs(np.linalg.det(systems / scale)) > _TOLERANCE
+        corners = np.linalg.solve(systems[regular], sides[regular][:, :, None])[:, :, 0]
+        found.append(corners[(corners @ rows.T <= ends + _TOLERANCE).all(axis=1)])
+    corners = np.clip(np.concatenate(found), 0.0, None)
+    corners = corners / corners.sum(axis=1, keepdims=True)
+    # Corners that are met by several choices differ by rounding alone.
+    _, first = np.unique(np.round(corners, 9) + 0.0, axis=0, return_index=True)
+    return np.asarray(corners[first], dtype=np.float64)

@@ -1,0 +1,58 @@
+"""Running the timed moves of a trial on a fresh plant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from rgss.evidence import Fidelity, Phase
+from rgss.physics import TorqueArm, World
+from rgss.trials.dynamic_plant import DynamicPlant
+from rgss.trials.execution import Execution
+from rgss.trials.kinematic_plant import KinematicPlant
+from rgss.trials.observer import StepObserver
+from rgss.trials.phase_result import PhaseResult
+from rgss.trials.program import run_program
+from rgss.trials.reference import reference_of
+from rgss.trials.timing import TaskTiming
+from rgss.trials.trial_spec import TrialSpec
+from rgss.trials.workcell import Workcell
+
+
+def execute(
+    spec: TrialSpec,
+    cell: Workcell,
+    timing: TaskTiming,
+    *,
+    observer: StepObserver | None = None,
+    checkpoint: Callable[[], None] | None = None,
+) -> tuple[PhaseResult, ...]:
+    """Run the timed moves on a fresh plant of the trial's fidelity.
+
+    Args:
+        spec: The trial.
+        cell: Kinematics of the tool.
+        timing: The trajectories.
+        observer: Looks on after every step in contact physics; the other fidelities have nothing to show.
+        checkpoint: Called between two steps, which in the kinematic model are whole phases; it may wait,
+            or end the task by raising.
+
+    Raises:
+        SimulationError: The physics engine cannot build the world.
+    """
+    physics, scene = spec.settings.physics, spec.scene
+    references = {}
+    for phase in Phase:
+        if phase in timing.trajectories:
+            references[phase] = reference_of(
+                timing.trajectories[phase], cell.arm, step_s=physics.step_s, gravity_m_s2=scene.gravity_m_s2
+            )
+    control, gripper = spec.settings.control, spec.gripper
+    if spec.fidelity is Fidelity.KINEMATIC:
+        model = KinematicPlant(cell.arm, gripper, scene.workpiece, control, step_s=physics.step_s)
+        return run_program(model, references, checkpoint=checkpoint)
+    if spec.fidelity is Fidelity.DYNAMIC:
+        with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
+            plant = DynamicPlant(machine, cell.arm, scene, gripper, physics, control, checkpoint=checkpoint)
+            return run_program(plant, references)
+    with World(scene, gripper, physics) as world:
+        return Execution(world, references, control, observer=observer, checkpoint=checkpoint).run()

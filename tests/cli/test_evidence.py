@@ -1,0 +1,329 @@
+"""``rgss evidence``: what the store holds, checked, exported and cleared up."""
+
+from __future__ import annotations
+
+import csv
+import shutil
+import sqlite3
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from rgss.evidence import EvidenceStore, Provenance, RunFailure, RunFailureKind
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import EVIDENCE, load_project
+from rgss.studies.sweep import key_of
+
+STUDY = "studies/pick_place.yaml"
+FAILED = RunFailure(key="e" * 64, what="execution", kind=RunFailureKind.TIMED_OUT, detail="60 s", attempts=2)
+
+
+@pytest.fixture
+def spoilt(with_evidence, tmp_path):
+    """A copy with evidence that the test may spoil."""
+    return Path(shutil.copytree(with_evidence, tmp_path / "spoilt"))
+
+
+def change(folder, statement, *values):
+    connection = sqlite3.connect(folder / EVIDENCE, isolation_level=None)
+    connection.execute(statement, values)
+    connection.close()
+
+
+def edit(folder, file, old, new):
+    text = (folder / file).read_text(encoding="utf-8")
+    assert old in text
+    (folder / file).write_text(text.replace(old, new, 1), encoding="utf-8")
+
+
+def count(folder):
+    with EvidenceStore.open(folder / EVIDENCE) as store:
+        return len(store)
+
+
+def test_a_summary(rgss, with_evidence):
+    told = rgss("evidence", "--project", with_evidence)
+
+    assert (told.status, told.errors) == (0, "")
+    first, trials, pieces, *rest = told.output.splitlines()
+    assert first.startswith("Evidence: ")
+    assert first.endswith((" kB", " MB"))
+    assert trials == "Trials: 216; 216 current (216 contact), 0 stale"
+    assert pieces == "Pieces: 0"
+    assert rest[-1].split() == [STUDY, "contact", "216", "216", "0", "0"]
+
+
+def test_a_summary_of_stale_evidence_and_of_failures(rgss, spoilt):
+    edit(spoilt, "scenes/restaurant.yaml", "mass: 0.25 kg", "mass: 0.26 kg")
+    project = load_project(spoilt)
+    (spec, *_) = trial_specs(project)
+    with EvidenceStore.open(spoilt / EVIDENCE) as store:
+        store.put_failure(FAILED)
+        store.put_failure(
+            RunFailure(key=key_of(spec), what="trial", kind=RunFailureKind.CRASHED, detail="SIGSEGV", attempts=2)
+        )
+    told = rgss("evidence", "--project", spoilt)
+
+    assert (told.status, told.errors) == (0, "")
+    assert "Trials: 216; 0 current, 216 stale (216 contact)" in told.output
+    assert [STUDY, "contact", "216", "0", "216", "1"] in [line.split() for line in told.output.splitlines()]
+    assert "  execution eeeeeeeeeeee: timed_out, 60 s" in told.output.splitlines()
+    assert "'rgss evidence gc' shows them" in told.output
+
+    document = rgss("evidence", "--json", "--project", spoilt).document
+    assert (document["trials"], document["current"], document["stale"]) == (216, {}, {"contact": 216})
+    assert document["studies"] == [
+        {
+            "study": STUDY,
+            "fidelity": "contact",
+            "trials": 216,
+            "with_evidence": 0,
+            "missing": 216,
+            "failures_of_the_run": 1,
+        }
+    ]
+    assert {one["kind"] for one in document["failures_of_the_run"]} == {"timed_out", "crashed"}
+
+
+def test_many_failures_are_shown_in_part(rgss, spoilt):
+    with EvidenceStore.open(spoilt / EVIDENCE) as store:
+        for number in range(15):
+            store.put_failure(
+                RunFailure(key=f"{number:064x}", what="plan", kind=RunFailureKind.RAISED, detail="\x1b[2J", attempts=1)
+            )
+    told = rgss("evidence", "--project", spoilt)
+
+    assert told.output.count("raised, �[2J") == 12
+    assert "… and 3 more" in told.output
+
+
+@pytest.mark.parametrize("action", [[], ["verify"], ["export", "trials.csv"], ["gc"], ["gc", "--apply"]])
+def test_no_evidence(rgss, untouched, action, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    told = rgss("evidence", *action, "--project", untouched)
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint.startswith("rgss: there is no evidence in ")
+    assert told.complaint.endswith("(run the sweep first)")
+    assert list(tmp_path.iterdir()) == []
+    assert not (untouched / ".rgss").exists()
+
+
+def test_the_project_may_be_named_before_the_action(rgss, with_evidence):
+    before = rgss("evidence", "--project", with_evidence, "--json", "verify")
+    after = rgss("evidence", "verify", "--json", "--project", with_evidence)
+
+    assert before.document == after.document
+
+
+def test_a_sound_store(rgss, with_evidence):
+    told = rgss("evidence", "verify", "--project", with_evidence)
+
+    assert (told.status, told.errors) == (0, "")
+    assert told.output == "Sound: 216 trials, 0 pieces, 0 inputs, 0 failures.\n"
+
+
+def test_what_no_trial_refers_to_is_told_but_no_damage(rgss, spoilt):
+    with EvidenceStore.open(spoilt / EVIDENCE) as store:
+        store.put_inputs({"seed": 1})
+    told = rgss("evidence", "verify", "--project", spoilt)
+
+    assert told.status == 0
+    assert "No trial refers to 0 of the pieces and 1 of the inputs, which is no damage" in told.output
+
+
+def test_damaged_rows_are_told_line_by_line_and_mended(rgss, spoilt):
+    change(spoilt, "UPDATE trials SET record = x'00' WHERE variant = 7 AND seed = 2")
+    change(spoilt, "UPDATE trials SET key = 'k' || char(27) WHERE variant = 8 AND seed = 2")
+    told = rgss("evidence", "verify", "--project", spoilt)
+
+    assert (told.status, told.errors) == (1, "")
+    one, other, summary, advice = told.output.splitlines()
+    assert one.endswith(": its record cannot be unpacked")
+    assert other.endswith(": its key is none")
+    assert "\x1b" not in told.output
+    assert summary == "2 damages; sound: 214 trials, 0 pieces, 0 inputs, 0 failures."
+    assert advice == (
+        "To mend it: 'rgss evidence verify --mend' takes these rows away, and 'rgss sweep' makes them anew."
+    )
+    assert [each["what"] for each in rgss("evidence", "verify", "--json", "--project", spoilt).document["damages"]] == [
+        "trial",
+        "trial",
+    ]
+
+    told = rgss("evidence", "verify", "--mend", "--project", spoilt)
+    assert told.status == 1
+    assert told.output.splitlines()[-1] == "2 damaged rows taken away; 'rgss sweep' makes anew what was in them."
+    assert rgss("evidence", "verify", "--project", spoilt).status == 0
+    assert count(spoilt) == 214
+
+
+def test_a_damaged_file_is_told_and_its_sound_rows_saved(rgss, spoilt):
+    path = spoilt / EVIDENCE
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2 // 4096 * 4096])
+    told = rgss("evidence", "verify", "--project", spoilt)
+
+    assert (told.status, told.errors) == (1, "")
+    assert ": pages: " in told.output
+    assert told.output.splitlines()[-1] == (
+        "To mend it: 'rgss evidence verify --mend' saves the sound rows in a new file."
+    )
+    told = rgss("evidence", "verify", "--mend", "--json", "--project", spoilt)
+    assert told.status == 1
+    assert "sound rows are saved in evidence.sqlite.mended beside it" in told.document["mended"]
+    path.with_name("evidence.sqlite.mended").replace(path)
+    assert rgss("evidence", "verify", "--project", spoilt).status == 0
+    assert 0 < count(spoilt) < 216
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_an_export_has_a_row_for_each_trial(rgss, with_evidence, tmp_path, ending):
+    target = tmp_path / f"trials.{ending}"
+    told = rgss("evidence", "export", target, "--project", with_evidence)
+
+    assert (told.status, told.errors) == (0, "")
+    assert told.output == f"216 trials written to {target}\n"
+    table = pd.read_csv(target) if ending == "csv" else pd.read_parquet(target)
+    assert len(table) == 216
+    with EvidenceStore.open(with_evidence / EVIDENCE) as store:
+        for row, trial in zip(table.to_dict("records"), store.iterate(), strict=True):
+            assert (row["key"], row["variant"], row["seed"]) == (trial.key, trial.record.variant, trial.record.seed)
+            assert row["motion_time_s"] == pytest.approx(trial.record.metrics["motion_time_s"], rel=1e-15)
+    assert [path.name for path in tmp_path.iterdir()] == [target.name]
+    assert rgss("evidence", "export", target, "--json", "--project", with_evidence).document["trials"] == 216
+
+
+def test_an_export_to_another_ending(rgss, with_evidence, tmp_path):
+    told = rgss("evidence", "export", tmp_path / "trials.xlsx", "--project", with_evidence)
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint == (
+        f"rgss: {tmp_path / 'trials.xlsx'} ends in neither .parquet nor .csv (the ending chooses the format)"
+    )
+
+
+def test_an_export_to_parquet_without_its_library(rgss, with_evidence, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    told = rgss("evidence", "export", tmp_path / "trials.parquet", "--project", with_evidence)
+
+    assert told.status == 2
+    assert told.complaint == (
+        "rgss: a Parquet file needs pyarrow, which is not installed (pip install 'rgss[parquet]', or name a .csv file)"
+    )
+
+
+def test_an_export_into_a_folder_that_is_not_there(rgss, with_evidence, tmp_path):
+    told = rgss("evidence", "export", tmp_path / "none" / "trials.csv", "--project", with_evidence)
+
+    assert told.status == 2
+    assert told.complaint.endswith("trials.csv cannot be written: No such file or directory")
+
+
+def test_no_garbage(rgss, with_evidence):
+    told = rgss("evidence", "gc", "--project", with_evidence)
+
+    assert (told.status, told.errors) == (0, "")
+    assert told.output == "The studies name everything that is in the evidence; there is nothing to remove.\n"
+
+
+def test_garbage_is_shown_and_removed_only_on_demand(rgss, spoilt):
+    edit(spoilt, "scenes/restaurant.yaml", "mass: 0.25 kg", "mass: 0.26 kg")
+    specs = trial_specs(load_project(spoilt))
+    with EvidenceStore.open(spoilt / EVIDENCE) as store:
+        old = next(store.iterate())
+        store.put(key_of(specs[0]), old.record, Provenance(inputs={}, versions={}))
+        store.put_failure(FAILED)
+        store.put_inputs({"seed": 1})
+    for words in (["gc"], ["gc", "--dry-run"]):
+        told = rgss("evidence", *words, "--project", spoilt)
+        assert (told.status, told.errors) == (0, "")
+        first, trials, inputs, failures, last = told.output.splitlines()
+        assert first == "No study of the project, as it and the code are now, names:"
+        assert trials == "  216 trials (216 contact) of 72 variants"
+        assert (inputs, failures) == ("  1 set of inputs", "  1 failure of the run")
+        assert last.endswith("'rgss evidence gc --apply' removes it.")
+    assert count(spoilt) == 217
+
+    document = rgss("evidence", "gc", "--apply", "--json", "--project", spoilt).document
+    assert document["removed"]
+    assert len(document["trials"]) == 216
+    assert (document["inputs"], document["failures"]) == (1, 1)
+    assert document["freed_bytes"] > 0
+    assert count(spoilt) == 1
+    assert "nothing to remove" in rgss("evidence", "gc", "--apply", "--project", spoilt).output
+
+
+def test_garbage_is_removed_and_the_file_shrinks(rgss, spoilt):
+    edit(spoilt, "scenes/restaurant.yaml", "mass: 0.25 kg", "mass: 0.26 kg")
+    size = (spoilt / EVIDENCE).stat().st_size
+    told = rgss("evidence", "gc", "--apply", "--project", spoilt)
+
+    assert (told.status, told.errors) == (0, "")
+    assert told.output.splitlines()[-1].startswith("Removed; the file is ")
+    assert (spoilt / EVIDENCE).stat().st_size < size / 2
+
+
+def test_more_replicates_are_garbage_only_in_the_strict_sense(rgss, spoilt):
+    edit(spoilt, STUDY, "replicates: 3", "replicates: 2")
+
+    assert "nothing to remove" in rgss("evidence", "gc", "--project", spoilt).output
+    strict = rgss("evidence", "gc", "--strict", "--json", "--project", spoilt).document
+    assert {trial["seed"] for trial in strict["trials"]} == {3}
+    assert len(strict["trials"]) == 72
+
+
+def test_a_study_that_cannot_be_read_keeps_everything(rgss, spoilt):
+    (spoilt / "studies/other.yaml").write_text("study: other\n", encoding="utf-8")
+    told = rgss("evidence", "gc", "--apply", "--project", spoilt)
+
+    assert (told.status, told.output) == (2, "")
+    assert "studies/other.yaml:" in told.errors
+    assert count(spoilt) == 216
+
+
+def test_a_store_in_use_is_not_cleared_up(rgss, spoilt, monkeypatch):
+    monkeypatch.setattr("rgss.evidence.collection._PATIENCE_MS", 50)
+    edit(spoilt, "scenes/restaurant.yaml", "mass: 0.25 kg", "mass: 0.26 kg")
+    with EvidenceStore.open(spoilt / EVIDENCE) as store:
+        told = rgss("evidence", "gc", "--apply", "--project", spoilt)
+        assert len(store) == 216
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint.endswith(" open (wait until the sweep is done)")
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["nope"], "rgss evidence: argument ACTION: invalid choice: 'nope'"),
+        (["export"], "rgss evidence export: the following arguments are required: FILE"),
+        (["gc", "--apply", "--dry-run"], "rgss evidence gc: argument --dry-run: not allowed with argument --apply"),
+        (["verify", "--apply"], "rgss: unrecognized arguments: --apply"),
+    ],
+)
+def test_words_that_are_not_understood(rgss, words, complaint):
+    told = rgss("evidence", *words)
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint.startswith(complaint)
+
+
+@pytest.mark.parametrize("action", ["verify", "export", "gc"])
+def test_help_of_an_action(rgss, action):
+    told = rgss("evidence", action, "--help")
+
+    assert (told.status, told.errors) == (0, "")
+    assert told.output.startswith(f"usage: rgss evidence {action} ")
+    assert "--project DIR" in told.output
+
+
+def test_a_csv_file_is_one_that_spreadsheets_read(rgss, with_evidence, tmp_path):
+    target = tmp_path / "trials.csv"
+    rgss("evidence", "export", target, "--project", with_evidence)
+
+    with target.open(encoding="utf-8", newline="") as file:
+        head, *rows = csv.reader(file)
+    assert len({len(row) for row in [head, *rows]}) == 1
+    assert len(set(head)) == len(head)

@@ -1,0 +1,165 @@
+"""What workers are given to do in tests instead of simulations: quick pieces, and every way to fail.
+
+Workers import these functions by their name, so this folder must be on their path.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from pathlib import Path
+
+from rgss.errors import SimulationError
+from rgss.evidence import Phase, Piece, PieceKind, PlanOutcome, TrialRecord
+from rgss.motion import PlanningClock
+from rgss.trials.bench import PayloadLimit, PayloadResult
+from rgss.trials.bench_text import bench_to_text
+from rgss.trials.execution_text import execution_to_text
+from rgss.trials.making import Task, TrialTask, make_piece, record_of, tasks_of
+from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.plan_text import plan_to_text
+from rgss.trials.spec import TrialDigests
+from rgss.trials.timing import TaskTiming
+from rgss.trials.timing_text import timing_to_text
+
+FOLDER = "WORKER_DOUBLES_FOLDER"
+"""Names the folder in which workers leave their marks."""
+
+MIB = 1024 * 1024
+
+
+def quick(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
+    """Pieces of a trial whose planner finds nothing in the time that it has."""
+    if isinstance(task, TrialTask):
+        bench = "d" * 64 if task.spec.fidelity.value == "contact" else ""
+        digests = TrialDigests(plan="a" * 64, timing="b" * 64, execution="c" * 64, bench=bench, trial="e" * 64)
+        return record_of(
+            task.spec, {each.kind: quick(each, dict.fromkeys(each.needs)) for each in tasks_of(task.spec, digests)}
+        )
+    assert {*needed} == {*task.needs}
+    limit_s = task.spec.settings.planning.search_limit_s
+    clock = PlanningClock(charge_s=0.001)
+    move = PlannedMove(
+        phase=Phase.MOVE_TO_GRASP,
+        outcome=PlanOutcome.BUDGET_SPENT,
+        checks=clock.checks_within(limit_s),
+        simplification_checks=0,
+        search_time_s=limit_s,
+        time_s=limit_s,
+        path_rad=None,
+        path_length_m=None,
+    )
+    text = {
+        PieceKind.PLAN: lambda: plan_to_text(TaskPlan(moves={move.phase: move}, lift_rad=None, clock=clock)),
+        PieceKind.TIMING: lambda: timing_to_text(TaskTiming(trajectories={}, failures={})),
+        PieceKind.EXECUTION: lambda: execution_to_text(()),
+        PieceKind.BENCH: lambda: bench_to_text(
+            PayloadResult(
+                payload_kg=1.0,
+                limited_by=PayloadLimit.RATED,
+                bracket_kg=(1.0, 1.0),
+                theory_kg=1.0,
+                eq_4_8_kg=1.0,
+                probes=(),
+            )
+        ),
+    }[task.kind]()
+    return Piece(digest=task.digest, kind=task.kind, text=text)
+
+
+def is_first_time(name: str) -> bool:
+    """Tell whether this is asked for the first time, by whatever process."""
+    try:
+        (Path(os.environ[FOLDER]) / name).touch(exist_ok=False)
+    except FileExistsError:
+        return False
+    return True
+
+
+def troubled(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
+    """Every seed has its own trouble with its plan, and seed 7 with its execution."""
+    kind = "trial" if isinstance(task, TrialTask) else task.kind.value
+    trouble = {
+        ("plan", 2): die_of_segmentation,
+        ("plan", 3): hang,
+        ("plan", 4): allocate_without_end,
+        ("plan", 5): refuse,
+        ("plan", 6): lambda: is_first_time("six") and os.kill(os.getpid(), signal.SIGKILL),
+        ("execution", 7): fail,
+    }.get((kind, task.spec.seed))
+    if trouble is not None:
+        trouble()
+    return quick(task, needed)
+
+
+def die_of_segmentation() -> None:
+    """Say something and end like a program that reads where it must not."""
+    sys.stderr.write("free(): invalid next size\n")
+    sys.stderr.flush()
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def hang() -> None:
+    """Never come back."""
+    threading.Event().wait()
+
+
+def allocate_without_end() -> None:
+    """Take all memory that there is."""
+    taken = []
+    while True:
+        taken.append(bytearray(64 * MIB))
+
+
+def refuse() -> None:
+    """Raise an error of ours, which another attempt would raise again."""
+    raise SimulationError("the workpiece cannot have the mass 0", hint="give it some")
+
+
+def fail() -> None:
+    """Raise an error of somebody else's."""
+    raise ZeroDivisionError("division\nby zero")
+
+
+def changed_result(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
+    """Another bench than `quick` gives."""
+    made = quick(task, needed)
+    if isinstance(made, Piece) and made.kind is PieceKind.BENCH:
+        return Piece(digest=made.digest, kind=made.kind, text=made.text.replace("1.0", "2.0"))
+    return made
+
+
+def noted(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
+    """A real piece whose making leaves a mark."""
+    (Path(os.environ[FOLDER]) / f"{task.kind.value}-{task.digest}").touch(exist_ok=False)
+    return make_piece(task, needed)
+
+
+def who() -> int:
+    """The process that answers."""
+    return os.getpid()
+
+
+def memory_limit() -> int:
+    """The limit under which a worker stands."""
+    import resource
+
+    return resource.getrlimit(resource.RLIMIT_DATA)[0]
+
+
+def act(name: str) -> object:
+    """Do what a name says; the name is one of this module's functions."""
+    return {
+        "who": who,
+        "hang": hang,
+        "fail": fail,
+        "refuse": refuse,
+        "allocate": allocate_without_end,
+        "die": die_of_segmentation,
+        "memory_limit": memory_limit,
+        "exit": lambda: os._exit(7),
+        "threads": lambda: os.environ["OMP_NUM_THREADS"],
+        "interrupted": lambda: signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()),
+    }[name]()

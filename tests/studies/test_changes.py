@@ -1,0 +1,49 @@
+"""What differs between two values, and where."""
+
+from __future__ import annotations
+
+import pytest
+
+from rgss.studies.changes import Change, changes_between
+
+
+@pytest.mark.parametrize(
+    ("then", "now", "expected"),
+    [
+        ({"a": 1}, {"a": 1}, []),
+        ({"a": 1}, {"a": 2}, [("a", "1", "2")]),
+        ({"a": 1}, {"a": 1.0}, [("a", "1", "1.0")]),
+        ({"a": 0.0}, {"a": -0.0}, [("a", "0.0", "-0.0")]),
+        ({"a": {"b": "x"}}, {"a": {"b": "y"}}, [("a.b", "'x'", "'y'")]),
+        ({"a": [1, 2]}, {"a": [1, 3, 4]}, [("a[1]", "2", "3"), ("a[2]", "–", "4")]),
+        ({"a": 1, "b": 2}, {"b": 2, "c": 3}, [("a", "1", "–"), ("c", "–", "3")]),
+        ({"a": {}}, {"a": {"b": 1}}, [("a", "{}", "–"), ("a.b", "–", "1")]),
+        ({"a": []}, {"a": None}, [("a", "[]", "None")]),
+        (
+            {"bodies": [{"id": "table", "friction": 0.5}, {"id": "floor", "friction": 0.5}]},
+            {"bodies": [{"id": "table", "friction": 0.5}, {"id": "floor", "friction": 0.6}]},
+            [("bodies[floor].friction", "0.5", "0.6")],
+        ),
+        (
+            {"phases": [{"phase": "lift", "s": 1}]},
+            {"phases": [{"phase": "lift", "s": 2}]},
+            [("phases[lift].s", "1", "2")],
+        ),
+        (
+            {"joints": [{"name": "elbow", "speed": 3.0}]},
+            {"joints": [{"name": "elbow", "speed": 2.0}]},
+            [("joints[elbow].speed", "3.0", "2.0")],
+        ),
+        (1, 2, [("", "1", "2")]),
+    ],
+)
+def test_every_difference_is_named_by_its_place(then, now, expected):
+    assert [(change.name, change.then, change.now) for change in changes_between(then, now)] == expected
+
+
+def test_changes_come_in_the_order_of_what_was_and_then_of_what_is_new():
+    assert changes_between({"b": 1, "a": 1}, {"c": 1, "a": 2, "b": 2}) == (
+        Change(name="b", then="1", now="2"),
+        Change(name="a", then="1", now="2"),
+        Change(name="c", then="–", now="1"),
+    )

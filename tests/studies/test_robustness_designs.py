@@ -1,0 +1,94 @@
+"""Robustness where designs, evidence or rules are other than the shipped ones."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from rgss.studies.choosing import choose, trade_problem
+from rgss.studies.measuring import measure_variants
+from rgss.studies.project import load_project
+from rgss.studies.robustness import analyse_robustness
+from rgss.studies.robustness_assumptions import assumption_findings
+from rgss.studies.robustness_effects import study_effects
+from rgss.studies.robustness_export import robustness_to_json
+from rgss.studies.robustness_remeasuring import Remeasuring
+from rgss.tradeoff.evidence_table import tabulated
+
+
+def test_effects_without_levels_that_never_succeed(shipped, filled, record_of):
+    """TRRT never succeeds, so no time is known of it: the others are analysed, and it is said."""
+    failing = measure_variants(shipped, filled(shipped, lambda spec: record_of(spec, success=spec.planner != "TRRT")))
+    effects = {one.measure: one for one in study_effects(shipped, failing, None).measures}
+
+    assert effects["t_e"].left_out == ("planner=trrt",)
+    assert effects["t_e"].designs == 48
+    assert effects["S"].left_out == ()
+    assert effects["t_e"].analysis.effects[0].low is None
+
+
+def test_one_replicate_tells_nothing_of_noise(shipped, filled, record_of):
+    project = shipped.with_replicates(1)
+    single = measure_variants(project, filled(project, lambda spec: record_of(spec, planning_s=0.1 * spec.variant % 1)))
+    found = analyse_robustness(project, single, choose(project, single))
+
+    assert found.refused == {
+        "noise": "1 replicate of each variant tell nothing of noise (run 'rgss sweep' with at least 2 replicates)"
+    }
+    assert not found.weighting.with_noise
+    assert found.resamples == 0
+    analyses = [one.analysis for one in found.effects.measures if one.analysis is not None]
+    assert analyses
+    assert all(effect.low is None for analysis in analyses for effect in analysis.effects)
+
+
+SAMPLED = """\
+factors:
+  - {id: gripper_mass, name: Gripper weight, levels: [{id: standard, sets: {d2: 0.3 kg, d3: 0.4 kg}}, {id: light, sets: {d2: 0.2 kg, d3: 0.2 kg}}]}
+  - {id: fingers, name: Fingers, levels: [{id: three, sets: {d1: 3}}, {id: two, sets: {d1: 2}}]}
+  - {id: velocity, name: Manipulator velocity, parameter: d7, range: [0.5 m/s, 1 m/s], resolution: 0.01 m/s}
+  - {id: planner, name: Planning algorithm, levels: [{id: rrt, sets: {d8: RRT}}, {id: trrt, sets: {d8: TRRT}}]}
+  - {id: planning_time, name: Limit, parameter: d9, range: [4 s, 8 s], resolution: 0.1 s}
+sample: {method: sobol, size: 64, seed: 3}
+"""  # noqa: E501
+
+
+def test_designs_that_are_a_sample(folder, filled, record_of):
+    """Payload follows from the fingers alone, execution time mostly from the speed; nothing else is made up."""
+    file = folder / "designs/grasping_system.yaml"
+    text = file.read_text(encoding="utf-8")
+    head, rest = text.split("factors:\n", 1)
+    file.write_text(head + SAMPLED + "\nrules:" + rest.split("\nrules:", 1)[1], encoding="utf-8")
+    project = load_project(folder)
+    sampled = measure_variants(project, filled(project, lambda spec: record_of(spec, planning_s=0.2, path_m=1.0)))
+    found = analyse_robustness(project, sampled, choose(project, sampled))
+    effects = {one.measure: one for one in found.effects.measures}
+
+    assert found.effects.constants == ("d4", "d5", "d6")
+    assert [factor.parameters for factor in found.effects.factors] == [("d2", "d3"), ("d1",), ("d7",), ("d8",), ("d9",)]
+    assert effects["P_max"].analysis is None
+    assert effects["P_max"].sampled["fingers"].share == pytest.approx(1.0)
+    assert effects["t_e"].sampled["velocity"].share > 0.9
+    assert max(effects["t_e"].sampled, key=lambda factor: effects["t_e"].sampled[factor].share) == "velocity"
+    assert json.loads(json.dumps(robustness_to_json(found), allow_nan=False))
+
+
+def test_a_constraint_on_an_assumed_number_is_followed_by_steps(folder, edit, filled, record_of):
+    """Fingers of 10 N need an actuator of at least 12 N by this rule: its force may fall to that and no further."""
+    edit(
+        "designs/grasping_system.yaml",
+        "rules:\n",
+        "rules:\n  - id: reserve\n    rationale: A reserve of a fifth.\n"
+        "    constraint: component.finger_actuator.force >= 1.2 * design.d5\n",
+    )
+    project = load_project(folder)
+    measured = measure_variants(project, filled(project, record_of))
+    problem = trade_problem(project, measured)
+    remeasuring = Remeasuring.of(project, measured, tabulated(problem.alternatives))
+    chosen = remeasuring.table.row_of(choose(project, measured).chosen)
+    found = assumption_findings(remeasuring, problem, chosen)
+    force = next(one for one in found if one.number.id == "catalogue.ka-58.force")
+
+    assert force.range.low == pytest.approx(12.0)
+    assert (force.range.exact, force.range.below) == (False, ())

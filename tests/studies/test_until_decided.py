@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from rgss.errors import EvidenceError
+from rgss.evidence import EvidenceStore, Provenance
+from rgss.studies.expansion import trial_specs
+from rgss.studies.sweep import key_of
+from rgss.studies.until_decided import replicate_until_decided, summary
+from rgss.tradeoff.sequential import Reason, SequentialRule
+
+RULE = SequentialRule(pilot=4, batch=4, cap=12, verdict_cap=4)
+
+
+@pytest.fixture
+def store(tmp_path):
+    with EvidenceStore.open(tmp_path / "evidence.sqlite") as opened:
+        yield opened
+
+
+@pytest.fixture
+def runner(store, record_of):
+    """Runs trials without a simulation: STRIDE always fails, the others take their time."""
+    asked = []
+
+    def run(specs):
+        rows = []
+        for spec in specs:
+            asked.append((spec.variant, spec.seed))
+            chance = random.Random(f"{spec.planner} {spec.seed}")  # noqa: S311 - a sample, no secret
+            success = spec.planner != "STRIDE"
+            record = record_of(spec, success=success, planning_s=0.5 + chance.random())
+            rows.append((key_of(spec), record, Provenance(inputs={}, versions={})))
+        store.put_many(trials=rows)
+
+    run.asked = asked
+    return run
+
+
+def test_replicates_go_where_they_can_change_the_decision(shipped, store, runner):
+    looks = []
+    result = replicate_until_decided(shipped, store, runner, rule=RULE, on_look=lambda *seen: looks.append(seen))
+    stride = {spec.variant for spec in trial_specs(shipped, seeds=(1,)) if spec.planner == "STRIDE"}
+    assert result.variant in result.contenders
+    assert not stride & set(result.contenders)
+    assert max(result.trials[variant] for variant in stride) < RULE.cap == result.trials[result.variant]
+    assert result.reason is Reason.CAP
+    assert len(runner.asked) == len(set(runner.asked)) == result.total
+    assert looks[0] == (1, 72 * 4)
+    assert looks[-1] == (result.looks, result.total)
+    # Every variant has the same seeds, from the study's on.
+    first = shipped.study.seed
+    assert set(runner.asked) == {
+        (variant, seed) for variant, count in result.trials.items() for seed in range(first, first + count)
+    }
+    assert 0.0 <= result.probability <= 1.0
+    assert set(result.verdicts) == set(result.trials)
+    again = replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)
+    assert again == result
+    text = summary(result)
+    assert text.startswith(f"variant {result.variant}: cap reached with {len(result.contenders)} contenders")
+    assert f"{result.total} trials in {result.looks} looks" in text
+
+
+def test_trials_that_were_not_run_are_told(shipped, store):
+    with pytest.raises(EvidenceError, match="the trial of variant 1 with seed 1 was not run"):
+        replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)

@@ -1,0 +1,127 @@
+"""The patterns of EARS, and what is none of them."""
+
+from __future__ import annotations
+
+import pytest
+
+from rgss.trace.sentences import ClauseKind, EarsPattern, read_sentence
+from rgss.trace.terms import TermList
+
+
+@pytest.mark.parametrize(
+    ("text", "pattern", "kinds", "subject", "response"),
+    [
+        ("The gripper shall open.", "ubiquitous", [], "The gripper", "open."),
+        ("Each finger joint shall stay closed.", "ubiquitous", [], "Each finger joint", "stay closed."),
+        ("While it rains, the arm shall stay.", "state", ["while"], "the arm", "stay."),
+        ("When a cup is seen, the arm shall stop.", "event", ["when"], "the arm", "stop."),
+        ("Where a camera is fitted, the cell shall record.", "option", ["where"], "the cell", "record."),
+        ("If a cup slips, then the gripper shall close.", "unwanted", ["if"], "the gripper", "close."),
+        ("While a, when b, the arm shall stop.", "complex", ["while", "when"], "the arm", "stop."),
+        ("When a, if b, then the arm shall stop.", "complex", ["when", "if"], "the arm", "stop."),
+        ("Where a, while b, if c, then the arm shall stop.", "complex", ["where", "while", "if"], "the arm", "stop."),
+        ("When a, b, or c is seen, the arm shall stop.", "event", ["when"], "the arm", "stop."),
+        ("WHEN a cup is seen,\n  the arm SHALL\n  stop.", "event", ["when"], "the arm", "stop."),
+    ],
+)
+def test_patterns_are_recognised(text, pattern, kinds, subject, response):
+    sentence = read_sentence(text)
+
+    assert sentence.pattern is EarsPattern(pattern)
+    assert [clause.kind for clause in sentence.conditions] == [ClauseKind(kind) for kind in kinds]
+    assert (sentence.subject, sentence.response, sentence.flaw) == (subject, response, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "flaw"),
+    [
+        ("The arm should stop.", "has no 'shall', but 'should'"),
+        ("The arm stops.", "has no 'shall'"),
+        ("", "has no 'shall'"),
+        ("The arm shall.", "says nothing behind 'shall'"),
+        ("The arm shall the cup.", "has no verb behind 'shall', but 'the'"),
+        ("Shall stop.", "names nobody that shall"),
+        ("There shall be a cup.", "names nobody that shall"),
+        ("When a cup is seen, shall stop.", "names nobody that shall"),
+        ("If a cup slips, then shall stop.", "names nobody that shall"),
+        ("If a cup slips, the gripper shall close.", "says 'if' without 'then'"),
+        ("When a cup slips the gripper shall close.", "begins with 'When', but has no comma"),
+        ("While a, when b the gripper shall close.", "has no comma between its last condition and its subject"),
+        ("During a move, the gripper shall close.", "begins with 'During', which opens no condition of EARS"),
+        ("Once a cup is seen, the gripper shall close.", "begins with 'Once', which opens no condition of EARS"),
+    ],
+)
+def test_what_has_no_pattern_says_why(text, flaw):
+    sentence = read_sentence(text)
+
+    assert sentence.pattern is None
+    assert sentence.flaw.startswith(flaw)
+
+
+def test_a_subject_may_be_set_off_by_commas():
+    assert read_sentence("The arm, with its base, shall stop.").pattern is EarsPattern.UBIQUITOUS
+
+
+@pytest.mark.parametrize(
+    ("text", "sentences"),
+    [
+        ("The arm shall stop.", 1),
+        ("The arm shall stop. This is safe.", 2),
+        ("The arm shall lift 0.5 kg at 1.5 m/s.", 1),
+        ("The arm shall use tools, e.g. Grippers.", 1),
+        ("The arm of Robot No. 5 shall stop.", 1),
+        ("The arm shall meet the standard of the U.S. Army.", 1),
+        ('The arm shall end with "Done. Next." on the display.', 1),
+    ],
+)
+def test_sentences_are_counted(text, sentences):
+    assert read_sentence(text).sentences == sentences
+
+
+def test_what_is_quoted_is_no_wording():
+    sentence = read_sentence('The arm shall show "it shall not be all, etc." or “never 5 kg” or `TBD`.')
+
+    assert len(sentence.shalls) == 1
+    assert sentence.quantities == ()
+    assert sentence.words == {"the", "arm", "shall", "show", "or"}
+
+
+def test_places_are_those_of_the_text_on_one_line():
+    sentence = read_sentence("The arm\n  shall  lift.")
+
+    assert sentence.text == "The arm shall lift."
+    assert [sentence.text[token.start : token.end] for token in sentence.tokens] == ["The", "arm", "shall", "lift"]
+
+
+@pytest.mark.parametrize(
+    ("term", "text", "found"),
+    [
+        ("all", "of all cups", True),
+        ("all", "ALL cups", False),
+        ("all", "allow all-terrain shall", False),
+        ("it", "it is", True),
+        ("it", "the IT is", False),
+        ("as far as possible", "as far  as\npossible", True),
+        ("as far as possible", "as far, as possible", False),
+        ("e.g", "cups, e.g. mugs", True),
+        ("TBD", "TBD", True),
+        ("TBD", "tbd", False),
+        ("high-speed", "a high-speed arm", True),
+        ("High-Speed", "a high-speed arm", True),
+    ],
+)
+def test_terms_are_found_as_words(term, text, found):
+    assert [match.term for match in TermList([term]).find(read_sentence(text))] == ([term] if found else [])
+
+
+def test_the_longest_of_several_terms_is_found():
+    matches = TermList(["as far as", "as far as possible", "possible"]).find(read_sentence("as far as possible"))
+
+    assert [match.term for match in matches] == ["as far as possible"]
+
+
+def test_terms_are_found_from_a_place_on():
+    sentence = read_sentence("all cups and all plates")
+
+    assert len(list(TermList(["all"]).find(sentence))) == 2
+    assert len(list(TermList(["all"]).find(sentence, start=1))) == 1

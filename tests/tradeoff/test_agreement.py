@@ -1,0 +1,94 @@
+"""Every program against its definition, on random trade-offs; benchmarks/tradeoff_agreement.py runs 10,000 of each."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+
+from rgss.tradeoff import DecisionStatus, best_alternatives, decide, decide_fleet
+
+PROGRAMS = ["additive", "lexicographic", "epsilon_constraint", "tchebycheff", "minimax_regret", "risk"]
+
+
+@pytest.fixture
+def problem_of(cases, seeded):
+    def make(program, seed, *, levels=False):
+        return cases.random_problem(seeded(f"test {program} {seed}"), program, levels=levels)
+
+    return make
+
+
+@pytest.mark.verifies("SYS-038")
+@pytest.mark.parametrize("levels", [False, True], ids=["variants", "levels"])
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_agreement_with_enumeration(problem_of, oracle, program, levels):
+    tied = infeasible = 0
+    for seed in range(16):
+        problem = problem_of(program, seed, levels=levels)
+        decision, answer = decide(problem, resamples=0), oracle.expected(problem)
+        assert decision.ties == answer.tied
+        assert decision.certificate.enumeration_agrees
+        assert {one.variant: set(one.requirements) for one in decision.infeasible} == {
+            variant: broken for variant, broken in answer.violated.items() if broken
+        }
+        if answer.objective is None:
+            assert decision.status is DecisionStatus.INFEASIBLE
+        else:
+            assert decision.certificate.objective == pytest.approx(answer.objective, rel=1e-9, abs=1e-9)
+        tied += len(answer.tied) > 1
+        infeasible += not answer.tied
+    assert infeasible
+    assert tied or levels
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_levels_and_variants_agree(problem_of, program):
+    for seed in range(5):
+        over_levels = problem_of(program, seed, levels=True)
+        over_variants = dataclasses.replace(over_levels, levels=None)
+        one, other = decide(over_levels, resamples=0), decide(over_variants, resamples=0)
+        assert (one.status, one.chosen, one.ties, one.ranking) == (
+            other.status,
+            other.chosen,
+            other.ties,
+            other.ranking,
+        )
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_the_best_alternatives_one_by_one(problem_of, oracle, program):
+    for seed in range(4):
+        problem = problem_of(program, seed, levels=seed % 2 == 1)
+        certificates = best_alternatives(problem, 3)
+        left = problem.alternatives
+        feasible = len(left) - sum(bool(broken) for broken in oracle.expected(problem).violated.values())
+        assert len(certificates) == min(3, feasible)
+        for certificate in certificates:
+            answer = oracle.expected(dataclasses.replace(problem, alternatives=left, levels=None))
+            assert certificate.solver_choice in answer.tied
+            left = tuple(one for one in left if one.variant != certificate.solver_choice)
+
+
+def test_fleets(cases, oracle, seeded):
+    served = 0
+    for seed in range(25):
+        problem = cases.random_fleet(seeded(f"test fleet {seed}"))
+        decision, best = decide_fleet(problem), oracle.expected_fleet(problem)
+        assert decision.enumeration_agrees
+        if best is None:
+            assert (decision.status, decision.objective) == (DecisionStatus.INFEASIBLE, None)
+            continue
+        served += 1
+        assert decision.objective == pytest.approx(best, abs=1e-9)
+        assert len(decision.members) <= problem.at_most
+        values = {assignment.task: assignment.value for assignment in decision.assignments}
+        mean = math.fsum(task.weight * values[task.name] for task in problem.tasks)
+        assert decision.objective == pytest.approx(mean if problem.aim.value == "mean" else min(values.values()))
+        for task in problem.tasks:
+            assignment = next(one for one in decision.assignments if one.task == task.name)
+            alternative = next(one for one in task.problem.alternatives if one.variant == assignment.variant)
+            assert oracle.violations(task.problem, alternative) == set()
+            assert assignment.value == pytest.approx(oracle.weighted_value(task.problem, alternative))
+    assert served > 10

@@ -1,0 +1,136 @@
+"""What would have to change for something to be feasible: each repair is put in and decided anew."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+
+from rgss.tradeoff import (
+    Aim,
+    Alternative,
+    ChanceBound,
+    Comparison,
+    Lexicographic,
+    LimitChange,
+    MinimaxRegret,
+    TailBound,
+    decide,
+)
+
+
+def relaxed(problem, repair):
+    """The problem with the limits of a repair."""
+    needed = {change.demand: change.needed for change in repair.changes}
+    return dataclasses.replace(
+        problem,
+        thresholds=tuple(
+            one.with_limit(needed[one.demand])
+            if one.demand in needed and one.requirement == repair.requirement
+            else one
+            for one in problem.thresholds
+        ),
+    )
+
+
+def test_by_hand(build_problem):
+    problem = build_problem(
+        {
+            1: {"a": 0.9, "b": 0.30},
+            2: {"a": 0.4, "b": 0.80},
+            3: {"a": 0.7, "b": 0.45},
+            4: {"a": 0.2, "b": 0.10},
+        },
+        thresholds=[("R-a", "a", ">=", 0.5), ("R-b", "b", ">=", 0.5)],
+        values={"a": (0.0, 1.0), "b": (0.0, 1.0)},
+        weights={"a": 0.5, "b": 0.5},
+    )
+    first, second = decide(problem).conflicts.repairs
+    assert first.changes == (LimitChange(demand="a >= 0.5 kg", limit=0.5, needed=0.4, unit="kg"),)
+    assert (first.requirement, first.unlocked, first.winner) == ("R-a", 1, 2)
+    assert first.changes[0].relative == pytest.approx(0.2)
+    assert second.changes[0].needed == 0.45
+    assert (second.requirement, second.unlocked, second.winner) == ("R-b", 1, 3)
+
+
+def test_no_change_of_one_requirement_helps(build_problem):
+    problem = build_problem({1: {"a": 0.1, "b": 0.1}}, thresholds=[("R-a", "a", ">=", 0.5), ("R-b", "b", ">=", 0.5)])
+    assert [(one.changes, one.unlocked, one.winner) for one in decide(problem).conflicts.repairs] == [((), 0, None)] * 2
+
+
+def test_missing_evidence_cannot_be_repaired(build_problem):
+    problem = build_problem({1: {"a": None}}, thresholds=[("R", "a", ">=", 0.5)])
+    (repair,) = decide(problem).conflicts.repairs
+    assert (repair.changes, repair.winner) == ((), None)
+    problem = build_problem({1: {"a": None, "b": 0.0}}, thresholds=[("R", "b", ">=", 0.5)])
+    assert [repair.changes for repair in decide(problem).conflicts.repairs] == [(), ()]
+
+
+def test_a_requirement_with_two_limits_moves_both_where_both_are_missed(build_problem):
+    problem = build_problem(
+        {1: {"a": 0.4, "b": 12.0}, 2: {"a": 0.1, "b": 10.0}},
+        thresholds=[("R", "a", ">=", 0.5), ("R", "b", "<=", 10.0)],
+    )
+    (repair,) = decide(problem).conflicts.repairs
+    assert [(change.demand, change.needed) for change in repair.changes] == [("a >= 0.5 kg", 0.4), ("b <= 10 kg", 12.0)]
+    assert decide(relaxed(problem, repair)).chosen == repair.winner == 1
+
+
+def test_a_limit_of_zero_has_no_relative_change(build_problem):
+    problem = build_problem({1: {"a": 2.0}}, thresholds=[("R", "a", "<=", 0.0)])
+    (repair,) = decide(problem).conflicts.repairs
+    assert (repair.changes[0].needed, repair.changes[0].relative) == (2.0, None)
+
+
+def test_of_a_chance_and_a_tail_the_level_and_the_limit_move(build_problem):
+    alternatives = (Alternative(variant=1, measures={"a": 0.5}, samples={"a": (0.1, 0.3, 0.7, 0.9)}),)
+    common = {"measure": "a", "comparison": Comparison.AT_LEAST, "unit": "1"}
+    risks = (
+        ChanceBound(requirement="chance:a", value=0.5, probability=0.75, **common),
+        TailBound(requirement="tail:a", value=0.3, share=0.5, **common),
+    )
+    decision = decide(build_problem({}, alternatives=alternatives, risks=risks[:1]))
+    assert decision.conflicts.repairs[0].changes[0] == LimitChange(
+        demand="P[a >= 0.5] >= 0.75", limit=0.75, needed=0.5, unit="1"
+    )
+    decision = decide(build_problem({}, alternatives=alternatives, risks=risks[1:]))
+    assert decision.conflicts.repairs[0].changes[0].needed == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_each_repair_is_the_smallest_and_its_winner_wins(seeded, build_problem, seed):
+    rng = seeded(f"repair {seed}")
+    names = "abc"
+    program = rng.choice(
+        [
+            {},
+            {"program": MinimaxRegret()},
+            {"program": Lexicographic(aims=(Aim(measure="b", sense=Comparison.AT_LEAST, absolute=0.2),))},
+        ]
+    )
+    problem = build_problem(
+        {variant: {name: rng.randrange(21) / 20 for name in names} for variant in range(1, 15)},
+        thresholds=[(f"R-{name}", name, rng.choice([">=", "<="]), rng.choice([0.02, 0.5, 0.98])) for name in names],
+        values=dict.fromkeys(names, (0.0, 1.0)),
+        weights=dict.fromkeys(names, 1 / 3),
+        **program,
+    )
+    decision = decide(problem)
+    if decision.conflicts is None:
+        return
+    for repair in decision.conflicts.repairs:
+        (threshold,) = (one for one in problem.thresholds if one.requirement == repair.requirement)
+        if not repair.changes:
+            # Without this requirement at all there would be nothing either.
+            without = dataclasses.replace(
+                problem, thresholds=tuple(one for one in problem.thresholds if one is not threshold)
+            )
+            assert decide(without).chosen is None
+            continue
+        mended = decide(relaxed(problem, repair))
+        assert (mended.chosen, mended.counts.feasible) == (repair.winner, repair.unlocked)
+        (change,) = repair.changes
+        towards = math.nextafter(change.needed, threshold.value) + (threshold.value - change.needed) * 1e-6
+        less = dataclasses.replace(repair, changes=(dataclasses.replace(change, needed=towards),))
+        assert decide(relaxed(problem, less)).chosen is None

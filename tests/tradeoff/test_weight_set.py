@@ -1,0 +1,102 @@
+"""The admitted weights, and drawing from them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.sampling import sample_weights
+from rgss.tradeoff.weight_set import WeightSet
+
+ORDERED = WeightSet.cut(np.array([[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0]]), np.zeros(2))
+"""w1 >= w2 >= w3."""
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 5, 8])
+def test_directions_are_orthonormal_and_keep_the_sum(size):
+    directions = WeightSet.simplex(size).directions()
+
+    assert directions.shape == (size, size - 1)
+    assert directions.T @ directions == pytest.approx(np.eye(size - 1))
+    assert directions.sum(axis=0) == pytest.approx(np.zeros(size - 1), abs=1e-12)
+
+
+def test_a_fixed_weight_takes_no_room():
+    fixed = WeightSet.cut(np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]), np.array([0.4, -0.4]))
+
+    assert fixed.directions().shape == (3, 1)
+    assert fixed.directions()[0] == pytest.approx([0.0], abs=1e-12)
+    drawn = sample_weights(fixed, 1000, np.random.default_rng(0))
+    assert drawn[:, 0] == pytest.approx(np.full(1000, 0.4))
+    assert drawn[:, 1].min() == pytest.approx(0.0, abs=0.01)
+    assert drawn[:, 1].max() == pytest.approx(0.6, abs=0.01)
+
+
+def test_bounds_that_leave_one_point():
+    """Both lower bounds sum to 1: no weight can move."""
+    point = WeightSet.cut(-np.eye(2), np.array([-0.3, -0.7]))
+
+    assert point.directions().shape == (2, 0)
+    assert sample_weights(point, 3, np.random.default_rng(0)) == pytest.approx(np.array([[0.3, 0.7]] * 3))
+
+
+def test_bounds_that_contradict_each_other():
+    with pytest.raises(TradeoffError) as caught:
+        WeightSet.cut(-np.eye(2), np.array([-0.6, -0.7]))
+    assert str(caught.value) == (
+        "no weights satisfy all the elicited bounds and orders (widen a bound, or drop an order)"
+    )
+
+
+def test_the_simplex_is_drawn_uniformly():
+    """The moments of the flat Dirichlet distribution: mean 1/m, variance (m - 1) / (m² (m + 1))."""
+    drawn = sample_weights(WeightSet.simplex(4), 200_000, np.random.default_rng(1))
+
+    assert drawn.sum(axis=1) == pytest.approx(np.ones(200_000))
+    assert drawn.mean(axis=0) == pytest.approx(np.full(4, 0.25), abs=2e-3)
+    assert drawn.var(axis=0) == pytest.approx(np.full(4, 3 / 80), abs=5e-4)
+
+
+def test_ordered_weights_have_the_centroid_of_ranks():
+    """The mean of w1 >= w2 >= w3 is (11, 5, 2) / 18 (Barron and Barrett 1996)."""
+    drawn = sample_weights(ORDERED, 100_000, np.random.default_rng(2))
+
+    assert (drawn[:, 0] >= drawn[:, 1] - 1e-12).all()
+    assert (drawn[:, 1] >= drawn[:, 2] - 1e-12).all()
+    assert drawn.mean(axis=0) == pytest.approx(np.array([11, 5, 2]) / 18, abs=2e-3)
+
+
+@pytest.mark.parametrize("size", [3, 7])
+def test_drawing_from_a_cut_set_is_drawing_from_the_simplex_and_rejecting(size):
+    """By triangulation for three weights, by rejection for seven."""
+    rows = np.vstack([np.eye(size)[0], -np.eye(size)[1]])
+    cut = WeightSet.cut(rows, np.array([0.3, -0.05]))
+    whole = sample_weights(WeightSet.simplex(size), 400_000, np.random.default_rng(3))
+    kept = whole[(whole[:, 0] <= 0.3) & (whole[:, 1] >= 0.05)]
+    drawn = sample_weights(cut, 100_000, np.random.default_rng(4))
+
+    assert drawn[:, 0].max() <= 0.3 + 1e-12
+    assert drawn[:, 1].min() >= 0.05 - 1e-12
+    assert drawn.mean(axis=0) == pytest.approx(kept.mean(axis=0), abs=3e-3)
+    assert drawn.std(axis=0) == pytest.approx(kept.std(axis=0), abs=3e-3)
+
+
+def test_the_same_seed_draws_the_same_weights():
+    first, second = (sample_weights(ORDERED, 100, np.random.default_rng(5)) for _ in range(2))
+
+    assert (first == second).all()
+
+
+def test_a_set_too_thin_for_rejection():
+    thin = WeightSet.cut(-np.eye(8), np.full(8, -0.1249))
+
+    with pytest.raises(TradeoffError, match=r"leave less than one weight in 400 \(widen a bound"):
+        sample_weights(thin, 10, np.random.default_rng(0))
+
+
+def test_many_weights_of_which_one_is_fixed():
+    rows = np.vstack([np.eye(8)[0], -np.eye(8)[0]])
+
+    with pytest.raises(TradeoffError, match="more than six measures cannot be drawn while one is fixed"):
+        sample_weights(WeightSet.cut(rows, np.array([0.4, -0.4])), 10, np.random.default_rng(0))

@@ -1,0 +1,232 @@
+"""The code that a piece depends on: found from imports, and held against what really runs."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rgss.trials.sources import SourceTree, own_sources
+from rgss.trials.versions import ENGINES, ENTRIES, code_of_trials, source_of
+
+REPOSITORY = Path(__file__).parents[2]
+
+MAKE_AND_WATCH = """
+import json, sys
+from pathlib import Path
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import load_project
+from rgss.trials.making import make_piece, record_of, tasks_of
+from rgss.trials.spec import digests_of
+from rgss.trials.versions import versions
+
+project = load_project(Path(sys.argv[1]))
+(spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[1])
+tasks = tasks_of(spec, digests_of(spec, versions()))
+ran, made = {}, {}
+
+def watched(name, function, *arguments):
+    files = ran.setdefault(name, set())
+    sys.settrace(lambda frame, event, _: files.add(frame.f_code.co_filename))
+    try:
+        return function(*arguments)
+    finally:
+        sys.settrace(None)
+
+for task in tasks:
+    made[task.digest] = watched(task.kind.value, make_piece, task, made)
+watched("record", record_of, spec, {piece.kind: piece for piece in made.values()})
+print(json.dumps({name: sorted(files) for name, files in ran.items()}))
+"""
+
+
+@pytest.fixture
+def package(tmp_path):
+    """Writes the modules of a package and reads its sources."""
+
+    def write(**modules: str) -> SourceTree:
+        for name, text in modules.items():
+            file = (tmp_path / "pack").joinpath(*name.split("__")).with_suffix(".py")
+            file.parent.mkdir(parents=True, exist_ok=True)
+            (file.parent / "__init__.py").touch()
+            file.write_text(text, encoding="utf-8")
+        return SourceTree(tmp_path / "pack")
+
+    return write
+
+
+def room(package, init: str) -> SourceTree:
+    """A package with one room whose ``__init__`` is as given, and a module that takes a name from it."""
+    tree = package(
+        entry="from pack.room import wanted",
+        room__wanted="from pack import base\nwanted = 1",
+        room__other="import numpy\nother = 2",
+        base="",
+    )
+    (tree._folder / "room" / "__init__.py").write_text(init, encoding="utf-8")
+    return tree
+
+
+def test_a_package_that_only_hands_on_is_followed_name_by_name(package):
+    init = (
+        '"""A room."""\nfrom pack.room.other import other\nfrom pack.room.wanted import wanted\n__all__ = ["other"]\n'
+    )
+    closure = room(package, init).closure_of(["pack.entry"])
+
+    # The submodule ``wanted`` is what the name stands for in any case.
+    assert closure.modules == ("pack.base", "pack.entry", "pack.room.wanted")
+    assert closure.foreign == ()
+
+
+def test_a_name_that_is_handed_on_under_another_one_is_followed(package):
+    tree = package(
+        entry="from pack import renamed",
+        inner__part="value = 1",
+        inner__unused="import scipy",
+    )
+    (tree._folder / "inner" / "__init__.py").write_text(
+        "from pack.inner.part import value as given\nfrom pack.inner.unused import x\n", encoding="utf-8"
+    )
+    (tree._folder / "__init__.py").write_text("from pack.inner import given as renamed\n", encoding="utf-8")
+
+    assert tree.closure_of(["pack.entry"]).modules == ("pack.entry", "pack.inner.part")
+
+
+@pytest.mark.parametrize(
+    "init",
+    [
+        "from pack.room.other import other\nfrom pack.room.wanted import *\n",
+        "from pack.room.other import other\nshared = {}\n",
+        "from pack.room.other import other\ndef missing(): ...\n",
+    ],
+)
+def test_a_package_that_does_more_counts_with_all_that_it_imports(package, init):
+    tree = room(package, init)
+    (tree._folder / "entry.py").write_text("from pack.room import missing", encoding="utf-8")
+    closure = tree.closure_of(["pack.entry"])
+
+    assert {"pack.room", "pack.room.other"} <= {*closure.modules}
+    assert closure.foreign == ("numpy",)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("import pack.base", {"pack.base"}),
+        ("import pack.base as short", {"pack.base"}),
+        ("from pack import base", {"pack.base"}),
+        ("from . import base", {"pack.base"}),
+        ("from .base import value", {"pack.base"}),
+        ("def load():\n    from pack.base import value", {"pack.base"}),
+        ("class A:\n    def load(self):\n        if True:\n            import pack.base", {"pack.base"}),
+        ("try:\n    import pack.base\nexcept ImportError:\n    import pack.spare", {"pack.base", "pack.spare"}),
+        ("import os.path\nfrom __future__ import annotations", set()),
+        ("from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from pack.base import value", set()),
+        ("import typing\nif typing.TYPE_CHECKING:\n    import pack.base\nelse:\n    import pack.spare", {"pack.spare"}),
+        ("from pack.base import value\nimport pack.entry", {"pack.base"}),
+    ],
+)
+def test_every_form_of_import_is_followed(package, text, expected):
+    closure = package(entry=text, base="value = 1", spare="").closure_of(["pack.entry"])
+
+    assert {*closure.modules} == {"pack.entry", *expected}
+    assert closure.foreign == ()
+
+
+def test_a_relative_import_in_a_room_is_followed(package):
+    tree = package(room__entry="from .near import a\nfrom ..base import b\nimport scipy.linalg", room__near="", base="")
+    closure = tree.closure_of(["pack.room.entry"])
+
+    assert closure.modules == ("pack.base", "pack.room.entry", "pack.room.near")
+    assert closure.foreign == ("scipy",)
+
+
+def test_the_digest_is_of_the_texts_and_not_of_line_ends_or_the_rest(package):
+    def digest(**modules):
+        return package(**{"entry": "import pack.base", "base": "a = 1\n", "aside": "", **modules}).closure_of(
+            ["pack.entry"]
+        )
+
+    first = digest()
+    assert digest(aside="b = 2").digest == first.digest
+    assert digest(base="a = 2\n").digest != first.digest
+    tree = package()
+    (tree._folder / "base.py").write_bytes(b"a = 1\r\n")
+    assert tree.closure_of(["pack.entry"]).digest == first.digest
+
+
+def test_a_module_that_is_not_there_is_an_error(package):
+    with pytest.raises(ModuleNotFoundError, match=r"there is no module pack\.gone"):
+        package(entry="").closure_of(["pack.gone"])
+
+
+@pytest.fixture(scope="module")
+def ran(project):
+    """The modules of this package whose functions ran while each piece was made, in a process of its own."""
+    done = subprocess.run(
+        [sys.executable, "-c", MAKE_AND_WATCH, str(project.folder)], capture_output=True, text=True, check=True
+    )
+    found = json.loads(done.stdout.splitlines()[-1])
+    return {piece: {name for file in files if (name := module_of(file))} for piece, files in found.items()}
+
+
+def module_of(file: str) -> str | None:
+    path = Path(file)
+    if not path.is_relative_to(REPOSITORY / "rgss"):
+        return None
+    return ".".join(path.relative_to(REPOSITORY).with_suffix("").parts)
+
+
+# What hands a task to its makers, and says what a bench is run with, which is digested itself.
+AROUND = {"rgss.trials.making", "rgss.trials.spec"}
+
+
+@pytest.mark.engine
+@pytest.mark.parametrize("piece", ENTRIES)
+def test_whatever_runs_while_a_piece_is_made_is_in_its_digest(ran, piece):
+    readers = {"rgss.trials.plan_text", "rgss.trials.timing_text", "rgss.trials.execution_text"}
+    before = {
+        "timing": {"plan"},
+        "execution": {"plan", "timing"},
+        "record": {"plan", "timing", "execution", "bench"},
+    }.get(piece, set())
+    covered = {module for name in (piece, *before) for module in source_of(name).modules}
+
+    assert ran[piece] & {*source_of(piece).modules} - readers
+    assert ran[piece] - AROUND <= covered
+
+
+@pytest.mark.parametrize("piece", ENTRIES)
+def test_what_makes_no_piece_is_in_no_digest(piece):
+    modules = {*source_of(piece).modules}
+
+    assert not {name for name in modules if name.split(".")[1] in ("cli", "reports", "studies", "tradeoff", "trace")}
+    assert not modules & {
+        "rgss.evidence.store",
+        "rgss.physics.camera",
+        "rgss.physics.rendering",
+        "rgss.scenes.scene_file",
+        "rgss.trials.filming",
+        "rgss.trials.lifecycle",
+        "rgss.trials.tracing",
+    }
+
+
+def test_a_bench_needs_no_planner_and_a_plan_no_physics():
+    assert "pybullet" in source_of("bench").foreign
+    assert not {"ompl", "toppra", "pinocchio"} & {*source_of("bench").foreign}
+    assert "ompl" in source_of("plan").foreign
+    assert "rgss.physics.world" not in source_of("plan").modules
+
+
+@pytest.mark.parametrize("piece", ENTRIES)
+def test_every_engine_has_its_version_told(piece):
+    assert {*source_of(piece).foreign} <= {*ENGINES}
+
+
+def test_the_code_of_trials_is_that_of_all_pieces():
+    assert {*code_of_trials()} == {module for piece in ENTRIES for module in source_of(piece).modules}
+    assert code_of_trials()["rgss.trials.plan"] == own_sources().module_digest("rgss.trials.plan")[:12]
