@@ -26,8 +26,8 @@ format: setup ## format the code and mend what the linter can mend
 	@.venv/bin/ruff format --quiet .
 	@.venv/bin/ruff check --quiet --fix .
 
-test: setup ## run the whole test suite
-	@.venv/bin/pytest --quiet --junitxml=.rgss/junit.xml
+test: setup ## run the whole test suite, on every core
+	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --junitxml=.rgss/junit.xml
 
 lock: ## resolve requirements.lock anew from pyproject.toml (needs uv)
 	@UV_CUSTOM_COMPILE_COMMAND="make lock" uv pip compile --quiet --universal --python-version 3.10 \

@@ -145,7 +145,12 @@ def row_memory(bench: Bench) -> list[Row]:
             note=f"{run.wall_s:.1f} s",
         ),
         Row(name="growth of a worker, third to last quarter", value=worker, unit="MiB", bar="< 5", kept=worker < 5.0),
-        Row(name="growth of the parent, third to last quarter", value=parent, unit="MiB", note="trials are listed"),
+        Row(
+            name="growth of the parent, third to last quarter",
+            value=parent,
+            unit="MiB",
+            note="at the end it reads all records to record the verdicts",
+        ),
     ]
 
 

@@ -11,6 +11,9 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+
+# The fixture `record_testsuite_property` reaches no file where tests run in several processes.
+from _pytest.junitxml import xml_key
 from hypothesis import settings
 
 from . import story as story_module
@@ -32,10 +35,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.user_properties += [(TEST_ID, item.nodeid), *((VERIFIES, name) for name in names)]
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _noted_run(request, record_testsuite_property) -> None:
-    """Note what is tested, where the result is written to a file."""
-    if request.config.option.xmlpath is None:
+@pytest.hookimpl(trylast=True)
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Note what is tested, where the result is written to a file: by the process that writes it."""
+    report = session.config.stash.get(xml_key, None)
+    if report is None:
         return
     from rgss.errors import RgssError
     from rgss.requirements import load_requirements
@@ -47,7 +51,7 @@ def _noted_run(request, record_testsuite_property) -> None:
         # A broken project has tests of its own; a run without the note is taken as it is.
         return
     for name, value in noted.items():
-        record_testsuite_property(name, value)
+        report.add_global_property(name, value)
 
 
 @pytest.fixture(scope="session")
