@@ -42,8 +42,6 @@ class Relations:
                 yield f"#refinement dependency from {source} to {target};"
             elif link.kind is LinkKind.TRACE:
                 yield f"dependency {name(f'trace {link.source} {link.target}')} from {source} to {target};"
-            elif link.kind is not LinkKind.CONTAINMENT:
-                raise NotImplementedError(link.kind)
         for behaviour in self._requirements.architecture.behaviours:
             if behaviour.kind is not BehaviourKind.USE_CASE:
                 for other in behaviour.includes:
