@@ -3,7 +3,7 @@
 #   make PYTHON=/path/to/python3.11 setup     chooses the Python; otherwise the first suitable one is taken
 
 .DEFAULT_GOAL := help
-.PHONY: help setup study check format test lock clean rebuild
+.PHONY: help setup study check format test regress bench lock clean rebuild
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' Makefile
@@ -28,6 +28,12 @@ format: setup ## format the code and mend what the linter can mend
 
 test: setup ## run the whole test suite, on every core
 	@.venv/bin/pytest --quiet --numprocesses=auto --dist=loadfile --junitxml=.rgss/junit.xml
+
+regress: setup ## hold metrics and the decision of a small part of the study against the baseline
+	@.venv/bin/rgss regress --junit .rgss/regress.xml
+
+bench: setup ## measure the sweep engine on an idle machine (about half an hour); a table, and bench.json
+	@.venv/bin/python benchmarks/sweep.py --replicates 10 --json bench.json
 
 lock: ## resolve requirements.lock anew from pyproject.toml (needs uv)
 	@UV_CUSTOM_COMPILE_COMMAND="make lock" uv pip compile --quiet --universal --python-version 3.10 \

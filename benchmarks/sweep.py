@@ -12,9 +12,11 @@ disturbs those less. Ratios are of runs that follow each other.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import os
 import platform
+import random
 import signal
 import subprocess
 import sys
@@ -28,6 +30,7 @@ from sweep_runs import REPOSITORY, Bench, children
 
 SPACE = "designs/grasping_system.yaml"
 LEVELS = ("4 s", "6 s", "8 s")
+_KILLS, _KILL_SEED, _LONGEST_LIFE_S = 50, 20, 12.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -214,6 +217,53 @@ def row_interrupt(bench: Bench) -> list[Row]:
     return [Row(name="end after Ctrl-C", value=took_s, unit="s", bar="< 1", kept=kept, note=f"status {status}")]
 
 
+def row_kills(bench: Bench) -> list[Row]:
+    """Killed with -9 at random instants, each time gone on with, until the end; as often as asked for.
+
+    Killed are in turn the sweep alone, one of its workers (which the sweep survives), and all of them at once.
+    """
+    undisturbed = _records(bench.shared().folder)
+    chance = random.Random(_KILL_SEED)  # noqa: S311 - instants, not secrets
+    kills = finished = wrong = 0
+    folder = bench.project()
+    while kills < _KILLS or finished == 0:
+        words = ("--jobs", str(bench.jobs), "--replicates", str(bench.replicates))
+        command = [sys.executable, "-m", "rgss.cli.main", "sweep", "--project", str(folder), *words]
+        process = subprocess.Popen(  # noqa: S603
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, cwd=REPOSITORY
+        )
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(chance.uniform(0.2, _LONGEST_LIFE_S) if kills < _KILLS else None)
+        if process.poll() is None:
+            kills += 1
+            workers = children(process.pid)
+            if kills % 3 == 2 and workers:
+                os.kill(chance.choice(workers), signal.SIGKILL)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(chance.uniform(0.2, _LONGEST_LIFE_S))
+            if process.poll() is None:
+                with contextlib.suppress(ProcessLookupError):
+                    (os.killpg if kills % 3 else os.kill)(process.pid, signal.SIGKILL)
+            process.wait()
+        if process.returncode == 0:
+            finished += 1
+            wrong += _records(folder) != undisturbed
+            verify = [sys.executable, "-m", "rgss.cli.main", "evidence", "--project", str(folder), "verify"]
+            done = subprocess.run(verify, check=False, stdout=subprocess.DEVNULL, cwd=REPOSITORY)  # noqa: S603
+            wrong += done.returncode != 0
+            folder = bench.project()
+    return [
+        Row(
+            name=f"stores that differ from an undisturbed one, after {kills} kills with -9",
+            value=float(wrong),
+            unit="",
+            bar="0",
+            kept=wrong == 0,
+            note=f"{finished} stores finished, {len(undisturbed)} records each",
+        )
+    ]
+
+
 def row_engines(bench: Bench) -> list[Row]:
     """Time outside of the engines, in a process of its own."""
     command = [sys.executable, str(REPOSITORY / "benchmarks" / "engine_share.py"), "--seeds", str(bench.replicates)]
@@ -242,6 +292,7 @@ ROWS: Mapping[str, Callable[[Bench], list[Row]]] = {
     "memory": row_memory,
     "growth": row_growth,
     "interrupt": row_interrupt,
+    "kills": row_kills,
     "engines": row_engines,
 }
 

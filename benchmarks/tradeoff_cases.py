@@ -257,9 +257,8 @@ def _samples(
     def one(quantity: float | None) -> float | None:
         if quantity is None or rng.random() < missing:
             return None
-        # Noise of another magnitude than the quantity would cancel to what no float can tell from a limit.
-        scale = abs(quantity) if 0.0 < abs(quantity) < 1e-3 else 1.0
-        return quantity + scale * (rng.choice([-0.25, 0.0, 0.25]) if coarse else rng.gauss(0.0, 0.2))
+        # Of a tiny quantity the noise is all there is, and gains and losses cancel to next to nothing.
+        return quantity + (rng.choice([-0.25, 0.0, 0.25]) if coarse else rng.gauss(0.0, 0.2))
 
     return {
         variant: {name: tuple(one(row[name]) for _ in range(count)) for name in sampled}

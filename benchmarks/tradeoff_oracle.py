@@ -105,7 +105,8 @@ def tail_mean(entries: Sequence[float], bound: TailBound) -> float:
     """
     sign = 1 if bound.comparison is Comparison.AT_MOST else -1
     losses = [sign * Fraction(entry) for entry in entries]
-    tail = Fraction(bound.share) * len(losses)
+    # The share as it is written: 0.9 is nine tenths, not the nearest binary number.
+    tail = Fraction(repr(bound.share)) * len(losses)
     return float(sign * min(level + sum(max(loss - level, Fraction(0)) for loss in losses) / tail for level in losses))
 
 

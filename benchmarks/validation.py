@@ -139,7 +139,7 @@ def _grasps(out: Any, project: Project, records: dict[tuple[int, int], tuple[Tri
     least = workpiece.mass_kg * scene.gravity_m_s2
     most = workpiece.mass_kg * (scene.gravity_m_s2 + scene.robot.tool_acceleration_m_s2)
     out.write("## Grasps over the carry in contact trials at 240 Hz\n\n")
-    out.write("Each grasp is analysed when it is firm, four times a second while it carries, and at the end of each\n")
+    out.write("Each grasp is analysed when it is firm, twice a second while it carries, and at the end of each\n")
     out.write("phase. By Newton's second law the net wrench of the contacts on the object is m |a - g|: at rest\n")
     out.write(f"{least:.3f} N, and at most {most:.3f} N with the acceleration of the tool.\n\n")
     out.write(

@@ -1,1 +1,55 @@
-"""Choosing a robot design by evidence: requirements, simulated trials, a certified trade-off."""
+"""Choosing a robot design by evidence: requirements, simulated trials, a certified trade-off.
+
+The public interface is `load_study`, described in docs/api.md, and `RgssError`, from which every error
+derives that is raised on purpose.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rgss.errors import RgssError
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from rgss.studies.analysis import Study
+
+__all__ = ["RgssError", "load_study"]
+
+
+def load_study(
+    folder: str | PathLike[str] | None = None,
+    study: str | None = None,
+    *,
+    fidelity: str | None = None,
+    replicates: int | None = None,
+) -> Study:
+    """Read a project and one of its studies, to look at what is known of it as pandas frames.
+
+    Nothing is simulated and no evidence is read until it is asked for.
+
+    Args:
+        folder: The project's folder; the nearest at or above the current one by default.
+        study: The study file, relative to the project; ``studies/pick_place.yaml`` by default.
+        fidelity: ``kinematic``, ``dynamic`` or ``contact`` in place of what the study says.
+        replicates: Trials of each variant in place of what the study says.
+
+    Raises:
+        DocumentError: Files are wrong; with every problem in all of them.
+        DefinitionError: There is no project, or an argument is impossible.
+    """
+    from importlib import import_module
+    from pathlib import Path
+
+    # By name, since this package is above all others and yet imported with each: an import statement would
+    # make everything a part of whatever imports it, for the digests of the code as for the layers.
+    analysis = import_module("rgss.studies.analysis")
+    drawing = import_module("rgss.studies.analysis_trial").Drawing(
+        figure=import_module("rgss.reports.trial_plots").trial_figure,
+        filmstrip=import_module("rgss.reports.filmstrip").filmstrip,
+    )
+    found: Study = analysis.load(
+        None if folder is None else Path(folder), study, fidelity=fidelity, replicates=replicates, drawing=drawing
+    )
+    return found

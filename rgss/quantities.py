@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from rgss.common_units import common_unit
 from rgss.errors import QuantityError
 from rgss.findings import shown
 
@@ -60,7 +61,7 @@ def parse_quantity(text: str, unit: str) -> float:
     if unit == "1" and written not in ("", "%"):
         raise QuantityError(f"{shown(text)} has a unit where a pure number is expected", hint=f"write {number}")
     written = written or "1"
-    if _measure(written) != _measure(unit):
+    if not _measure_the_same(written, unit):
         raise _mismatch(written, unit)
     exact = Fraction(Decimal(number)) * Fraction(_factor(written, unit))
     try:
@@ -99,6 +100,9 @@ def dimension(unit: str) -> tuple[tuple[str, float], ...]:
     Raises:
         QuantityError: The unit is unknown.
     """
+    common = common_unit(unit)
+    if common is not None:
+        return common.dimension
     powers: Mapping[str, Any] = _unit(unit).dimensionality
     return tuple(sorted((name.strip("[]"), float(power)) for name, power in powers.items()))
 
@@ -128,6 +132,15 @@ def _unit(text: str) -> pint.Unit:
 
 
 @lru_cache(maxsize=512)
+def _measure_the_same(unit: str, other: str) -> bool:
+    """Tell whether two units measure the same thing, an angle being no pure number."""
+    one, two = common_unit(unit), common_unit(other)
+    if one is not None and two is not None:
+        return one.roots == two.roots
+    return _measure(unit) == _measure(other)
+
+
+@lru_cache(maxsize=512)
 def _measure(unit: str) -> str:
     """What a unit measures, angles included, as the product of its root units."""
     return str(_registry().get_root_units(_unit(unit))[1])
@@ -135,6 +148,11 @@ def _measure(unit: str) -> str:
 
 @lru_cache(maxsize=512)
 def _factor(from_unit: str, to_unit: str) -> Decimal:
+    common, other = common_unit(from_unit), common_unit(to_unit)
+    if common is not None and other is not None:
+        if common.dimension != other.dimension:
+            raise _mismatch(from_unit, to_unit)
+        return common.factor / other.factor
     import pint
 
     source, target = _unit(from_unit), _unit(to_unit)

@@ -14,6 +14,11 @@ if TYPE_CHECKING:
 
 HELP = "check the project's files, wording and traceability, without a simulation"
 EXAMPLE = "rgss check --explain wording.R7"
+MORE_EXAMPLES = (
+    ("rgss check", "files, wording and traceability of the project"),
+    ("rgss check --evidence", "the stored evidence and the result of the tests too"),
+    ("rgss check --review SYS-005", "stamp a requirement as reviewed"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

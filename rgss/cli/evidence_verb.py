@@ -25,6 +25,11 @@ class _Store(NamedTuple):
 
 HELP = "tell what the evidence store holds, check it, export it or clear it up"
 EXAMPLE = "rgss evidence export trials.parquet"
+MORE_EXAMPLES = (
+    ("rgss evidence", "what is stored"),
+    ("rgss evidence verify", "whether every byte is what was written"),
+    ("rgss evidence gc", "what clearing up would remove"),
+)
 _SHOWN = 12
 
 

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
 
 HELP = "write the project or its evidence in the format of another tool"
 EXAMPLE = "rgss export reqif -o requirements.reqif"
+MORE_EXAMPLES = (
+    ("rgss export sysml -o model.sysml", "SysML v2"),
+    ("rgss export ompl -o planners.db", "the evidence, for OMPL's planner comparison"),
+)
 FORMATS = ("reqif", "sysml", "csv", "xlsx", "ompl")
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 HELP = "show what a file of another tool would change in the requirements, and apply it if asked to"
 EXAMPLE = "rgss import xlsx requirements.xlsx --apply"
+MORE_EXAMPLES = (("rgss import csv requirements.csv", "show what would change, and change nothing"),)
 FORMATS = ("reqif", "csv", "xlsx")
 KINDS = ("stakeholder", "system")
 

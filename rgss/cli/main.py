@@ -3,16 +3,36 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import importlib
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import NoReturn
 
 from rgss.errors import DocumentError, MotionError, RgssError, SimulationError
 
-VERBS = ("check", "variants", "run", "sweep", "evidence", "replay", "measure", "trade", "trace", "export", "import")
+VERBS = (
+    "init",
+    "check",
+    "variants",
+    "run",
+    "sweep",
+    "evidence",
+    "replay",
+    "measure",
+    "trade",
+    "regress",
+    "trace",
+    "report",
+    "export",
+    "import",
+    "schema",
+    "completion",
+)
+_OBJECTS_BETWEEN_COLLECTIONS = 50_000
 CLEAN, FINDINGS, BAD_INPUT, RUN_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
 
@@ -25,8 +45,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         0 clean, 1 findings or an unmet bar, 2 bad input, 3 a run failed, 130 interrupted.
     """
+    # Start-up makes some hundred thousand objects that all stay; looking through them again and again for
+    # circles takes a tenth of a short command's time.
+    gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
     try:
-        options = _parser().parse_args(arguments)
+        options = command_line().parse_args(arguments)
         status = int(options.handler(options))
         if sys.stdout is not None:
             # Here, where a failure can still be told, and not when the interpreter ends.
@@ -63,11 +86,13 @@ class _Parser(argparse.ArgumentParser):
         self.exit(BAD_INPUT)
 
 
-def _parser() -> argparse.ArgumentParser:
+def command_line() -> argparse.ArgumentParser:
+    """The parser of the whole command line, with a parser for each verb."""
     parser = _Parser(
         prog="rgss",
         description="Choose a robot design by evidence: requirements, simulated trials, a certified trade-off.",
-        epilog="Exit status: 0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.",
+        epilog="Begin with 'rgss init my_project'; every verb has examples under --help. "
+        "Exit status: 0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=f"rgss {_version()}")
     verbs = parser.add_subparsers(metavar="VERB", required=True)
@@ -77,7 +102,8 @@ def _parser() -> argparse.ArgumentParser:
             name,
             help=module.HELP,
             description=module.HELP[:1].upper() + module.HELP[1:] + ".",
-            epilog=f"Example: {module.EXAMPLE}",
+            epilog=_examples(module),
+            formatter_class=_HelpFormatter,
         )
         verb.add_argument(
             "--project", type=Path, metavar="DIR", help="the project's folder (default: the nearest one above)"
@@ -86,6 +112,21 @@ def _parser() -> argparse.ArgumentParser:
         module.configure(verb)
         verb.set_defaults(handler=module.run)
     return parser
+
+
+class _HelpFormatter(argparse.HelpFormatter):
+    """Help whose examples keep their lines."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return text if "\n" in text else super()._fill_text(text, width, indent)
+
+
+def _examples(module: ModuleType) -> str:
+    """The examples of a verb: a command on each line, with what it is for where that is not plain."""
+    examples = [(module.EXAMPLE, ""), *getattr(module, "MORE_EXAMPLES", ())]
+    lines = [f"  {command}" + (f"\n      {purpose}" if purpose else "") for command, purpose in examples]
+    # The percent sign is argparse's own.
+    return "\n".join(["examples:", *lines]).replace("%", "%%")
 
 
 def _version() -> str:

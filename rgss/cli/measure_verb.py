@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
 HELP = "estimate the measures of every variant from evidence, and judge the requirements"
 EXAMPLE = "rgss measure --json > measures.json"
+MORE_EXAMPLES = (
+    ("rgss measure", "the measures of effectiveness and the verdicts of every variant"),
+    ("rgss measure --variant 28", "every measure and verdict of one"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

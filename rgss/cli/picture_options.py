@@ -162,14 +162,15 @@ def _make(order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: Tria
             with _progress(len(film)) as advance:
                 write_film(
                     files["gif"],
-                    lambda index: _captioned(film, index),
+                    lambda index: captioned(film, index),
                     count=len(film),
                     rate_hz=order.rate_hz,
                     on_frame=advance,
                 )
 
 
-def _captioned(film: Film, index: int) -> CaptionedPicture:
+def captioned(film: Film, index: int) -> CaptionedPicture:
+    """A frame of a film with its time and phase written into it."""
     from rgss.evidence import Phase
     from rgss.reports.film import CaptionedPicture
     from rgss.reports.lettering import words

@@ -9,6 +9,7 @@ from rgss.cli.options import add_fidelity, chosen_project
 
 HELP = "run a stored trial again and compare it bit for bit"
 EXAMPLE = "rgss replay 28/1"
+MORE_EXAMPLES = (("rgss replay 28/1 --json", "the differences, if any, as JSON"),)
 _SHOWN = 12
 
 

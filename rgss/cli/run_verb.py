@@ -10,6 +10,10 @@ from rgss.cli.picture_options import add_pictures, made_pictures, ordered_pictur
 
 HELP = "run one trial and show it phase by phase"
 EXAMPLE = "rgss run 65 --seed 3"
+MORE_EXAMPLES = (
+    ("rgss run 65 --gif trial.gif", "and film it"),
+    ("rgss run 65 --fidelity kinematic", "motion alone, quickly"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -15,31 +15,30 @@ if TYPE_CHECKING:
     from rgss.trials.spec import TrialSpec
 
 
-def sweep_until_decided(options: argparse.Namespace, project: Project, *, jobs: int, limits: WorkerLimits) -> int:
+def sweep_until_decided(options: argparse.Namespace, project: Project, limits: WorkerLimits) -> int:
     """Run batches of trials until the study is decided, or the cap is reached.
 
     Args:
         options: The verb's options.
         project: The project with its study.
-        jobs: Number of worker processes.
         limits: What a worker may use for one task.
 
     Returns:
         0; 3 if trials could not be run.
 
     Raises:
-        DefinitionError: Other options contradict it, or the cap is too low.
+        DefinitionError: Other options contradict it, the cap is too low, or the cluster cannot be used.
         EvidenceError: Trials that it needs could not be run.
         TradeoffError: The study decides in a way that has no sequential rule.
     """
     from rgss.cli.main import CLEAN, RUN_FAILED
     from rgss.cli.output import print_json
+    from rgss.cli.sweep_crew import crew_of
     from rgss.cli.sweep_output import lost_line
     from rgss.cli.sweep_progress import SweepProgress
     from rgss.cli.sweep_verb import shown_path
     from rgss.errors import DefinitionError, EvidenceError
     from rgss.evidence import EvidenceStore
-    from rgss.studies.keeping import origin_of
     from rgss.studies.sweep import sweep
     from rgss.studies.until_decided import replicate_until_decided, summary
     from rgss.tradeoff.sequential import SequentialRule
@@ -58,7 +57,8 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, *, jobs: 
     rule = SequentialRule() if options.cap is None else SequentialRule(cap=options.cap)
     lost: list[LostTrials] = []
 
-    with EvidenceStore.open(project.evidence, label=shown_path(project.evidence)) as store:
+    label = shown_path(project.evidence)
+    with crew_of(options, limits) as crew, EvidenceStore.open(project.evidence, label=label) as store:
 
         def run(specs: Sequence[TrialSpec]) -> None:
             tally: Counter[str] = Counter()
@@ -72,12 +72,12 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, *, jobs: 
                 result = sweep(
                     specs,
                     store,
-                    jobs=jobs,
+                    jobs=crew.jobs,
                     on_finished=on_finished,
                     on_state=progress.state,
                     share=not options.no_share,
-                    limits=limits,
-                    origin=lambda: origin_of(project.folder),
+                    origin=lambda: crew.origin(project.folder),
+                    workers_for=crew.workers,
                 )
             lost.extend(result.lost)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections import Counter
 from collections.abc import Sequence
@@ -16,6 +15,7 @@ from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_pro
 from rgss.cli.variants_verb import ONLY_HELP
 
 if TYPE_CHECKING:
+    from rgss.cli.sweep_crew import Crew
     from rgss.designs import DesignVariant
     from rgss.evidence import EvidenceStore
     from rgss.studies.project import Project
@@ -24,6 +24,12 @@ if TYPE_CHECKING:
 
 HELP = "run every trial of a study that has no evidence yet"
 EXAMPLE = "rgss sweep --replicates 10 --jobs 2"
+MORE_EXAMPLES = (
+    ("rgss sweep --dry-run", "say what would be made and why"),
+    ("rgss sweep --fidelity kinematic", "motion alone, for a first look"),
+    ("rgss sweep --only fingers=two --only 1/3", "a balanced third of the designs with two fingers"),
+    ("rgss sweep --until decided --cap 50", "add trials where they can still change the decision"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -32,6 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_replicates(parser)
     add_fidelity(parser)
     parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
+    parser.add_argument("--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler instead")
     parser.add_argument("--only", action="append", metavar="WHICH", help=ONLY_HELP)
     parser.add_argument(
         "--until",
@@ -56,6 +63,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN, RUN_FAILED
     from rgss.cli.output import print_json
     from rgss.cli.screening_output import screening_as_json, screening_lines
+    from rgss.cli.sweep_crew import crew_of, jobs_of
     from rgss.cli.sweep_output import lost_line, result_as_json, result_lines
     from rgss.cli.sweep_until import sweep_until_decided
     from rgss.designs import picked
@@ -66,29 +74,27 @@ def run(options: argparse.Namespace) -> int:
     from rgss.studies.screening import screen, screening_specs, surviving_specs
 
     project = chosen_project(options)
-    jobs = options.jobs if options.jobs is not None else (os.cpu_count() or 1)
-    if jobs < 1:
-        raise DefinitionError("--jobs must be at least 1", hint="leave it away for one process a core")
+    jobs_of(options)
     limits = _limits(options)
     if options.cap is not None and options.until is None:
         raise DefinitionError("--cap needs --until decided", hint="--replicates is the fixed number of trials")
     if options.until is not None:
-        return sweep_until_decided(options, project, jobs=jobs, limits=limits)
+        return sweep_until_decided(options, project, limits)
     variants = picked(project.designs, options.only or ())
     if options.dry_run:
         return _dry_run(options, project, variants)
     label = shown_path(project.evidence)
     screened = None
     lost: tuple[LostTrials, ...] = ()
-    with EvidenceStore.open(project.evidence, label=label) as store:
+    with crew_of(options, limits) as crew, EvidenceStore.open(project.evidence, label=label) as store:
         specs = trial_specs(project, variants=variants)
         first = screening_specs(project, variants=variants)
         if first:
-            lost = _swept(options, project, store, first, jobs, limits).result.lost
+            lost = _swept(options, project, store, first, crew).result.lost
             screened = screen(project, store)
         if screened is not None:
             specs = surviving_specs(project, screened, variants=variants)
-        swept = _swept(options, project, store, specs, jobs, limits)
+        swept = _swept(options, project, store, specs, crew)
         if swept.run_now:
             record_after_sweep(project, store, swept.run_now)
     tally, failures, result = swept.tally, swept.failures, swept.result
@@ -119,11 +125,9 @@ def _swept(
     project: Project,
     store: EvidenceStore,
     specs: Sequence[TrialSpec],
-    jobs: int,
-    limits: WorkerLimits,
+    crew: Crew,
 ) -> _Swept:
     from rgss.cli.sweep_progress import SweepProgress
-    from rgss.studies.keeping import origin_of
     from rgss.studies.sweep import sweep
 
     tally: Counter[str] = Counter()
@@ -144,12 +148,12 @@ def _swept(
         result = sweep(
             specs,
             store,
-            jobs=jobs,
+            jobs=crew.jobs,
             on_finished=on_finished,
             on_state=progress.state,
             share=not options.no_share,
-            limits=limits,
-            origin=lambda: origin_of(project.folder),
+            origin=lambda: crew.origin(project.folder),
+            workers_for=crew.workers,
         )
     return _Swept(tally=tally, failures=failures, run_now=run_now, result=result)
 

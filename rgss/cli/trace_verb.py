@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 
 HELP = "show the traceability matrices and their gaps, or the chain of one id"
 EXAMPLE = "rgss trace -o trace.html"
+MORE_EXAMPLES = (
+    ("rgss trace SYS-005", "one chain, up to the need and down to the trials"),
+    ("rgss trace SYS-005 --impact", "what a change to it touches"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

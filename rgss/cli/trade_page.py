@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from rgss.cli.trade_conflicts_page import print_conflicts
 from rgss.cli.trade_words import amount, ids_text, percent, variants_text
 
 if TYPE_CHECKING:
     from rgss.studies.measuring import VariantMeasures
     from rgss.studies.project import Project
     from rgss.tradeoff import Contribution, Decision, FleetDecision
-
-MOST_LISTED = 6
 
 
 def print_heading(project: Project, measured: Sequence[VariantMeasures]) -> None:
@@ -24,7 +23,7 @@ def print_heading(project: Project, measured: Sequence[VariantMeasures]) -> None
 def print_decision(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> None:
     """Show the chosen variant beside the runner-up, and say why; or why nothing can be chosen."""
     if decision.chosen is None:
-        _print_conflicts(decision)
+        print_conflicts(decision)
         return
     _print_comparison(project, measured, decision)
     print("\nWhy")
@@ -160,38 +159,6 @@ def _lead(mine: Sequence[Contribution], theirs: Sequence[Contribution]) -> str:
     )
     told = ", ".join(f"{measure} {gain:+.4f}" for gain, measure in gains if abs(gain) > 5e-5)
     return told or "less than rounding shows"
-
-
-def _print_conflicts(decision: Decision) -> None:
-    from rgss.cli.output import print_table
-
-    print("No variant meets every requirement.")
-    conflicts = decision.conflicts
-    if conflicts is None:
-        return
-    repairs = {repair.requirement: repair for repair in conflicts.repairs}
-    rows = []
-    for count in conflicts.excluded_by:
-        repair = repairs.get(count.requirement)
-        mended = "–"
-        if repair is not None and repair.changes:
-            needed = " and ".join(f"{amount(change.needed, change.unit)}" for change in repair.changes)
-            mended = f"{needed}: variant {repair.winner} of {repair.unlocked}"
-        rows.append([count.requirement, decision.demands[count.requirement], str(count.excluded), mended])
-    print_table(["requirement", "asks for", "excludes", "alone it would have to be"], rows, right=(2,))
-    print()
-    for conflict in conflicts.minimal_conflicts[:MOST_LISTED]:
-        print(f"These cannot be met together: {', '.join(conflict)}.")
-    more = len(conflicts.minimal_conflicts) - MOST_LISTED
-    if more > 0 or not conflicts.complete:
-        print(f"And {more if conflicts.complete else 'many'} more such sets (--json has them).")
-    for correction in conflicts.corrections[:MOST_LISTED]:
-        print(f"Without {' and '.join(correction)} something is feasible.")
-    nearest = conflicts.nearest
-    print(f"Nearest: variant {nearest.variant}, which violates {', '.join(nearest.requirements)}.")
-    if conflicts.survival is not None:
-        share = conflicts.survival.nothing_feasible
-        print(f"Nothing is feasible in {percent(share)} of {conflicts.survival.resamples} draws of the replicates.")
 
 
 def _value(value: float | None) -> str:

@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 
 HELP = "decide which variant is best, say why, and what would change that"
 EXAMPLE = 'rgss trade --what-if weight.t_e=0.4 --what-if "SYS-012.threshold=0.9 kg"'
+MORE_EXAMPLES = (
+    ("rgss trade", "the decision, why, and what would change it"),
+    ("rgss trade --fidelity kinematic", "by the evidence of quick trials"),
+    ("rgss trade --section --into README.md", "write the decision into a page"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -64,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
     label = shown_path(project.evidence)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store)
-        fleet = _fleet(project, store)
+        fleet = fleet_of(project, store)
     before = (project, measured, choose(project, measured))
     now = before
     if scenario is not None:
@@ -93,7 +98,7 @@ def _robustness(side: tuple[Project, Sequence[VariantMeasures], Decision]) -> Ro
     return analyse_robustness(*side)
 
 
-def _fleet(project: Project, store: Any) -> FleetDecision | None:
+def fleet_of(project: Project, store: Any) -> FleetDecision | None:
     """The portfolio that the study asks for, from the evidence of every study that it serves."""
     if project.study.trade_off.fleet is None:
         return None

@@ -17,6 +17,10 @@ ONLY_HELP = (
     "fraction such as 1/4; given several times, all must hold, in order"
 )
 EXAMPLE = "rgss variants --format csv > variants.csv"
+MORE_EXAMPLES = (
+    ("rgss variants --only d8=RRT --only 'd7 <= 0.8 m/s'", "those that two filters let through"),
+    ("rgss variants --only 1/4", "a balanced quarter of them"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -19,6 +19,7 @@ from rgss.documents.fields import (
     Text,
     UnitText,
 )
+from rgss.documents.json_schema import described_keys, json_schema
 from rgss.documents.model import DocumentModel
 from rgss.documents.reader import Document, read_document
 from rgss.documents.validation import LoadedDocument, load_document
@@ -44,6 +45,8 @@ __all__ = [
     "Seconds",
     "Text",
     "UnitText",
+    "described_keys",
+    "json_schema",
     "load_document",
     "read_document",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import Enum
 from typing import Any
 
@@ -28,7 +28,14 @@ def canonical_json(value: Any) -> str:
     Raises:
         DefinitionError: A part is of another kind, is not finite, or is nested too deep.
     """
-    return json.dumps(_plain(value, "", 0), sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
+    try:
+        plain = _plain(value, 0)
+    except _NoCanonicalFormError as error:
+        name = error.where.lstrip(".") or "the value"
+        raise DefinitionError(
+            f"{name} {error.problem} and has no canonical form", hint="use finite numbers, texts, lists and mappings"
+        ) from None
+    return json.dumps(plain, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
 
 
 def digest(value: Any) -> str:
@@ -40,9 +47,32 @@ def digest(value: Any) -> str:
     return hashlib.sha256(canonical_json(value).encode("ascii")).hexdigest()
 
 
-def _plain(value: Any, where: str, depth: int) -> Any:
+class _NoCanonicalFormError(Exception):
+    """A part has no canonical form; gathers where on its way up, so that sound data need not say where it is."""
+
+    def __init__(self, problem: str) -> None:
+        super().__init__(problem)
+        self.problem = problem
+        self.where = ""
+
+
+def _plain(value: Any, depth: int) -> Any:
     if depth > DEEPEST_NESTING:
-        raise _refusal(where, f"is nested more than {DEEPEST_NESTING} deep")
+        raise _NoCanonicalFormError(f"is nested more than {DEEPEST_NESTING} deep")
+    kind = type(value)
+    if kind is str or kind is int or kind is bool or value is None:
+        return value
+    if kind is float:
+        return _finite(value)
+    if kind is dict:
+        return _plain_mapping(value, depth)
+    if kind is list or kind is tuple:
+        return _plain_list(value, depth)
+    return _plain_other(value, depth)
+
+
+def _plain_other(value: Any, depth: int) -> Any:
+    """What is of none of the types that JSON gives, but of one that is derived from them or stands for them."""
     if isinstance(value, Enum):
         value = value.value
     if value is None or isinstance(value, (bool, str)):
@@ -50,25 +80,41 @@ def _plain(value: Any, where: str, depth: int) -> Any:
     if isinstance(value, int):
         return int(value)
     if isinstance(value, float):
-        if not math.isfinite(value):
-            raise _refusal(where, f"is {float(value)!r}")
-        return float(value)
+        return float(_finite(value))
     if isinstance(value, (list, tuple)):
-        return [_plain(item, f"{where}[{index}]", depth + 1) for index, item in enumerate(value)]
+        return _plain_list(value, depth)
     if isinstance(value, Mapping):
-        return {_key(key, where): _plain(item, f"{where}.{key}", depth + 1) for key, item in value.items()}
-    raise _refusal(where, f"is of type {type(value).__name__}")
+        return _plain_mapping(value, depth)
+    raise _NoCanonicalFormError(f"is of type {type(value).__name__}")
 
 
-def _key(key: Any, where: str) -> str:
-    # A number as a key would be written as a text and could then meet the same text.
-    if not isinstance(key, str) or isinstance(key, Enum):
-        raise _refusal(where, f"has the key {key!r}, which is not a text")
-    return key
+def _finite(value: float) -> float:
+    if not math.isfinite(value):
+        raise _NoCanonicalFormError(f"is {float(value)!r}")
+    return value
 
 
-def _refusal(where: str, problem: str) -> DefinitionError:
-    name = where.lstrip(".") or "the value"
-    return DefinitionError(
-        f"{name} {problem} and has no canonical form", hint="use finite numbers, texts, lists and mappings"
-    )
+def _plain_list(value: Sequence[Any], depth: int) -> list[Any]:
+    items: list[Any] = []
+    try:
+        for item in value:
+            items.append(_plain(item, depth + 1))  # noqa: PERF401 - its length says where the trouble was
+    except _NoCanonicalFormError as error:
+        error.where = f"[{len(items)}]{error.where}"
+        raise
+    return items
+
+
+def _plain_mapping(value: Mapping[Any, Any], depth: int) -> dict[str, Any]:
+    items: dict[str, Any] = {}
+    key: Any = None
+    for key, item in value.items():
+        # A number as a key would be written as a text and could then meet the same text.
+        if not isinstance(key, str) or isinstance(key, Enum):
+            raise _NoCanonicalFormError(f"has the key {key!r}, which is not a text")
+        try:
+            items[key] = _plain(item, depth + 1)
+        except _NoCanonicalFormError as error:
+            error.where = f".{key}{error.where}"
+            raise
+    return items

@@ -30,8 +30,33 @@ def _as_field_error(error: QuantityError) -> PydanticCustomError:
     return PydanticCustomError("quantity", "{message}", {"message": error.message, "hint": error.hint})
 
 
+_NUMBER_PATTERN = r"\s*[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,3})?\s*"
+QUANTITY_PATTERN = rf"^{_NUMBER_PATTERN}[A-Za-zµμ°%$(].*$"
+"""What a number with a unit looks like; whether the unit fits is known to its reader alone."""
+
+_EXAMPLES = {
+    "m": ("120 mm", "0.5 m"),
+    "kg": ("0.25 kg", "50 g"),
+    "s": ("6 s", "0.25 ms"),
+    "rad": ("90 deg", "0.01 rad"),
+    "rad/s": ("120 deg/s",),
+}
+
+
 def _schema(unit: str) -> WithJsonSchema:
-    return WithJsonSchema({"type": "string", "description": f"A quantity in {unit} or a unit that converts to it."})
+    examples = _EXAMPLES.get(unit, (f"1 {unit}",))
+    told = f"write a number and a unit, such as {examples[0]}"
+    return WithJsonSchema(
+        {
+            "type": "string",
+            "pattern": QUANTITY_PATTERN,
+            "description": f"A quantity in {unit} or a unit that converts to it.",
+            "examples": list(examples),
+            # No keywords of JSON Schema: editors show these in place of their own words.
+            "errorMessage": told,
+            "patternErrorMessage": told,
+        }
+    )
 
 
 def _check_unit(text: str) -> str:
@@ -57,7 +82,7 @@ Dollars = Annotated[float, BeforeValidator(_reader_of("USD")), _schema("USD")]
 Dimensionless = Annotated[
     float,
     BeforeValidator(_reader_of("1")),
-    WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string", "pattern": "%$"}]}),
+    WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string", "pattern": rf"^{_NUMBER_PATTERN}%?\s*$"}]}),
 ]
 """A pure number, or a percentage such as ``"95 %"``."""
 
@@ -71,5 +96,9 @@ IDENTIFIER_PATTERN = r"^[A-Za-z][A-Za-z0-9_.-]*$"
 Identifier = Annotated[str, StringConstraints(pattern=IDENTIFIER_PATTERN, max_length=80)]
 """An identifier: a letter, then letters, digits, and ``_ . -``."""
 
-Text = Annotated[str, StringConstraints(min_length=1, max_length=10_000, strip_whitespace=True)]
+Text = Annotated[
+    str,
+    StringConstraints(min_length=1, max_length=10_000, strip_whitespace=True),
+    WithJsonSchema({"type": "string", "maxLength": 10_000, "pattern": r"\S"}),
+]
 """Prose; not empty."""

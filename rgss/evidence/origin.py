@@ -63,7 +63,8 @@ def _file_digest(name: str, path: Path) -> str:
 def _files(path: Path) -> list[Path]:
     if not path.is_dir():
         return [path]
-    below = (file for file in sorted(path.rglob("*")) if file.is_file())
+    # A notebook reads a study and is nothing that one depends on.
+    below = (file for file in sorted(path.rglob("*")) if file.is_file() and file.suffix != ".ipynb")
     return [file for file in below if not any(part.startswith(".") for part in file.relative_to(path).parts)]
 
 

@@ -43,6 +43,7 @@ class Arm:
             )
         )
         self._data = self._model.createData()
+        self._axes = self.joint_axes()
 
     @property
     def lower_rad(self) -> Vector:
@@ -72,9 +73,17 @@ class Arm:
             Positions in m, shape (n, 3).
         """
         rows = np.atleast_2d(np.asarray(qs, dtype=float))
-        positions = np.empty((len(rows), 3))
-        for index, q in enumerate(rows):
-            positions[index] = self._placement(q).translation
+        directions, steps = self._axes
+        points = np.cumsum(steps, axis=0)
+        # The tool is turned about one axis after another as these stand at the zero configuration, the last
+        # first (product of exponentials), by Rodrigues' formula: all configurations at once.
+        positions = np.broadcast_to(points[-1], (len(rows), 3))
+        for joint in reversed(range(len(directions))):
+            axis, cosine, sine = directions[joint], np.cos(rows[:, joint, None]), np.sin(rows[:, joint, None])
+            arms = positions - points[joint]
+            along = np.outer(arms @ axis, axis)
+            across = arms @ _cross_matrix(axis).T
+            positions = points[joint] + along + cosine * (arms - along) + sine * across
         return positions
 
     def tool_jacobian(self, q: Sequence[float] | Vector) -> Vector:
@@ -142,3 +151,9 @@ class Arm:
     def _placement(self, q: Sequence[float] | Vector) -> Any:
         self._engine.forwardKinematics(self._model, self._data, np.asarray(q, dtype=float))
         return self._engine.updateFramePlacement(self._model, self._data, self._tool)
+
+
+def _cross_matrix(axis: Vector) -> Vector:
+    """The matrix whose product with a vector is the axis cross the vector."""
+    x, y, z = axis
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

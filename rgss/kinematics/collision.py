@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
-from operator import le
 from typing import Any
 
 import numpy as np
@@ -54,8 +53,8 @@ class CollisionModel:
         self._engine: Any = pinocchio
         self._model = build_model(scene.robot)
         self._data = self._model.createData()
-        # A reference to where a query puts the last joint, which carries the gripper.
-        self._wrist = self._data.oMi[self._model.njoints - 1]
+        # A view of where a query puts the last joint, which carries the gripper: what of its axes is vertical.
+        self._wrist_vertical = self._data.oMi[self._model.njoints - 1].rotation[2]
         self._lower_rad = tuple(joint.lower_rad - _RANGE_TOLERANCE_RAD for joint in scene.robot.joints)
         self._upper_rad = tuple(joint.upper_rad + _RANGE_TOLERANCE_RAD for joint in scene.robot.joints)
         self._least_upright, self._axis_in_wrist = _uprightness(self._model, scene, gripper, situation)
@@ -98,15 +97,16 @@ class CollisionModel:
         """
         # Plain floats compare several times faster than the elements of an array.
         angles: Sequence[float] = q.tolist() if isinstance(q, np.ndarray) else q
-        if not (all(map(le, self._lower_rad, angles)) and all(map(le, angles, self._upper_rad))):
-            return False
+        for lower, angle, upper in zip(self._lower_rad, angles, self._upper_rad, strict=True):
+            if not lower <= angle <= upper:
+                return False
         if self._engine.computeCollisions(
             self._model, self._data, self._manager, np.asarray(q, dtype=float), _STOP_AT_FIRST
         ):
             return False
         # The query above has placed the joints.
         return self._least_upright is None or (
-            float(self._wrist.rotation[2] @ self._axis_in_wrist) >= self._least_upright
+            float(self._wrist_vertical.dot(self._axis_in_wrist)) >= self._least_upright
         )
 
     def contacts(self, q: Sequence[float] | Vector) -> tuple[tuple[str, str], ...]:

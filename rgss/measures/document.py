@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
 from rgss.measures.definitions import Direction, Estimator, MeasureKind, Population, Summary
@@ -15,11 +15,21 @@ def _as_text(value: Any) -> Any:
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
+ConstantText = Annotated[
+    QuantityText,
+    BeforeValidator(_as_text),
+    WithJsonSchema(
+        {"type": ["string", "number"], "minLength": 1, "maxLength": 60, "description": "A quantity, or a pure number."}
+    ),
+]
+"""The value of a constant, such as ``"9.81 m/s^2"``; a pure number may be bare."""
+
+
 class ConstantEntry(DocumentModel):
     """A number that is the same for every design."""
 
     id: Identifier
-    value: Annotated[QuantityText, BeforeValidator(_as_text)]
+    value: ConstantText
     unit: UnitText
     definition: Text
     source: Text | None = None

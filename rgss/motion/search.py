@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.motion.engine import Engine, load_engine
+from rgss.motion.motion_validation import motion_validator
 from rgss.motion.problem import PlanningProblem
 from rgss.motion.validity import StateValidity
 
@@ -57,18 +58,22 @@ def search(
     joints = len(problem.start)
     # The engine's states are read element by element, which is most of what a check costs beside its verdict.
     angles_of = itemgetter(*range(joints)) if joints > 1 else lambda state: (state[0],)
+    is_valid_at = validity.is_valid
     checks = 0
 
-    def is_valid(state: Any) -> bool:
+    def is_valid(angles: Sequence[float]) -> bool:
         nonlocal checks
         checks += 1
-        return validity.is_valid(angles_of(state))
+        return is_valid_at(angles)
 
     # Every random generator of the engine draws its seed from one generator of the process when it is
     # made; seeding that one before anything is made leaves no trace of what ran before.
     engine.util.RNG.setSeed(seed)
     information = _space(engine, problem)
-    information.setStateValidityChecker(engine.base.StateValidityCheckerFn(is_valid))
+    information.setStateValidityChecker(engine.base.StateValidityCheckerFn(lambda state: is_valid(angles_of(state))))
+    # The engine keeps a pointer to it and no count.
+    validator = motion_validator(engine, information, angles_of, is_valid)
+    information.setMotionValidator(validator)
     information.setup()
     definition = engine.base.ProblemDefinition(information)
     definition.setStartAndGoalStates(

@@ -51,41 +51,41 @@ class ContactReader:
         """
         forces = [0.0] * len(self._finger_joints)
         other = fx = fy = fz = 0.0
-        robot_bodies: list[tuple[str, str]] = []
-        workpiece_bodies: list[str] = []
+        robot_bodies: tuple[tuple[str, str], ...] = ()
+        workpiece_bodies: tuple[str, ...] = ()
         robot, workpiece = self._robot, self._workpiece
         # All are asked for: asked for one body's, the engine names it A, yet does not turn the friction round.
-        for point in self._engine.getContactPoints(physicsClientId=self._client):
-            force = point[9]
-            if force <= 0.0 and point[8] > 0.0:
+        for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
+            _, body_a, body_b, link_a, link_b, _, _, _, gap, force, first, along_first, second, along_second = point
+            if force <= 0.0 and gap > 0.0:
                 continue
-            body_a, body_b = point[1], point[2]
-            if body_a == robot or body_b == robot:
-                robot_is_a = body_a == robot
-                link, partner = (point[3], body_b) if robot_is_a else (point[4], body_a)
-                if partner != workpiece:
-                    robot_bodies.append((self._link_names[link], self._scene_names[partner]))
-                    continue
-                finger = self._finger_of_link.get(link)
-                if finger is None:
-                    other += force
-                    continue
-                forces[finger] += force
-                # The engine gives friction as it acts on body A.
-                sign = -1.0 if robot_is_a else 1.0
-                first, along_first, second, along_second = point[10], point[11], point[12], point[13]
-                fx += sign * (first * along_first[0] + second * along_second[0])
-                fy += sign * (first * along_first[1] + second * along_second[1])
-                fz += sign * (first * along_first[2] + second * along_second[2])
-            elif body_a == workpiece or body_b == workpiece:
-                workpiece_bodies.append(self._scene_names[body_b if body_a == workpiece else body_a])
-        return Contacts(
-            finger_forces_n=tuple(forces),
-            other_force_n=other,
-            friction_n=(fx, fy, fz),
-            robot_bodies=tuple(dict.fromkeys(robot_bodies)),
-            workpiece_bodies=tuple(dict.fromkeys(workpiece_bodies)),
-        )
+            if body_a == robot:
+                link, partner, sign = link_a, body_b, -1.0
+            elif body_b == robot:
+                link, partner, sign = link_b, body_a, 1.0
+            else:
+                if body_a == workpiece or body_b == workpiece:
+                    body = self._scene_names[body_b if body_a == workpiece else body_a]
+                    if body not in workpiece_bodies:
+                        workpiece_bodies = (*workpiece_bodies, body)
+                continue
+            if partner != workpiece:
+                pair = (self._link_names[link], self._scene_names[partner])
+                if pair not in robot_bodies:
+                    robot_bodies = (*robot_bodies, pair)
+                continue
+            finger = self._finger_of_link.get(link)
+            if finger is None:
+                other += force
+                continue
+            forces[finger] += force
+            # The engine gives friction as it acts on body A.
+            ax, ay, az = along_first
+            bx, by, bz = along_second
+            fx += sign * (first * ax + second * bx)
+            fy += sign * (first * ay + second * by)
+            fz += sign * (first * az + second * bz)
+        return Contacts(tuple(forces), other, (fx, fy, fz), robot_bodies, workpiece_bodies)
 
     def finger_contacts(self, step_s: float) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step.
@@ -96,7 +96,7 @@ class ContactReader:
         found = []
         transform = self._workpiece_pose_before(step_s).inverse()
         turn = Pose(quaternion_xyzw=transform.quaternion_xyzw)
-        for point in self._engine.getContactPoints(physicsClientId=self._client):
+        for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
             bodies = (point[1], point[2])
             if self._workpiece not in bodies or self._robot not in bodies or point[9] <= 0.0:
                 continue
@@ -119,6 +119,15 @@ class ContactReader:
                 )
             )
         return tuple(found)
+
+    def points_by_finger(self) -> dict[int, int]:
+        """Number of points that the engine has between each finger, by its link, and the workpiece."""
+        counts = dict.fromkeys(self._finger_joints, 0)
+        for point in self._engine.getContactPoints(self._workpiece, self._robot, -2, -2, self._client):
+            link = point[4] if point[1] == self._workpiece else point[3]
+            if link in counts:
+                counts[link] += 1
+        return counts
 
     def _workpiece_pose_before(self, step_s: float) -> Pose:
         """Where the workpiece was before a step: the engine moves a body with the velocity that it has afterwards."""

@@ -143,7 +143,9 @@ class TorqueArm:
             assembled_urdf(robot, gripper),
             position=robot.base.position_m,
             orientation=robot.base.quaternion_xyzw,
-            flags=engine.URDF_USE_INERTIA_FROM_FILE | engine.URDF_USE_IMPLICIT_CYLINDER,
+            flags=engine.URDF_USE_INERTIA_FROM_FILE
+            | engine.URDF_USE_IMPLICIT_CYLINDER
+            | engine.URDF_IGNORE_VISUAL_SHAPES,
         )
         names, links = {}, {}
         for index in range(engine.getNumJoints(self._body, physicsClientId=client)):

@@ -26,6 +26,8 @@ _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
 _RENEWAL_COSINE = math.cos(math.radians(30.0) / 2)
 _RENEWAL_CHECK_STEPS = 8
+_HOLDING_POINTS = 3
+_LONGEST_RENEWAL_S = 2.0
 
 
 class World:
@@ -53,6 +55,7 @@ class World:
         self.settings = settings
         self._steps = 0
         self._to_renew: list[int] = []
+        self._renew_by = 0
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
             self._set_parameters()
@@ -92,16 +95,17 @@ class World:
 
     def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
         """Set the arm's targets for the next step."""
+        # What is called at every step is given its arguments by position, which the engine reads in half the time.
         self._engine.setJointMotorControlArray(
             self._robot,
             self._arm_joints,
             self._engine.POSITION_CONTROL,
-            targetPositions=position_rad,
-            targetVelocities=velocity_rad_s,
-            forces=self._arm_torques,
-            positionGains=self._arm_position_gains,
-            velocityGains=self._arm_velocity_gains,
-            physicsClientId=self._client,
+            position_rad,
+            velocity_rad_s,
+            self._arm_torques,
+            self._arm_position_gains,
+            self._arm_velocity_gains,
+            self._client,
         )
 
     def hold_open(self) -> None:
@@ -136,7 +140,20 @@ class World:
         self._steps += 1
         if self._steps % _RENEWAL_CHECK_STEPS == 0:
             self._renew_contacts_after_rotation()
-        self._engine.stepSimulation(physicsClientId=self._client)
+        self._engine.stepSimulation(self._client)
+
+    def solve_freely(self, *, free: bool) -> None:
+        """Take fewer iterations of the solver while nothing is held, or all of them again.
+
+        Args:
+            free: Whether the hand is empty and moves.
+        """
+        settings = self.settings
+        iterations = settings.solver_iterations
+        self._engine.setPhysicsEngineParameter(
+            numSolverIterations=min(iterations, settings.free_iterations) if free else iterations,
+            physicsClientId=self._client,
+        )
 
     def renew_contacts(self) -> None:
         """Let the engine find the workpiece's contacts anew.
@@ -150,24 +167,22 @@ class World:
 
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
         """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm."""
-        states = self._engine.getJointStates(self._robot, self._arm_joints, physicsClientId=self._client)
+        states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
         return tuple(s[0] for s in states), tuple(s[1] for s in states), tuple(s[3] for s in states)
 
     def motor_torques_n_m(self) -> tuple[float, ...]:
         """Torque that each joint of the arm was driven with in the last step; its limit where that did not suffice."""
-        states = self._engine.getJointStates(self._robot, self._arm_joints, physicsClientId=self._client)
+        states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
         return tuple([state[3] for state in states])
 
     def finger_travel_m(self) -> tuple[float, ...]:
         """How far each finger has closed from its open end."""
-        states = self._engine.getJointStates(self._robot, self._finger_joints, physicsClientId=self._client)
+        states = self._engine.getJointStates(self._robot, self._finger_joints, self._client)
         return tuple(state[0] for state in states)
 
     def workpiece_pose(self) -> Pose:
         """Transform of the workpiece to the world."""
-        position, orientation = self._engine.getBasePositionAndOrientation(
-            self._workpiece, physicsClientId=self._client
-        )
+        position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
         return Pose(position_m=tuple(position), quaternion_xyzw=tuple(orientation))
 
     def workpiece_speed(self) -> tuple[float, float]:
@@ -180,13 +195,17 @@ class World:
 
         The velocity is the engine's own: positions have too few digits for differences from step to step.
         """
-        centre, _, _, _, (x, y, z), turned, (vx, vy, vz), (wx, wy, wz) = self._engine.getLinkState(
-            self._robot, self._flange, computeLinkVelocity=1, computeForwardKinematics=1, physicsClientId=self._client
+        (cx, cy, cz), _, _, _, (fx, fy, fz), (qx, qy, qz, qw), (vx, vy, vz), (wx, wy, wz) = self._engine.getLinkState(
+            self._robot, self._flange, 1, 1, self._client
         )
-        dx, dy, dz = Pose(quaternion_xyzw=turned).rotate(self.gripper.geometry.grasp_centre.position_m)
-        x, y, z = x + dx, y + dy, z + dz
+        # Pose.rotate, written out, since this is done at every step of every move.
+        dx, dy, dz = self._grasp_centre_m
+        tx, ty, tz = 2 * (qy * dz - qz * dy), 2 * (qz * dx - qx * dz), 2 * (qx * dy - qy * dx)
+        x = fx + (dx + qw * tx + qy * tz - qz * ty)
+        y = fy + (dy + qw * ty + qz * tx - qx * tz)
+        z = fz + (dz + qw * tz + qx * ty - qy * tx)
         # The engine's velocity is that of the link's centre of mass.
-        dx, dy, dz = x - centre[0], y - centre[1], z - centre[2]
+        dx, dy, dz = x - cx, y - cy, z - cz
         return (x, y, z), (vx + wy * dz - wz * dy, vy + wz * dx - wx * dz, vz + wx * dy - wy * dx)
 
     def tool_pose(self) -> Pose:
@@ -209,14 +228,23 @@ class World:
         return self._reader.finger_contacts(self.settings.step_s)
 
     def _renew_contacts_after_rotation(self) -> None:
-        _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=self._client)
-        cosine = abs(sum(a * b for a, b in zip(turned, self._renewed_at, strict=True)))
-        if cosine < _RENEWAL_COSINE:
+        _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
+        if not self._to_renew:
+            cosine = abs(sum(a * b for a, b in zip(turned, self._renewed_at, strict=True)))
+            if cosine >= _RENEWAL_COSINE:
+                return
             self._renewed_at = turned
             self._to_renew = list(self._finger_joints)
-        if self._to_renew:
-            # One finger at a time, so that the others hold the object meanwhile.
+            self._renew_by = self._steps
+        # One finger at a time, so that the others hold the object meanwhile: a renewed contact is one point, about
+        # which the object may turn, until the engine has found more. It is waited for, but not for ever.
+        renewed = self._to_renew[0]
+        held = all(
+            count >= _HOLDING_POINTS for link, count in self._reader.points_by_finger().items() if link != renewed
+        )
+        if held or self._steps >= self._renew_by:
             self._rediscover(self._robot, self._to_renew.pop(0))
+            self._renew_by = self._steps + round(_LONGEST_RENEWAL_S * self.settings.rate_hz)
 
     def _rediscover(self, body: int, link: int) -> None:
         # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
@@ -304,7 +332,9 @@ class World:
             assembled_urdf(self.scene.robot, self.gripper),
             position=base.position_m,
             orientation=base.quaternion_xyzw,
-            flags=engine.URDF_USE_INERTIA_FROM_FILE | engine.URDF_USE_IMPLICIT_CYLINDER,
+            flags=engine.URDF_USE_INERTIA_FROM_FILE
+            | engine.URDF_USE_IMPLICIT_CYLINDER
+            | engine.URDF_IGNORE_VISUAL_SHAPES,
         )
 
     def _index_robot(self) -> None:
@@ -325,6 +355,7 @@ class World:
         fingers = range(self.gripper.geometry.fingers)
         self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
         self._flange = links[self.scene.robot.flange]
+        self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
         self._reader = ContactReader(
             engine,
             client,

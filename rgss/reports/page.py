@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import base64
 import hashlib
+from collections.abc import Sequence
 from importlib import resources
 from typing import Any
 
 from rgss.errors import DefinitionError
 
 
-def render_page(template: str, **context: Any) -> str:
+def render_page(
+    template: str,
+    *,
+    styles: Sequence[str] = (),
+    scripts: Sequence[str] = (),
+    held_scripts: Sequence[str] = (),
+    images: bool = False,
+    **context: Any,
+) -> str:
     """Fill a template of this package.
 
     Whatever the context holds is escaped, except `markupsafe.Markup`. The page allows no script
@@ -18,6 +27,10 @@ def render_page(template: str, **context: Any) -> str:
 
     Args:
         template: Name of the template.
+        styles: More style sheets, after that of every page.
+        scripts: More scripts, which run in their order after that of every page.
+        held_scripts: Scripts that the page carries and runs when one of its scripts wants them.
+        images: Whether the page shows pictures, which it then carries itself.
         context: What it shows.
 
     Raises:
@@ -33,11 +46,13 @@ def render_page(template: str, **context: Any) -> str:
     environment = Environment(
         loader=FunctionLoader(_text), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
-    script = _text("page.js")
+    own = [_text("page.js"), *scripts]
     return environment.get_template(template).render(
-        style=Markup(_text("page.css")),  # noqa: S704 - this package's own file
-        script=Markup(script),  # noqa: S704 - this package's own file
-        script_hash=script_hash(script),
+        style=Markup(_text("page.css") + "".join(styles)),  # noqa: S704 - this package's own files
+        scripts=[Markup(script) for script in own],  # noqa: S704 - this package's own files
+        held_scripts=[Markup(script) for script in held_scripts],  # noqa: S704 - a package's own file
+        script_hashes=[script_hash(script) for script in (*own, *held_scripts)],
+        images=images,
         **context,
     )
 
@@ -45,6 +60,15 @@ def render_page(template: str, **context: Any) -> str:
 def script_hash(script: str) -> str:
     """A script's digest as a content security policy names it."""
     return "sha256-" + base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
+
+
+def template_text(name: str) -> str:
+    """The text of one of this package's templates, styles or scripts.
+
+    Args:
+        name: Its file name.
+    """
+    return _text(name)
 
 
 def _text(name: str) -> str:

@@ -44,6 +44,29 @@ def report_to_html(
     Raises:
         DefinitionError: The package ``jinja2`` is not installed.
     """
+    return render_page(
+        "trace.html.j2",
+        title=report.title,
+        lead=f"Evidence: {report.evidence.choice}.",
+        **trace_context(report, gaps_only=gaps_only, drawings=drawings, drawings_notice=drawings_notice),
+    )
+
+
+def trace_context(
+    report: TraceReport,
+    *,
+    gaps_only: bool = False,
+    drawings: Sequence[Mapping[str, Any]] = (),
+    drawings_notice: str = "",
+) -> dict[str, Any]:
+    """What the template of the traceability sections shows, by the names that it has there.
+
+    Args:
+        report: The report.
+        gaps_only: As for `report_to_html`, as are the next two.
+        drawings: The diagrams.
+        drawings_notice: What there is to say of them.
+    """
     needs, elements = need_rows(report, most=MOST_ROWS), element_rows(report, most=MOST_ROWS)
     anchors = anchors_of(report, most=MOST_ROWS, gaps_only=gaps_only)
     matrices = [] if gaps_only else [matrix_section(part, most_rows=MOST_ROWS) for part in report.matrices]
@@ -55,24 +78,21 @@ def report_to_html(
         sections += [Section(anchor="needs", title="Stakeholder requirements")] if needs else []
         sections += [Section(anchor="architecture", title="Blocks and behaviours")] if elements else []
         sections += [Section(anchor="diagrams", title="Diagrams")] if drawings or drawings_notice else []
-    return render_page(
-        "trace.html.j2",
-        title=report.title,
-        lead=f"Evidence: {report.evidence.choice}.",
-        summary=_summary(report),
-        sections=sections,
-        anchors=anchors,
-        metrics=metric_rows(report),
-        gaps=report.gaps[:MOST_ROWS] if gaps_only else None,
-        gaps_left_out=max(0, len(report.gaps) - MOST_ROWS),
-        matrices=matrices,
-        verification=verification_section(report, most_rows=MOST_ROWS, gaps_only=gaps_only),
-        needs=[] if gaps_only else needs,
-        elements=[] if gaps_only else elements,
-        drawings=[] if gaps_only else list(drawings),
-        drawings_notice="" if gaps_only else drawings_notice,
-        drawing_style=_drawing_style(),
-    )
+    return {
+        "summary": _summary(report),
+        "sections": sections,
+        "anchors": anchors,
+        "metrics": metric_rows(report),
+        "gaps": report.gaps[:MOST_ROWS] if gaps_only else None,
+        "gaps_left_out": max(0, len(report.gaps) - MOST_ROWS),
+        "matrices": matrices,
+        "verification": verification_section(report, most_rows=MOST_ROWS, gaps_only=gaps_only),
+        "needs": [] if gaps_only else needs,
+        "elements": [] if gaps_only else elements,
+        "drawings": [] if gaps_only else list(drawings),
+        "drawings_notice": "" if gaps_only else drawings_notice,
+        "drawing_style": _drawing_style(),
+    }
 
 
 def chain_to_html(chain: Chain) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Annotated, Any, TypeVar
 
-from pydantic import AfterValidator, BeforeValidator, StringConstraints, WithJsonSchema, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, StringConstraints, WithJsonSchema, model_validator
 
 from rgss.documents import DocumentModel, Identifier, QuantityText, Text
 from rgss.errors import QuantityError
@@ -61,14 +61,21 @@ def _not_empty(entries: tuple[_Entry, ...]) -> tuple[_Entry, ...]:
     return entries
 
 
-Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty)]
+Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty), Field(json_schema_extra={"minItems": 1})]
 """A list that is not empty."""
 
 ThresholdText = Annotated[
     QuantityText,
     BeforeValidator(_as_text),
     AfterValidator(_check_quantity),
-    WithJsonSchema({"type": ["string", "number"], "description": "A quantity in a unit of the measure's dimension."}),
+    WithJsonSchema(
+        {
+            "type": ["string", "number"],
+            "minLength": 1,
+            "maxLength": 60,
+            "description": "A quantity in a unit of the measure's dimension.",
+        }
+    ),
 ]
 """A quantity whose unit the measure decides, such as ``"0.8 kg"``; a pure number may be bare."""
 

@@ -18,6 +18,7 @@ from rgss.documents import (
     Text,
 )
 from rgss.findings import shown
+from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off_document import TradeOffEntry
 
 MOST_REPLICATES = 10_000
@@ -102,4 +103,5 @@ class StudyDocument(DocumentModel):
     planning: PlanningEntry
     physics: PhysicsEntry
     trade_off: TradeOffEntry
+    regression: RegressionEntry | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()

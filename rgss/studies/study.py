@@ -14,6 +14,7 @@ from rgss.measures import MeasureSet
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.studies.document import StudyDocument
 from rgss.studies.promotion import Screening, read_screening
+from rgss.studies.regression_section import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff
 from rgss.studies.trade_off_places import TradeOffPlaces
 from rgss.studies.trade_off_reading import read_trade_off
@@ -74,6 +75,7 @@ class Study:
         values: What each measure is worth, with requirements' thresholds put in.
         trade_off: How designs are compared.
         screening: The trials that come first, and which designs go on from them; None if all do.
+        regression: Which metrics are guarded against a baseline; None if none are.
     """
 
     id: str
@@ -90,6 +92,7 @@ class Study:
     values: tuple[ValueAnchors, ...]
     trade_off: TradeOff
     screening: Screening | None = None
+    regression: RegressionGuard | None = None
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -137,6 +140,7 @@ def read_study(
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
     screening = read_screening(entry, document, findings)
+    regression = read_regression(entry.regression, document, findings)
     places = TradeOffPlaces(
         document, measures, lambda: _requirements(project) if requirements is None else requirements
     )
@@ -166,6 +170,7 @@ def read_study(
         values=_values(trade_off, places),
         trade_off=trade_off,
         screening=screening,
+        regression=regression,
     )
 
 

@@ -138,6 +138,7 @@ def sweep(
     limits: WorkerLimits | None = None,
     origin: Callable[[], Origin] = Origin,
     maker: Maker = make,
+    workers_for: Callable[[Maker], Workers] | None = None,
 ) -> SweepResult:
     """Make what the store has not, and keep each result within about a second.
 
@@ -156,11 +157,13 @@ def sweep(
         limits: What a worker may use for one task.
         origin: Tells where the trials come from, for their provenance; asked only if there are any to run.
         maker: What carries out a task: a function of a module, which the workers import by its name.
+        workers_for: Gives the workers that carry out tasks by a maker, in place of `jobs` and `limits`;
+            asked only if there is anything to be made.
 
     Raises:
         DefinitionError: A planning limit is longer than the search.
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
-        SimulationError: A worker process cannot be started.
+        SimulationError: A worker process cannot be started, or the workers are lost.
     """
     trials = trials_of(specs)
     there = store.has(trial.key for trial in trials)
@@ -180,7 +183,9 @@ def sweep(
     work = Work(missing, stored=stored, share=share)
     limits = limits or WorkerLimits()
     workers: Workers = InlineWorkers(maker)
-    if jobs > 0:
+    if workers_for is not None and work.left:
+        workers = workers_for(maker)
+    elif jobs > 0:
         workers = WorkerPool(maker, size=jobs, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes)
     return _Sweep(work, store, keeper, workers, on_state=on_state).run()
 

@@ -31,7 +31,14 @@ QuantityField = Annotated[
     str,
     BeforeValidator(_as_text),
     StringConstraints(min_length=1, max_length=60),
-    WithJsonSchema({"type": ["string", "number"], "description": "A quantity in a unit of the measure's dimension."}),
+    WithJsonSchema(
+        {
+            "type": ["string", "number"],
+            "minLength": 1,
+            "maxLength": 60,
+            "description": "A quantity in a unit of the measure's dimension.",
+        }
+    ),
 ]
 """A quantity whose unit the measure decides."""
 

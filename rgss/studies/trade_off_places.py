@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 
 from rgss.documents import Document
@@ -58,7 +59,7 @@ class TradeOffPlaces:
             return True
         if not self._measures_read:
             return False
-        hint = f"measures: {', '.join(self.units)}"
+        hint = _nearest(measure, self.units, "name one of the measures' file")
         self.report("unknown-measure", f"no measure {measure!r} is defined", at, hint=hint)
         return False
 
@@ -107,7 +108,7 @@ class TradeOffPlaces:
         known = {item.id: item for item in requirements.system}
         if requirement not in known:
             message = f"there is no system requirement {requirement!r}"
-            self.report("requirement", message, at, hint="name one that is there")
+            self.report("requirement", message, at, hint=_nearest(requirement, known, "name one that is there"))
             return None
         criterion = known[requirement].criterion
         if criterion is None:
@@ -125,3 +126,9 @@ class TradeOffPlaces:
         except QuantityError:
             # What is wrong with the requirement itself is told where it stands.
             return None
+
+
+def _nearest(name: str, known: Iterable[str], otherwise: str) -> str:
+    """A hint for a name that is not known: the nearest that is; another where none is near."""
+    near = difflib.get_close_matches(name, list(known), n=1)
+    return f"did you mean {near[0]!r}?" if near else otherwise

@@ -5,6 +5,7 @@ from rgss.tradeoff.conditions import ChanceBound, Comparison, Condition, Risk, T
 from rgss.tradeoff.conflicts import (
     Conflicts,
     ConflictSurvival,
+    JointRepair,
     LimitChange,
     NearestAlternative,
     Repair,
@@ -66,6 +67,7 @@ __all__ = [
     "FleetTask",
     "Incompatibility",
     "InfeasibleAlternative",
+    "JointRepair",
     "LevelDecision",
     "LevelFactor",
     "LevelProblem",

@@ -46,12 +46,14 @@ class LimitChange:
     """A limit that would have to move.
 
     Attributes:
+        requirement: The id of the requirement whose limit it is.
         demand: What is demanded now, such as ``P_max >= 0.8 kg``.
         limit: The limit now.
         needed: What it would have to become.
         unit: The unit of both.
     """
 
+    requirement: str
     demand: str
     limit: float
     needed: float
@@ -76,6 +78,26 @@ class Repair:
     """
 
     requirement: str
+    changes: tuple[LimitChange, ...]
+    unlocked: int
+    winner: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointRepair:
+    """The smallest change of a correction's requirements that makes something feasible.
+
+    Where there are several conflicts, no requirement mends them alone, but each correction does.
+
+    Attributes:
+        requirements: The correction.
+        changes: The limits that would have to move together; empty if no change of limits helps,
+            because evidence is missing.
+        unlocked: How many alternatives are then feasible.
+        winner: The alternative that is then chosen; None if none.
+    """
+
+    requirements: tuple[str, ...]
     changes: tuple[LimitChange, ...]
     unlocked: int
     winner: int | None
@@ -115,6 +137,7 @@ class Conflicts:
         nearest: The alternative that violates the fewest requirements.
         repairs: For each requirement, what its limit would have to become for something to be
             feasible if nothing else changes.
+        joint_repairs: The same for each of the `corrections`, in their order.
         survival: How the conflict stands up to the noise of the replicates; None where no measure
             has more than one.
     """
@@ -126,6 +149,7 @@ class Conflicts:
     corrections: tuple[tuple[str, ...], ...]
     nearest: NearestAlternative
     repairs: tuple[Repair, ...] = ()
+    joint_repairs: tuple[JointRepair, ...] = ()
     survival: ConflictSurvival | None = None
 
 

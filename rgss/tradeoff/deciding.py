@@ -151,9 +151,13 @@ def _explained(problem: TradeProblem, enumeration: Enumeration, seed: int, resam
     if conflicts is None:
         return None
     from rgss.tradeoff.noise import RESAMPLES, conflict_survival
-    from rgss.tradeoff.repair import find_repairs
+    from rgss.tradeoff.repair import find_joint_repairs, find_repairs
 
-    conflicts = replace(conflicts, repairs=find_repairs(problem, enumeration))
+    conflicts = replace(
+        conflicts,
+        repairs=find_repairs(problem, enumeration),
+        joint_repairs=find_joint_repairs(problem, enumeration, conflicts.corrections),
+    )
     if resamples is None:
         resamples = max(100, min(RESAMPLES, MOST_DRAWN // len(enumeration.table)))
     if resamples == 0:

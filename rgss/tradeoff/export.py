@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from rgss.tradeoff.certificate import Certificate
-from rgss.tradeoff.conflicts import Conflicts, RequirementCount
+from rgss.tradeoff.conflicts import Conflicts, LimitChange, RequirementCount
 from rgss.tradeoff.decision import Contribution, Decision, InfeasibleAlternative
 from rgss.tradeoff.fleet import FleetDecision
 
@@ -151,20 +151,20 @@ def _conflicts(conflicts: Conflicts | None) -> dict[str, object] | None:
         "repairs": [
             {
                 "requirement": repair.requirement,
-                "changes": [
-                    {
-                        "demand": change.demand,
-                        "limit": change.limit,
-                        "needed": change.needed,
-                        "unit": change.unit,
-                        "relative": change.relative,
-                    }
-                    for change in repair.changes
-                ],
+                "changes": _changes(repair.changes),
                 "unlocked": repair.unlocked,
                 "winner": repair.winner,
             }
             for repair in conflicts.repairs
+        ],
+        "joint_repairs": [
+            {
+                "requirements": list(repair.requirements),
+                "changes": _changes(repair.changes),
+                "unlocked": repair.unlocked,
+                "winner": repair.winner,
+            }
+            for repair in conflicts.joint_repairs
         ],
         "survival": None
         if survival is None
@@ -175,3 +175,17 @@ def _conflicts(conflicts: Conflicts | None) -> dict[str, object] | None:
             "conflicts": list(survival.conflicts),
         },
     }
+
+
+def _changes(changes: Iterable[LimitChange]) -> list[dict[str, object]]:
+    return [
+        {
+            "requirement": change.requirement,
+            "demand": change.demand,
+            "limit": change.limit,
+            "needed": change.needed,
+            "unit": change.unit,
+            "relative": change.relative,
+        }
+        for change in changes
+    ]

@@ -8,12 +8,17 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
 
+from rgss.errors import TradeoffError
 from rgss.tradeoff.conditions import Threshold
 from rgss.tradeoff.stage import Stage, StageSolution, StageSolver
 from rgss.tradeoff.terms import WeightedValue, WorstOf
 
 if TYPE_CHECKING:
     from rgss.tradeoff.preferences import Preferences
+
+
+FEWEST_SCENARIOS = 2
+"""Of a single replicate there is nothing to regret: the best of it would be chosen, noise and all."""
 
 
 class Scenarios(str, Enum):
@@ -56,9 +61,14 @@ class MinimaxRegret:
         return dict.fromkeys(preferences.weighting.deciding_measures, True)
 
     def check(self, preferences: Preferences) -> None:
-        """Over replicates, there must be some, and as many of each alternative."""
-        if self.scenarios is Scenarios.REPLICATES:
-            preferences.replicate_count(preferences.weighting.deciding_measures)
+        """Over replicates, there must be two at least, and as many of each alternative."""
+        if self.scenarios is not Scenarios.REPLICATES:
+            return
+        if preferences.replicate_count(preferences.weighting.deciding_measures) < FEWEST_SCENARIOS:
+            raise TradeoffError(
+                "regret over replicates needs 2 replicates of each variant, and there is 1",
+                hint="run more replicates, or take the regret over weights",
+            )
 
     def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
         """The best value in each scenario, and then the least of the largest regrets."""

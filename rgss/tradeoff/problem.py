@@ -76,7 +76,8 @@ class TradeProblem(Preferences):
         if len(counts) > 1:
             (few, one), *_, (many, other) = sorted(counts.items())
             raise TradeoffError(
-                f"variant {one} has {few} replicates and variant {other} has {many}, so there is no common scenario",
+                f"variant {one} has {few} replicate{'' if few == 1 else 's'} and variant {other} has {many}, "
+                "so there is no common scenario",
                 hint="run as many replicates of every variant, or take the regret over weights",
             )
         if not counts:

@@ -1,15 +1,15 @@
-"""The cheapest repair of each requirement: how far its limit would have to move, and what would then win."""
+"""The cheapest repairs: how far limits would have to move, alone or together, and what would then win."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rgss.tradeoff.columns import condition_column, keeps
-from rgss.tradeoff.conditions import Comparison
-from rgss.tradeoff.conflicts import LimitChange, Repair
+from rgss.tradeoff.conditions import ChanceBound, Comparison
+from rgss.tradeoff.conflicts import JointRepair, LimitChange, Repair
 from rgss.tradeoff.program_orderings import ordering_of
 
 if TYPE_CHECKING:
@@ -36,54 +36,81 @@ def find_repairs(preferences: Preferences, enumeration: Enumeration) -> tuple[Re
         A repair for each requirement, in their order.
     """
     found = []
-    for place, requirement in enumerate(enumeration.requirements):
-        others = np.delete(enumeration.violated, place, axis=1)
-        only = enumeration.violated[:, place] & ~others.any(axis=1)
-        conditions = [condition for condition in preferences.conditions if condition.requirement == requirement]
-        found.append(_repair(preferences, enumeration, requirement, conditions, only))
+    for requirement in enumeration.requirements:
+        changes, unlocked, winner = _mended(preferences, enumeration, (requirement,))
+        found.append(Repair(requirement=requirement, changes=changes, unlocked=unlocked, winner=winner))
     return tuple(found)
 
 
-def _repair(
-    preferences: Preferences,
-    enumeration: Enumeration,
-    requirement: str,
-    conditions: list[Condition],
-    only: NDArray[np.bool_],
-) -> Repair:
-    none = Repair(requirement=requirement, changes=(), unlocked=0, winner=None)
-    if not conditions or not only.any():
+def find_joint_repairs(
+    preferences: Preferences, enumeration: Enumeration, corrections: Sequence[tuple[str, ...]]
+) -> tuple[JointRepair, ...]:
+    """The cheapest repair of each correction of an infeasible trade-off.
+
+    Of the alternatives that violate just the requirements of a correction, the one that needs the
+    smallest largest relative change of their limits.
+
+    Args:
+        preferences: What is wanted.
+        enumeration: Every alternative evaluated.
+        corrections: The smallest sets of requirements without which something is feasible.
+
+    Returns:
+        A repair for each correction, in their order.
+    """
+    found = []
+    for requirements in corrections:
+        changes, unlocked, winner = _mended(preferences, enumeration, requirements)
+        found.append(JointRepair(requirements=requirements, changes=changes, unlocked=unlocked, winner=winner))
+    return tuple(found)
+
+
+def _mended(
+    preferences: Preferences, enumeration: Enumeration, requirements: Sequence[str]
+) -> tuple[tuple[LimitChange, ...], int, int | None]:
+    """The changes of the limits of some requirements; how many are then feasible, and which is chosen."""
+    none: tuple[tuple[LimitChange, ...], int, int | None] = ((), 0, None)
+    places = [enumeration.requirements.index(requirement) for requirement in requirements]
+    others = np.delete(enumeration.violated, places, axis=1)
+    only = enumeration.violated[:, places].all(axis=1) & ~others.any(axis=1)
+    conditions = [condition for condition in preferences.conditions if condition.requirement in requirements]
+    if {condition.requirement for condition in conditions} != set(requirements):
         # Missing evidence has no limit that could move.
         return none
-    columns = [condition_column(condition, enumeration.table) for condition in conditions]
-    known = only & ~np.isnan(np.stack(columns)).any(axis=0)
-    if not known.any():
+    # Only these are looked at from here on, so that many corrections of many alternatives take no longer.
+    table = enumeration.table.rows(np.flatnonzero(only))
+    columns = [condition_column(condition, table) for condition in conditions]
+    movable = np.all([_reachable(*pair) for pair in zip(conditions, columns, strict=True)], axis=0)
+    if not movable.any():
         return none
     efforts = np.max([_effort(*pair) for pair in zip(conditions, columns, strict=True)], axis=0)
-    row = int(np.flatnonzero(known)[efforts[known].argmin()])
-    changed, changes = [], []
+    row = int(np.flatnonzero(movable)[efforts[movable].argmin()])
+    feasible = np.ones(len(table), dtype=np.bool_)
+    changes = []
     for condition, column in zip(conditions, columns, strict=True):
-        if condition.sense.holds(float(column[row]), condition.limit):
-            changed.append((condition.sense, condition.limit))
-            continue
-        changed.append((condition.sense, float(column[row])))
-        changes.append(
-            LimitChange(
-                demand=condition.demand, limit=condition.limit, needed=float(column[row]), unit=condition.limit_unit
+        limit = condition.limit
+        if not condition.sense.holds(float(column[row]), limit):
+            limit = float(column[row])
+            changes.append(
+                LimitChange(
+                    requirement=condition.requirement,
+                    demand=condition.demand,
+                    limit=condition.limit,
+                    needed=limit,
+                    unit=condition.limit_unit,
+                )
             )
-        )
-    feasible = only.copy()
-    for column, (sense, limit) in zip(columns, changed, strict=True):
-        feasible &= keeps(sense, column, limit)
+        feasible &= keeps(condition.sense, column, limit)
     # Regret is relative to what is feasible, which the repair changes.
-    ordering = ordering_of(preferences.program, preferences, enumeration.table, feasible)
-    tied = np.flatnonzero(ordering.best(feasible))
-    return replace(
-        none,
-        changes=tuple(changes),
-        unlocked=int(feasible.sum()),
-        winner=int(enumeration.variants[tied[0]]) if tied.size else None,
-    )
+    tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
+    winner = int(table.variants[tied[0]]) if tied.size else None
+    return tuple(changes), int(feasible.sum()), winner
+
+
+def _reachable(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Where a condition can be met by another limit: a statistic is known, and a chance is not 0."""
+    # A chance of 0 demands nothing, so it is no demand that could be written down.
+    return column > 0.0 if isinstance(condition, ChanceBound) else ~np.isnan(column)
 
 
 def _effort(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.float64]:

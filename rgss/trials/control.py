@@ -33,9 +33,8 @@ class ControlSettings:
         acceleration_window_s: Time over which the tool's acceleration is averaged, as an
             accelerometer's filter does; from one step to the next it shows the solver's noise.
         grasp_rate_hz: Rate at which the grasp of a carried object is analysed; also at the end of
-            every phase.
-        grasp_strength_rate_hz: Rate at which that analysis says what the grasp resists (Q_SMW and
-            the load), which takes most of its time; also at the end of every phase.
+            every phase. What the grasp resists (Q_SMW and the load), which takes ten times as long, is
+            said when it is firm and when the carry ends.
     """
 
     firm_grasp_s: float = 0.05
@@ -53,5 +52,4 @@ class ControlSettings:
     displaced_m: float = 0.005
     observation_rate_hz: float = 60.0
     acceleration_window_s: float = 0.02
-    grasp_rate_hz: float = 4.0
-    grasp_strength_rate_hz: float = 1.0
+    grasp_rate_hz: float = 2.0

@@ -74,6 +74,7 @@ class Execution:
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
         loads, tool = reference.load_m_s2.tolist(), reference.tool_m.tolist()
         steps = 0
+        world.solve_freely(free=carried_at is None)
         for index in range(reference.steps):
             world.command_arm(positions[index], velocities[index])
             world.step()
@@ -83,8 +84,10 @@ class Execution:
                 self._keep_grip(watch)
             if watch.failure is not None:
                 break
+        world.solve_freely(free=False)
         self._configuration = tuple(positions[-1])
-        watch.finish()
+        # What the grasp resists is said where the carry ends.
+        watch.finish(strength=phase is CARRYING[-1])
         metrics = watch.metrics()
         metrics["commanded_tool_speed_m_s"] = reference.peak_tool_speed_m_s
         metrics["commanded_tool_acceleration_m_s2"] = reference.peak_tool_acceleration_m_s2

@@ -38,7 +38,6 @@ class GraspWatch:
         self._look_every = max(1, round(rate_hz / control.observation_rate_hz))
         looks = max(1, round(control.observation_rate_hz / control.grasp_rate_hz))
         self._sample_every = looks * self._look_every
-        self._strength_every = max(1, round(control.grasp_rate_hz / control.grasp_strength_rate_hz))
         self._steps = self._sampled_at = 0
         self._samples: list[dict[str, Metric]] = []
 
@@ -53,11 +52,14 @@ class GraspWatch:
             return None
         slip = self._look()
         if self._steps % self._sample_every == 0:
-            self._sample(strength=(len(self._samples) + 1) % self._strength_every == 0)
+            self._sample(strength=False)
         return slip
 
-    def finish(self) -> float:
+    def finish(self, *, strength: bool = True) -> float:
         """Look and analyse at the end of the phase, whatever the time.
+
+        Args:
+            strength: Whether to say what the grasp resists, too.
 
         Returns:
             How far the object is from where it was grasped (m).
@@ -65,7 +67,7 @@ class GraspWatch:
         slip = self._look()
         if self._sampled_at == self._steps and self._samples:
             self._samples.pop()
-        self._sample(strength=True)
+        self._sample(strength=strength)
         return slip
 
     def metrics(self) -> dict[str, Metric]:

@@ -114,16 +114,14 @@ class KinematicPlant:
         velocity = np.vstack([np.zeros((1, 6)), np.diff(positions_rad, axis=0) / step])
         velocity = np.vstack([velocity, np.zeros((1, 6))])
         acceleration = np.diff(velocity, axis=0) / step
-        state = np.zeros((2, positions_rad.shape[1]))
-        rows = [state[0].copy()]
-        longest = len(positions_rad) + math.ceil(20.0 / (omega * zeta * step))
-        index = 0
-        while index < len(positions_rad) - 1 or (np.max(np.abs(state[0])) > response.reached_rad and index < longest):
-            wanted = acceleration[index] if index < len(acceleration) else np.zeros(positions_rad.shape[1])
-            state = transition @ state - drive[:, None] * wanted[None, :]
-            rows.append(state[0].copy())
-            index += 1
-        return np.array(rows)
+        settling = math.ceil(20.0 / (omega * zeta * step))
+        last = len(positions_rad) - 1
+        wanted = np.zeros((last + 1 + settling, positions_rad.shape[1]))
+        wanted[: len(acceleration)] = acceleration
+        rows = _response(transition, drive, wanted)
+        reached = np.max(np.abs(rows[last:]), axis=1) <= response.reached_rad
+        end = int(np.argmax(reached)) if reached.any() else len(reached) - 1
+        return rows[: last + end + 1]
 
     def _result(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
         return PhaseResult(phase=phase, failure=None, detail="", duration_s=duration_s, metrics=metrics)
@@ -137,3 +135,23 @@ def _oscillator(omega: float, zeta: float, step_s: float) -> tuple[Array, Array]
     system = np.array([[0.0, 1.0, 0.0], [-(omega**2), -2.0 * zeta * omega, 1.0], [0.0, 0.0, 0.0]])
     exact = expm(system * step_s)
     return exact[:2, :2], exact[:2, 2]
+
+
+def _response(transition: Array, drive: Array, acceleration: Array) -> Array:
+    """Deviations (n + 1, joints) of an oscillator from rest under accelerations (n, joints) of its target.
+
+    The state's recurrence x' = A x - b u is one of the second order in the deviation alone, by Cayley and
+    Hamilton: e'' = tr A e' - det A e - b₀ u' - (A₀₁ b₁ - A₁₁ b₀) u, a triangular system of three bands.
+    """
+    from scipy.linalg.lapack import dtbtrs
+
+    count = len(acceleration) + 1
+    trace, determinant = transition[0, 0] + transition[1, 1], np.linalg.det(transition)
+    driven = np.zeros((count, acceleration.shape[1]))
+    driven[1:] = -drive[0] * acceleration
+    driven[2:] -= (transition[0, 1] * drive[1] - transition[1, 1] * drive[0]) * acceleration[:-1]
+    bands = np.ones((3, count))
+    bands[1], bands[2] = -trace, determinant
+    deviations, _ = dtbtrs(bands, driven, uplo="L", diag="U")
+    rows: Array = deviations
+    return rows

@@ -57,7 +57,7 @@ def test_bad_input_and_help_by_exit_status(rgss_process, tmp_path):
 def test_an_interrupt_before_the_work_begins_is_one_line():
     script = (
         "import sys, time; from rgss.cli import main as module; print('ready', flush=True); "
-        "module._parser = lambda: time.sleep(30); sys.exit(module.main())"
+        "module.command_line = lambda: time.sleep(30); sys.exit(module.main())"
     )
     process = subprocess.Popen(
         [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

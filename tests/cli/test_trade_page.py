@@ -11,7 +11,7 @@ import pytest
 
 from rgss.cli.trade_effects_page import print_effects
 from rgss.cli.trade_section import BEGIN, END
-from rgss.cli.trade_words import amount, ids_text, moves_text, percent, variants_text
+from rgss.cli.trade_words import amount, ids_text, moved_limit, moves_text, percent, variants_text
 from rgss.studies.project import load_project
 from rgss.studies.robustness_effects import MeasureEffects, StudyEffects
 from rgss.tradeoff.sampled_effects import SampledIndex
@@ -131,6 +131,28 @@ def test_the_document_is_described(page, rgss, with_evidence):
     assert {key for key in named - found if not holds_nothing(document, key)} == set()
 
 
+def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
+    """Every key of a decision and of one that is infeasible stands in docs/trade_off.md, and no other."""
+    words = ["--what-if", "SYS-005.threshold=5 s", "--what-if", "SYS-012.threshold=0.9 kg"]
+    nothing = rgss("trade", "--brief", "--json", *words, "--project", with_evidence)
+    # Something is worth more than what is chosen, but excluded.
+    excluded = rgss(
+        "trade", "--brief", "--json", "--what-if", "SYS-004.threshold=39000 USD", "--project", with_evidence
+    )
+    documents = [page[1], nothing.document, excluded.document]
+    found = set().union(*(keys_of({**one, "demands": None}) for one in documents))
+    text = (
+        (REPOSITORY / "docs" / "trade_off.md").read_text(encoding="utf-8").split("## The decision as a document", 1)[1]
+    )
+    named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
+    whole = {"schema", "study", "double_counting", "shared_parts", "robustness", "fleet", "what_if", "evidence"}
+
+    assert nothing.status == 1
+    assert {key for key in found if key.split(".")[0].rstrip("[]") not in whole} == named
+    for one in documents:
+        assert {key.split(".")[0].split("[")[0] for key in named} <= set(one)
+
+
 def test_brief_is_the_decision_alone(rgss, with_evidence):
     told = rgss("trade", "--brief", "--project", with_evidence)
 
@@ -222,7 +244,16 @@ def test_words():
         "46 %",
         "100 %",
     ]
+    assert [percent(share) for share in (0.994, 0.996, 0.9996, 1.0)] == ["99 %", "99.6 %", "> 99.9 %", "100 %"]
     assert (amount(1234.5, "USD"), amount(0.5, "1"), amount(0.5, "kg")) == ("1,234 USD", "0.5", "0.5 kg")
+    # Rounded away from the limit, so that what is written is enough.
+    assert [moved_limit(9.0, 9.1983, "s"), moved_limit(0.9, 0.84776, "kg")] == ["9.199 s", "0.8477 kg"]
+    assert [moved_limit(40500, 41749.2, "USD"), moved_limit(50, 45.7, "USD")] == ["41,750 USD", "45 USD"]
+    assert [moved_limit(1, 9.2 + 1e-15, "s"), moved_limit(1, 0.0, "s"), moved_limit(1, -0.33338, "m")] == [
+        "9.2 s",
+        "0 s",
+        "-0.3334 m",
+    ]
     assert moves_text({"a": 0.2, "b": 0.8}, {"a": 0.3, "b": 0.7}) == "a 0.2 → 0.3, b 0.8 → 0.7"
     assert moves_text({"a": 0.2}, {"a": 0.2}) == "no weight moves"
 

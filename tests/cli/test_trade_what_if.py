@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 
@@ -44,6 +46,55 @@ def test_what_leaves_nothing_feasible(rgss, with_evidence):
     assert "to nothing." in told.output
     assert "No variant meets every requirement." in told.output
     assert "SYS-012" in told.output
+
+
+CONFLICTING = [
+    *("--what-if", "SYS-005.threshold=5 s"),
+    *("--what-if", "SYS-012.threshold=0.9 kg"),
+    *("--what-if", "SYS-004.threshold=40500 USD"),
+]
+
+
+def printed_limits(line):
+    """What a line of the table of repairs lets a requirement become."""
+    return re.findall(r"(SYS-\d+) ([\d.,]+ ?(?:s|kg|USD)?)(?:,|  )", line)
+
+
+def test_what_is_printed_as_enough_is_enough(rgss, with_evidence):
+    """Every repair on the page, put in as it is written, lets the variant win that the page names."""
+    told = rgss("trade", "--brief", *CONFLICTING, "--project", with_evidence)
+    lines = told.output.split("enough together", 1)[1].split("\n\n", 1)[0].splitlines()[2:]
+    document = rgss("trade", "--brief", "--json", *CONFLICTING, "--project", with_evidence).document["conflicts"]
+
+    assert told.status == 1
+    assert len(lines) == sum(len(repair["requirements"]) > 1 for repair in document["joint_repairs"])
+    assert lines
+    for line in lines:
+        words = [*CONFLICTING]
+        limits = dict(printed_limits(line))
+        assert limits
+        for requirement, limit in limits.items():
+            place = next((at for at, word in enumerate(words) if word.startswith(requirement)), None)
+            supposed = f"{requirement}.threshold={limit.replace(',', '')}"
+            words = (
+                [*words, "--what-if", supposed] if place is None else [*words[:place], supposed, *words[place + 1 :]]
+            )
+        mended = rgss("trade", "--brief", "--json", *words, "--project", with_evidence).document
+        assert f"variant {mended['chosen']} " in f"{line} "
+        assert mended["counts"]["feasible"] == int((re.search(r"of (\d+) feasible$", line) or [0, "1"])[1])
+
+
+def test_conflicts_and_whether_they_survive_noise(rgss, with_evidence):
+    told = rgss("trade", "--brief", *CONFLICTING, "--project", with_evidence)
+    document = rgss("trade", "--brief", "--json", *CONFLICTING, "--project", with_evidence).document["conflicts"]
+
+    assert "no variant meets" in told.output
+    for conflict, share in zip(document["minimal_conflicts"], document["survival"]["conflicts"], strict=True):
+        name = " and ".join(conflict) if len(conflict) > 1 else f"{conflict[0]} alone"
+        assert re.search(rf"^{name} +{round(100 * share)} %$", told.output, re.MULTILINE)
+    assert "by all 10 resamples of the replicates; nothing is feasible in" in told.output
+    one = rgss("trade", "--brief", "--replicates", "1", *CONFLICTING, "--project", with_evidence)
+    assert "(whether this survives noise takes two replicates of each variant to tell)" in one.output
 
 
 def test_what_drops_variants(rgss, with_evidence):

@@ -95,4 +95,4 @@ def test_the_script_of_the_build_machine_checks_and_tests(repository):
 
     assert os.access(script, os.X_OK)
     assert subprocess.run(["bash", "-n", script], check=False).returncode == 0
-    assert script.read_text(encoding="utf-8").splitlines()[-2:] == ["make check", "make test"]
+    assert script.read_text(encoding="utf-8").splitlines()[-3:] == ["make check", "make test", "make regress"]

@@ -64,6 +64,14 @@ FINDINGS = [
         values("{measure: t_e, weight: 1, worst: [25 s], best: 5 s}"),
         "3:40: error: worst: a text is expected",
     ),
+    (
+        values("{measure: t_ee, weight: 1, worst: 25 s, best: 5 s}"),
+        "3:17: error: no measure 't_ee' is defined (did you mean 't_e'?) [study.unknown-measure]",
+    ),
+    (
+        values("{measure: happiness, weight: 1, worst: 0, best: 1}"),
+        "3:17: error: no measure 'happiness' is defined (name one of the measures' file) [study.unknown-measure]",
+    ),
     # anchors
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-999}, best: 5 s}"),
@@ -257,6 +265,7 @@ def test_the_project_s_own_requirements_are_looked_up(folder, edit, problems, pl
     edit(file, "{requirement: SYS-012}", "{requirement: SYS-112}")
     (problem,) = problems()
     assert problem.startswith(f"{place_of(file, '{requirement')}: error: there is no system requirement 'SYS-112'")
+    assert "(did you mean 'SYS-012'?)" in problem
 
 
 def test_requirements_that_cannot_be_read_are_told_once(folder, edit, problems):

@@ -43,6 +43,18 @@ def test_agreement_with_enumeration(problem_of, oracle, program, levels):
     assert tied or levels
 
 
+def test_a_tail_on_its_limit_whose_gains_and_losses_cancel(cases, oracle, seeded):
+    """Of the 10,000 of the benchmark the one whose feasibility once depended on the order of a sum."""
+    problem = cases.random_problem(seeded("risk 7750"), "risk")
+    decision, answer = decide(problem, resamples=0), oracle.expected(problem)
+    cancelling = next(one for one in problem.alternatives if one.variant == 50)
+    (bound,) = (risk for risk in problem.risks if risk.requirement == "tail:b")
+
+    assert max(map(abs, cancelling.samples["b"])) > 1e11 * abs(bound.value)
+    assert decision.ties == answer.tied
+    assert decision.certificate.enumeration_agrees
+
+
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_levels_and_variants_agree(problem_of, program):
     for seed in range(5):

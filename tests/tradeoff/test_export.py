@@ -71,6 +71,14 @@ def test_of_a_choice(payload_and_time):
 def test_of_no_choice(build_problem):
     problem = build_problem({3: {"a": 0.4}, 7: {"a": None}}, thresholds=[("R", "a", ">=", 0.5)])
     document = json.loads(json.dumps(decision_to_json(decide(problem)), allow_nan=False))
+    change = {
+        "requirement": "R",
+        "demand": "a >= 0.5 kg",
+        "limit": 0.5,
+        "needed": 0.4,
+        "unit": "kg",
+        "relative": pytest.approx(0.2),
+    }
     assert document == {
         "program": "additive",
         "objectives": ["value"],
@@ -94,22 +102,8 @@ def test_of_no_choice(build_problem):
             "complete": True,
             "corrections": [["R"]],
             "nearest": {"variant": 3, "requirements": ["R"]},
-            "repairs": [
-                {
-                    "requirement": "R",
-                    "changes": [
-                        {
-                            "demand": "a >= 0.5 kg",
-                            "limit": 0.5,
-                            "needed": 0.4,
-                            "unit": "kg",
-                            "relative": pytest.approx(0.2),
-                        }
-                    ],
-                    "unlocked": 1,
-                    "winner": 3,
-                }
-            ],
+            "repairs": [{"requirement": "R", "changes": [change], "unlocked": 1, "winner": 3}],
+            "joint_repairs": [{"requirements": ["R"], "changes": [change], "unlocked": 1, "winner": 3}],
             "survival": None,
         },
         "flat_measures": [],

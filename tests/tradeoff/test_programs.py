@@ -287,7 +287,8 @@ class TestMinimaxRegret:
     @pytest.mark.parametrize(
         ("rows", "message"),
         [
-            (((1.0,), (1.0, 2.0)), "variant 1 has 1 replicates and variant 2 has 2, so there is no common scenario"),
+            (((1.0,), (1.0, 2.0)), "variant 1 has 1 replicate and variant 2 has 2, so there is no common scenario"),
+            (((1.0,), (2.0,)), "regret over replicates needs 2 replicates of each variant, and there is 1"),
             ((None, None), "regret over replicates needs a measure that is observed in trials"),
         ],
     )

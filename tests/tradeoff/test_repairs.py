@@ -23,12 +23,11 @@ from rgss.tradeoff import (
 def relaxed(problem, repair):
     """The problem with the limits of a repair."""
     needed = {change.demand: change.needed for change in repair.changes}
+    requirements = {change.requirement for change in repair.changes}
     return dataclasses.replace(
         problem,
         thresholds=tuple(
-            one.with_limit(needed[one.demand])
-            if one.demand in needed and one.requirement == repair.requirement
-            else one
+            one.with_limit(needed[one.demand]) if one.demand in needed and one.requirement in requirements else one
             for one in problem.thresholds
         ),
     )
@@ -47,7 +46,7 @@ def test_by_hand(build_problem):
         weights={"a": 0.5, "b": 0.5},
     )
     first, second = decide(problem).conflicts.repairs
-    assert first.changes == (LimitChange(demand="a >= 0.5 kg", limit=0.5, needed=0.4, unit="kg"),)
+    assert first.changes == (LimitChange(requirement="R-a", demand="a >= 0.5 kg", limit=0.5, needed=0.4, unit="kg"),)
     assert (first.requirement, first.unlocked, first.winner) == ("R-a", 1, 2)
     assert first.changes[0].relative == pytest.approx(0.2)
     assert second.changes[0].needed == 0.45
@@ -92,10 +91,84 @@ def test_of_a_chance_and_a_tail_the_level_and_the_limit_move(build_problem):
     )
     decision = decide(build_problem({}, alternatives=alternatives, risks=risks[:1]))
     assert decision.conflicts.repairs[0].changes[0] == LimitChange(
-        demand="P[a >= 0.5] >= 0.75", limit=0.75, needed=0.5, unit="1"
+        requirement="chance:a", demand="P[a >= 0.5] >= 0.75", limit=0.75, needed=0.5, unit="1"
     )
     decision = decide(build_problem({}, alternatives=alternatives, risks=risks[1:]))
     assert decision.conflicts.repairs[0].changes[0].needed == pytest.approx(0.2)
+
+
+def test_a_chance_of_nothing_is_no_demand(build_problem):
+    risk = ChanceBound(
+        requirement="chance:a", measure="a", comparison=Comparison.AT_LEAST, value=0.5, unit="1", probability=0.5
+    )
+    alternatives = (Alternative(variant=1, measures={"a": 0.2}, samples={"a": (0.1, 0.3)}),)
+    repair, *_ = decide(build_problem({}, alternatives=alternatives, risks=(risk,))).conflicts.repairs
+    assert (repair.requirement, repair.changes, repair.winner) == ("chance:a", (), None)
+
+
+def test_two_requirements_move_together_where_neither_is_enough(build_problem):
+    problem = build_problem(
+        {
+            1: {"a": 0.40, "b": 0.45, "c": 0.0},
+            2: {"a": 0.45, "b": 0.20, "c": 0.0},
+            3: {"a": 0.42, "b": 0.46, "c": 0.0},
+            4: {"a": 0.10, "b": 0.90, "c": 0.9},
+        },
+        thresholds=[("R-a", "a", ">=", 0.5), ("R-b", "b", ">=", 0.5), ("R-c", "c", "<=", 0.5)],
+        values={"a": (0.0, 1.0)},
+        weights={"a": 1.0},
+    )
+    conflicts = decide(problem).conflicts
+    assert all(not repair.changes for repair in conflicts.repairs)
+    assert conflicts.corrections == (("R-a", "R-b"), ("R-a", "R-c"))
+    first, second = conflicts.joint_repairs
+    assert (first.requirements, first.unlocked, first.winner) == (("R-a", "R-b"), 1, 3)
+    assert [(change.requirement, change.needed) for change in first.changes] == [("R-a", 0.42), ("R-b", 0.46)]
+    assert (second.requirements, second.winner) == (("R-a", "R-c"), 4)
+
+
+def test_missing_evidence_moves_with_nothing(build_problem):
+    problem = build_problem({1: {"a": None, "b": 0.0}}, thresholds=[("R", "b", ">=", 0.5)])
+    (repair,) = decide(problem).conflicts.joint_repairs
+    assert (repair.requirements, repair.changes, repair.winner) == (("R", "evidence:a"), (), None)
+
+
+def gaps_of(alternative, limits):
+    """By how much, as a share of its limit, an alternative misses what it misses."""
+    missed = {}
+    for name, (comparison, limit) in limits.items():
+        gap = (limit - alternative.measures[name]) * (1 if comparison == ">=" else -1) / limit
+        if gap > 0:
+            missed[f"R-{name}"] = gap
+    return missed
+
+
+def test_each_joint_repair_is_enough_and_the_smallest(seeded, build_problem):
+    names, together = "abcd", 0
+    for seed in range(30):
+        rng = seeded(f"joint repair {seed}")
+        limits = {name: (rng.choice([">=", "<="]), rng.choice([0.2, 0.5, 0.8])) for name in names}
+        problem = build_problem(
+            {variant: {name: rng.randrange(41) / 40 for name in names} for variant in range(1, 7)},
+            thresholds=[(f"R-{name}", name, *limits[name]) for name in names],
+            values=dict.fromkeys(names, (0.0, 1.0)),
+            weights=dict.fromkeys(names, 1 / 4),
+        )
+        conflicts = decide(problem).conflicts
+        if conflicts is None:
+            continue
+        assert tuple(repair.requirements for repair in conflicts.joint_repairs) == conflicts.corrections
+        for repair in conflicts.joint_repairs:
+            mended = decide(relaxed(problem, repair))
+            assert (mended.chosen, mended.counts.feasible) == (repair.winner, repair.unlocked)
+            gaps = [gaps_of(one, limits) for one in problem.alternatives]
+            candidates = [max(each.values()) for each in gaps if set(each) == set(repair.requirements)]
+            assert max(change.relative for change in repair.changes) == pytest.approx(min(candidates))
+            together += len(repair.requirements) > 1
+            if len(repair.requirements) == 1:
+                (alone,) = (one for one in conflicts.repairs if one.requirement == repair.requirements[0])
+                assert (alone.changes, alone.unlocked, alone.winner) == (repair.changes, repair.unlocked, repair.winner)
+    assert together > 10
 
 
 @pytest.mark.parametrize("seed", range(30))

@@ -69,10 +69,10 @@ def test_the_grasp_is_sampled_over_the_whole_carry(replicate, variant):
     samples = [phase_metrics(record, phase)["grasp_samples"] for phase in CARRIED]
     closed = [phase_metrics(record, phase)["grasp_samples_closed"] for phase in CARRIED]
 
-    # One each quarter of a second and one at the end of each phase, which may coincide.
+    # One each half of a second and one at the end of each phase, which may coincide.
     for count, phase in zip(samples, CARRIED, strict=True):
         assert int(duration_s(record, phase) * rate_hz) <= count <= int(duration_s(record, phase) * rate_hz) + 1
-    assert record.metrics["grasp_samples"] == sum(samples) > 15
+    assert record.metrics["grasp_samples"] == sum(samples) > 10
     assert record.metrics["grasp_force_closure_share_1"] == sum(closed) / sum(samples) > 0.9
 
 
@@ -112,8 +112,8 @@ def test_a_held_cup_stays_in_the_hand(replicate, variant):
     assert metrics["held_speed_m_s"] < 3e-3
     assert metrics["contacts_slipping"] == 0
     assert metrics["contacts_rolling"] == metrics["grasp_contact_count"]
-    assert metrics["contact_slip_speed_m_s"] < 2e-3
-    assert max(metrics["contact_closing_speed_m_s"], metrics["contact_opening_speed_m_s"]) < 2e-3
+    assert metrics["contact_slip_speed_m_s"] < 3e-3
+    assert max(metrics["contact_closing_speed_m_s"], metrics["contact_opening_speed_m_s"]) < 3e-3
     assert -2e-4 < metrics["contact_gap_min_m"] < 0.0
 
 

@@ -1,0 +1,206 @@
+"""How often the guard of metrics gives a false alarm, and what it catches.
+
+Run it from the repository's folder:
+
+- ``python benchmarks/regression.py pool FILE SEEDS [JOBS]``: run the kinematic trials that the
+  study guards with so many seeds, and write what they showed to a CSV file.
+- ``python benchmarks/regression.py null FILE [RUNS]``: as many comparisons in which nothing
+  changed but the seeds: baseline and present are seeds of the file that no other has. Then the
+  same with every quantity worse by exactly its margin, where an alarm is false, but only just;
+  and worse by more, where it is right.
+- ``python benchmarks/regression.py synthetic [RUNS]``: the same with made-up quantities, normal,
+  skewed and mostly zero, of which there are as many as one likes.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Callable, Collection, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.evidence import EvidenceStore, Fidelity
+from rgss.regression.comparing import Candidate, Comparison, Guard, Outcome, Subject
+from rgss.regression.looking import Settled, settle
+from rgss.regression.observing import observed
+from rgss.studies.project import load_project
+from rgss.studies.regressing_runs import Records, WatchedTrials, guard_of, subjects_of, watched_trials
+from rgss.studies.sweep import sweep
+
+PLANTED = (2.0, 3.0, 5.0)
+"""By how many margins quantities are made worse, each in a run of comparisons of its own."""
+
+Key = tuple[str, str]
+Pool = Mapping[Key, Mapping[int, Mapping[int, float | None]]]
+"""By metric and phase, by variant and seed, what was observed."""
+
+
+def main() -> int:
+    """Do what the arguments say; 1 if a stated rate is exceeded."""
+    command, *arguments = sys.argv[1:] or ["synthetic"]
+    if command == "pool":
+        return write_pool(Path(arguments[0]), int(arguments[1]), jobs=int(arguments[2]) if arguments[2:] else 2)
+    if command == "null":
+        return null(Path(arguments[0]), int(arguments[1]) if arguments[1:] else 200)
+    return synthetic(int(arguments[0]) if arguments else 400)
+
+
+def planning_run() -> tuple[WatchedTrials, Mapping[Key, Guard]]:
+    """The run of the reference study that is kinematic, and how its metrics may move."""
+    project = load_project(Path())
+    guard = guard_of(project)
+    run = next(one for one in watched_trials(project, guard) if one.run.fidelity is Fidelity.KINEMATIC)
+    return run, {(metric.metric, phase): metric.guard for metric, phase in subjects_of(guard, run.run.id)}
+
+
+def write_pool(path: Path, seeds: int, *, jobs: int) -> int:
+    """Run the trials and write a row for each value."""
+    run, guards = planning_run()
+    with tempfile.TemporaryDirectory() as folder, EvidenceStore.open(Path(folder) / "evidence.sqlite") as store:
+        records = Records(store, lambda specs: sweep(specs, store, jobs=jobs, on_finished=lambda _: None))
+        records.fetch([(run, seeds)])
+        rows = [
+            (metric, phase, variant, seed, observed(record, metric, phase))
+            for metric, phase in guards
+            for variant, row in records.of(run, seeds).items()
+            for seed, record in row.items()
+        ]
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(rows)
+    sys.stdout.write(f"{len({row[2:4] for row in rows})} trials in {path}" + "\n")
+    return 0
+
+
+def null(path: Path, runs: int) -> int:
+    """Compare a run of trials with the same from other seeds."""
+    watched, guards = planning_run()
+    found = {key: row for key, row in _read(path).items() if _is_known(row)}
+    guards = {key: guards[key] for key in found}
+    seeds = sorted({seed for row in found.values() for by_seed in row.values() for seed in by_seed})
+    run = watched.run
+    sys.stdout.write(
+        f"{len(found)} metrics of {len(watched.ids)} designs, {len(seeds)} seeds; from {run.replicates} to {run.cap}\n"
+    )
+    generator = np.random.default_rng(1)
+
+    def drawn(shift: float) -> Settled:
+        order = generator.permutation(seeds)[: 2 * run.cap]
+        old, new = order[: run.cap], order[run.cap :]
+
+        def candidates(look: int, _: Collection[str] | None) -> list[Candidate]:
+            count = run.seeds_at(look)
+            return [
+                _candidate(
+                    key, guards[key], _part(row, old[:count]), _shifted(_part(row, new[:count]), guards[key], shift)
+                )
+                for key, row in found.items()
+            ]
+
+        return settle(candidates, looks=run.looks, error_rate=0.05)
+
+    return _told(drawn, runs)
+
+
+def synthetic(runs: int) -> int:
+    """The same with quantities drawn from known distributions."""
+    generator = np.random.default_rng(2)
+    shapes: dict[str, Callable[[int], NDArray[np.float64]]] = {
+        "normal": lambda count: generator.normal(size=count),
+        "exponential": lambda count: generator.exponential(size=count),
+        "mostly_zero": lambda count: np.where(generator.random(count) < 0.1, generator.exponential(3.0, count), 0.0),
+        "lognormal": lambda count: generator.lognormal(size=count),
+    }
+    guard = Guard(unit="1", higher_is_better=False, margin=0.5, is_success=False)
+    looks, first, cap = 2, 8, 16
+
+    def drawn(shift: float) -> Settled:
+        rows = {
+            (shape, str(copy)): ({1: dict(enumerate(draw(cap).tolist()))}, {1: dict(enumerate(draw(cap).tolist()))})
+            for shape, draw in shapes.items()
+            for copy in range(5)
+        }
+
+        def candidates(look: int, _: Collection[str] | None) -> list[Candidate]:
+            seeds = range(first if look == 1 else cap)
+            return [
+                _candidate(key, guard, _part(old, seeds), _shifted(_part(new, seeds), guard, shift))
+                for key, (old, new) in rows.items()
+            ]
+
+        return settle(candidates, looks=looks, error_rate=0.05)
+
+    return _told(drawn, runs)
+
+
+def _told(drawn: Callable[[float], Settled], runs: int) -> int:
+    """Print how often there was an alarm; 1 if false ones exceed 5 %."""
+    rates = {}
+    for shift in (0.0, 1.0, *PLANTED):
+        alarms, outcomes, compared = 0, Counter[str](), 0
+        for _ in range(runs):
+            comparisons = _changed(drawn(shift), everything=shift == 0.0)
+            outcomes.update(one.outcome.value for one in comparisons)
+            alarms += any(one.outcome is Outcome.WORSE for one in comparisons)
+            compared += len(comparisons)
+        rates[shift] = alarms / runs
+        shares = ", ".join(f"{name} {count / compared:.1%}" for name, count in sorted(outcomes.items()))
+        sys.stdout.write(f"worse by {shift:g} margins: {alarms} of {runs} runs with an alarm; metrics: {shares}" + "\n")
+    return int(rates[0.0] > 0.05 or rates[1.0] > 0.05 + 2.0 * (0.05 * 0.95 / runs) ** 0.5)
+
+
+def _changed(settled: Settled, *, everything: bool) -> list[Comparison]:
+    """The comparisons that were shifted: all but successes."""
+    return [one for one in settled.comparisons.values() if everything or not one.guard.is_success]
+
+
+def _candidate(
+    key: Key,
+    guard: Guard,
+    old: Mapping[int, Mapping[int, float | None]],
+    new: Mapping[int, Mapping[int, float | None]],
+) -> Candidate:
+    return Candidate(
+        subject=Subject(run="pool", metric=key[0], phase=key[1]),
+        guard=guard,
+        baseline=old,
+        current=new,
+        seeds=tuple(range(len(next(iter(old.values()))))),
+        identical=False,
+    )
+
+
+def _part(row: Mapping[int, Mapping[int, float | None]], seeds: Sequence[int]) -> dict[int, dict[int, float | None]]:
+    """Some seeds of a row, numbered from 0, so that they pair with any others."""
+    return {variant: {place: by_seed[seed] for place, seed in enumerate(seeds)} for variant, by_seed in row.items()}
+
+
+def _shifted(
+    row: Mapping[int, Mapping[int, float | None]], guard: Guard, margins: float
+) -> dict[int, dict[int, float | None]]:
+    by = 0.0 if guard.is_success else margins * guard.margin * (-1.0 if guard.higher_is_better else 1.0)
+    return {
+        variant: {seed: None if value is None else value + by for seed, value in by_seed.items()}
+        for variant, by_seed in row.items()
+    }
+
+
+def _is_known(row: Mapping[int, Mapping[int, float | None]]) -> bool:
+    return any(value is not None for by_seed in row.values() for value in by_seed.values())
+
+
+def _read(path: Path) -> Pool:
+    found: dict[Key, dict[int, dict[int, float | None]]] = {}
+    with path.open(encoding="utf-8", newline="") as file:
+        for metric, phase, variant, seed, value in csv.reader(file):
+            row = found.setdefault((metric, phase), {}).setdefault(int(variant), {})
+            row[int(seed)] = float(value) if value else None
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit(main())

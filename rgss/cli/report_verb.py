@@ -1,0 +1,138 @@
+"""``rgss report``: the whole study on one page that loads nothing."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rgss.reports.trace_report import TraceReport
+    from rgss.studies.measuring import VariantMeasures
+    from rgss.studies.project import Project
+    from rgss.studies.recorded_verdicts import VerdictRecord
+
+HELP = "write the decision and everything that it stands on as one HTML page"
+EXAMPLE = "rgss report --out report.html"
+MORE_EXAMPLES = (("rgss report --no-film", "without films, for which a few trials are run again"),)
+DEFAULT_FILE = Path("report.html")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
+    parser.add_argument(
+        "-o", "--out", type=Path, default=DEFAULT_FILE, metavar="FILE", help=f"the page (default: {DEFAULT_FILE})"
+    )
+    parser.add_argument(
+        "--no-film", action="store_true", help="leave out filmstrips and films, for which a few trials are run again"
+    )
+    parser.add_argument(
+        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the page; 1 if no variant meets every requirement."""
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.report_pictures import trial_pictures
+    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.trade_verb import fleet_of
+    from rgss.evidence import EvidenceStore
+    from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
+    from rgss.reports.report_page import study_report_to_html
+    from rgss.studies.choosing import choose
+    from rgss.studies.recorded_verdicts import read_record
+    from rgss.studies.report_document import report_document
+    from rgss.studies.report_trials import notable_trials
+    from rgss.studies.robustness import analyse_robustness
+    from rgss.studies.screening import measure_survivors
+
+    _check_file(options.out)
+    project = chosen_project(options)
+    label = shown_path(project.evidence)
+    recorded = read_record(project.folder)
+    with EvidenceStore.open(project.evidence, create=False, label=label) as store:
+        measured, screened = measure_survivors(project, store, recorded=recorded)
+        decision = choose(project, measured)
+        trace = _trace(project, measured, recorded, options.junit)
+        found = analyse_robustness(project, measured, decision)
+        document = report_document(
+            project,
+            measured,
+            decision,
+            found,
+            store,
+            evidence=label,
+            screened=screened,
+            fleet=fleet_of(project, store),
+        )
+    notable = notable_trials(measured, decision.chosen)
+    pictures, notice = trial_pictures(project, notable, wanted=not options.no_film)
+    page = study_report_to_html(
+        document,
+        trace,
+        drawings=drawings_for_page(diagrams_of(project.requirements)),
+        drawings_notice=missing_diagrams(project.requirements),
+        pictures=pictures,
+        pictures_notice=notice,
+    ).encode("utf-8")
+    _write(options.out, page)
+    _tell(options, document, len(page))
+    return CLEAN if decision.chosen is not None else FINDINGS
+
+
+def _trace(
+    project: Project, measured: Sequence[VariantMeasures], recorded: VerdictRecord, junit: Path | None
+) -> TraceReport:
+    from rgss.errors import DefinitionError
+    from rgss.reports.trace_report import trace_report
+    from rgss.studies.evidence_state import evidence_state
+    from rgss.studies.trace_evidence import trace_evidence
+    from rgss.trace.model import build_trace_model
+
+    state = evidence_state(project, measured, recorded=recorded, junit=junit)
+    if junit is not None and state.software is None:
+        raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
+    return trace_report(
+        build_trace_model(project.requirements, project.measure_traces),
+        trace_evidence(project, measured, state),
+        title=f"Traceability of the study {project.study.id}",
+        definitions=project.measures,
+    )
+
+
+def _check_file(path: Path) -> None:
+    from rgss.errors import DefinitionError
+    from rgss.reports.picture_files import why_not_writable
+
+    if path.suffix.lower() not in (".html", ".htm"):
+        # So that nobody writes a report over a file that is something else.
+        raise DefinitionError(f"{str(path)!r} does not end in .html", hint="name the file so")
+    problem = why_not_writable(path)
+    if problem:
+        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a file that can be")
+
+
+def _write(path: Path, page: bytes) -> None:
+    from rgss.reports.picture_files import replaced_file
+
+    with replaced_file(path) as part:
+        part.write_bytes(page)
+
+
+def _tell(options: argparse.Namespace, document: dict[str, Any], size: int) -> None:
+    from rgss.cli.output import print_json
+
+    decision = document["decision"]
+    if options.json:
+        print_json({"file": str(options.out), "bytes": size, "report": document})
+        return
+    print(decision["headline"])
+    print(f"Wrote {options.out} ({size / 1e6:.1f} MB)")

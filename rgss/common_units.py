@@ -1,0 +1,106 @@
+"""The units of most documents, known without pint, whose import and definitions take half a second.
+
+They are what pint says they are, which a test holds for every one of them and for products of them;
+a unit that is not made of these is left to pint.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import lru_cache
+from types import MappingProxyType
+
+_LENGTH, _MASS, _TIME, _MONEY, _ANGLE = "length", "mass", "time", "currency", "angle"
+_FORCE = {_LENGTH: 1, _MASS: 1, _TIME: -2}
+_ENERGY = {_LENGTH: 2, _MASS: 1, _TIME: -2}
+_PRESSURE = {_LENGTH: -1, _MASS: 1, _TIME: -2}
+
+_ATOMS: Mapping[str, tuple[str, Mapping[str, int]]] = MappingProxyType(
+    {
+        "1": ("1", {}),
+        "%": ("0.01", {}),
+        "percent": ("0.01", {}),
+        "km": ("1000", {_LENGTH: 1}),
+        "m": ("1", {_LENGTH: 1}),
+        "cm": ("0.01", {_LENGTH: 1}),
+        "mm": ("0.001", {_LENGTH: 1}),
+        "um": ("0.000001", {_LENGTH: 1}),
+        "kg": ("1", {_MASS: 1}),
+        "g": ("0.001", {_MASS: 1}),
+        "h": ("3600", {_TIME: 1}),
+        "min": ("60", {_TIME: 1}),
+        "s": ("1", {_TIME: 1}),
+        "ms": ("0.001", {_TIME: 1}),
+        "us": ("0.000001", {_TIME: 1}),
+        "Hz": ("1", {_TIME: -1}),
+        "kHz": ("1000", {_TIME: -1}),
+        "N": ("1", _FORCE),
+        "mN": ("0.001", _FORCE),
+        "kN": ("1000", _FORCE),
+        "J": ("1", _ENERGY),
+        "kJ": ("1000", _ENERGY),
+        "W": ("1", {**_ENERGY, _TIME: -3}),
+        "kW": ("1000", {**_ENERGY, _TIME: -3}),
+        "Pa": ("1", _PRESSURE),
+        "kPa": ("1000", _PRESSURE),
+        "MPa": ("1000000", _PRESSURE),
+        "rad": ("1", {_ANGLE: 1}),
+        "deg": ("0.01745329251994329576923690768", {_ANGLE: 1}),
+        "USD": ("1", {_MONEY: 1}),
+    }
+)
+"""What each is in the roots metre, kilogram, second, US dollar and radian."""
+
+_LONGEST_TEXT = 60
+_FACTOR = re.compile(r"(?P<between>[*/·]?)(?P<name>1|%|[A-Za-z]+)(?:(?:\*\*|\^)(?P<power>-?[1-9]))?")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommonUnit:
+    """A unit that is a product of common ones.
+
+    Attributes:
+        factor: What one of it is in root units.
+        roots: Powers of what the roots measure, an angle being one of them; sorted, without zeros.
+    """
+
+    factor: Decimal
+    roots: tuple[tuple[str, int], ...]
+
+    @property
+    def dimension(self) -> tuple[tuple[str, float], ...]:
+        """The powers of the base dimensions, of which an angle is none."""
+        return tuple((name, float(power)) for name, power in self.roots if name != _ANGLE)
+
+
+@lru_cache(maxsize=512)
+def common_unit(text: str) -> CommonUnit | None:
+    """The unit that a text stands for, if it is a plain product or quotient of common units.
+
+    Args:
+        text: Such as ``"mm"``, ``"m/s**2"``, ``"N·m"`` or ``"kg·m·s^-2"``.
+
+    Returns:
+        None for any other text, which may be a unit all the same.
+    """
+    factor, roots, at = Decimal(1), Counter[str](), 0
+    if not 0 < len(text) <= _LONGEST_TEXT:
+        return None
+    while at < len(text):
+        match = _FACTOR.match(text, at)
+        # Each but the first follows a sign; two names beside each other are left to the library.
+        if match is None or bool(match["between"]) != bool(at) or match["name"] not in _ATOMS:
+            return None
+        if match["name"] == "1" and at:
+            return None
+        size, powers = _ATOMS[match["name"]]
+        power = int(match["power"] or 1) * (-1 if match["between"] == "/" else 1)
+        factor *= Decimal(size) ** power
+        for name, exponent in powers.items():
+            roots[name] += exponent * power
+        at = match.end()
+    return CommonUnit(factor=factor, roots=tuple(sorted((name, power) for name, power in roots.items() if power)))

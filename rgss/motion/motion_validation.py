@@ -1,0 +1,88 @@
+"""Checks the straight motion between two states as OMPL does, with fewer crossings into the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.motion.engine import Engine
+
+Vector = NDArray[np.float64]
+Angles = Callable[[Any], tuple[float, ...]]
+
+
+def motion_validator(
+    engine: Engine, information: Any, angles_of: Angles, is_valid: Callable[[Sequence[float]], bool]
+) -> Any:
+    """A motion validator that finds what the engine's own ``DiscreteMotionValidator`` finds, check for check.
+
+    The engine's own hands each state between the two to Python, where it is read joint by joint, which
+    takes a third of the time of a check. Here the two ends are read and what is between them is
+    computed at once, by the same arithmetic and in the same order.
+
+    Args:
+        engine: The planning engine.
+        information: Space information of a real vector space; it must outlive the validator.
+        angles_of: Reads the joint angles (rad) of a state.
+        is_valid: Tells whether joint angles (rad) are valid.
+    """
+    space = information.getStateSpace()
+
+    class StraightMotion(engine.base.MotionValidator):  # type: ignore[misc, name-defined]
+        """Straight motions of a real vector space, checked state by state."""
+
+        def checkMotion(self, start: Any, end: Any, last_valid: Any = None) -> bool:  # noqa: N802 - the engine's name
+            """Tell whether a motion is valid; with a third argument, put into it how far it is."""
+            pieces = space.validSegmentCount(start, end)
+            if last_valid is not None:
+                return self._is_valid_until(start, end, pieces, last_valid)
+            there = angles_of(end)
+            return is_valid(there) and all(map(is_valid, _states(angles_of(start), there, _halving(pieces))))
+
+        def _is_valid_until(self, start: Any, end: Any, pieces: int, last_valid: Any) -> bool:
+            there = angles_of(end)
+            states = [*_states(angles_of(start), there, _rising(pieces)), there]
+            for index, state in enumerate(states):
+                if not is_valid(state):
+                    last_valid.second = index / pieces
+                    if last_valid.first is not None:
+                        space.interpolate(start, end, last_valid.second, last_valid.first)
+                    return False
+            return True
+
+    return StraightMotion(information)
+
+
+def _states(start: Sequence[float], end: Sequence[float], fractions: Vector) -> list[list[float]]:
+    if not len(fractions):
+        return []
+    first = np.array(start)
+    states: list[list[float]] = (first + (np.array(end) - first) * fractions).tolist()
+    return states
+
+
+@lru_cache(maxsize=4096)
+def _rising(pieces: int) -> Vector:
+    """Where the states between two lie that cut a motion into pieces, shape (pieces - 1, 1), in order."""
+    fractions: Vector = (np.arange(1, max(1, pieces)) / max(1, pieces))[:, None]
+    return fractions
+
+
+@lru_cache(maxsize=4096)
+def _halving(pieces: int) -> Vector:
+    """The same by halving, so that a bad motion is found out early; the order is the engine's."""
+    order: list[int] = []
+    spans = [(1, pieces - 1)] if pieces > 1 else []
+    for low, high in spans:
+        middle = (low + high) // 2
+        order.append(middle)
+        if low < middle:
+            spans.append((low, middle - 1))
+        if middle < high:
+            spans.append((middle + 1, high))
+    fractions: Vector = (np.array(order, dtype=float) / max(1, pieces))[:, None]
+    return fractions

@@ -1,0 +1,1 @@
+"""Guarding metrics against a baseline: the statistics, the baseline's file, and what is said of both."""

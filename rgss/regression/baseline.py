@@ -1,0 +1,210 @@
+"""The baseline: raw values of each seed, where they come from, and why they were last changed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+from rgss.errors import EvidenceError
+from rgss.evidence.codec import plain_json, read_plain
+
+SCHEMA = 1
+"""The form of the file."""
+
+LARGEST_FILE_BYTES = 32 * 1024 * 1024
+
+Values = Mapping[str, Mapping[str, Mapping[str, tuple[float | None, ...]]]]
+"""By metric, phase and variant, the values in the order of the seeds."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BaselineRun:
+    """The trials of one run.
+
+    Attributes:
+        fidelity: How much physics they had.
+        seeds: Their seeds, the same for every variant.
+        values: The raw values.
+        fingerprints: By variant, the fingerprint of the record of each seed.
+    """
+
+    fidelity: str
+    seeds: tuple[int, ...]
+    values: Values = field(hash=False)
+    fingerprints: Mapping[str, tuple[str, ...]] = field(hash=False)
+
+    @property
+    def variants(self) -> tuple[int, ...]:
+        """The variants, ascending."""
+        return tuple(sorted(int(name) for name in self.fingerprints))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DecisionState:
+    """What is decided among the variants of one run.
+
+    Attributes:
+        run: The run.
+        chosen: The chosen variant; None if none is feasible.
+        pareto: The variants on the Pareto front, ascending.
+        verdicts: By variant, the verdict on each requirement.
+    """
+
+    run: str
+    chosen: int | None
+    pareto: tuple[int, ...]
+    verdicts: Mapping[str, Mapping[str, str]] = field(hash=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BaselineOrigin:
+    """Where the values come from.
+
+    Attributes:
+        revision: Revision of the code; empty if it is not known.
+        machine: What it ran on.
+        engines: Version of each engine.
+        code: A digest of the source of each piece of a trial.
+        inputs: SHA-256 of each input file.
+    """
+
+    revision: str
+    machine: str
+    engines: Mapping[str, str] = field(hash=False)
+    code: Mapping[str, str] = field(hash=False)
+    inputs: Mapping[str, str] = field(hash=False)
+
+    def same_platform(self, other: BaselineOrigin) -> bool:
+        """Whether records of both may be compared bit for bit: same machine, same engines."""
+        return self.machine == other.machine and dict(self.engines) == dict(other.engines)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """Why a baseline was made or changed.
+
+    Attributes:
+        reason: What the user said.
+        revision: Revision of the code; empty if it is not known.
+    """
+
+    reason: str
+    revision: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Baseline:
+    """What metrics and the decision are held against.
+
+    Attributes:
+        study: The study's id.
+        units: The unit of each guarded metric.
+        record: Name and unit of every metric that a trial's record has.
+        runs: The trials by run.
+        decision: The decision; None if the study guards none.
+        origin: Where the values come from.
+        history: Every change of the file, the first one first.
+        schema: The form of the file.
+    """
+
+    study: str
+    units: Mapping[str, str] = field(hash=False)
+    record: Mapping[str, str] = field(hash=False)
+    runs: Mapping[str, BaselineRun] = field(hash=False)
+    decision: DecisionState | None
+    origin: BaselineOrigin
+    history: tuple[Change, ...]
+    schema: int = SCHEMA
+
+
+def baseline_to_text(baseline: Baseline) -> str:
+    """The file's text: sorted, one line for the values of one variant, so that a change shows as lines."""
+    return _text(_plain(baseline), "") + "\n"
+
+
+def read_baseline(path: Path, *, label: str) -> Baseline:
+    """Read a baseline.
+
+    Args:
+        path: The file.
+        label: Its name in messages.
+
+    Raises:
+        EvidenceError: It is missing, or not as `baseline_to_text` writes it.
+    """
+    again = "make it with 'rgss regress --update --reason TEXT'"
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE_BYTES + 1)
+    except FileNotFoundError:
+        raise EvidenceError(f"there is no baseline {label}", hint=again) from None
+    except (OSError, ValueError) as error:
+        said = getattr(error, "strerror", None) or "not the name of a file"
+        raise EvidenceError(f"the baseline {label} cannot be read: {said}") from None
+    if len(content) > LARGEST_FILE_BYTES:
+        raise EvidenceError(f"the baseline {label} is larger than {LARGEST_FILE_BYTES // 1024**2} MiB", hint=again)
+    try:
+        data = plain_json(content.decode("utf-8"), f"baseline {label}")
+    except UnicodeDecodeError:
+        raise EvidenceError(f"the baseline {label} is not UTF-8", hint=again) from None
+    if not isinstance(data, dict) or "schema" not in data:
+        raise EvidenceError(f"{label} is no baseline: it has no 'schema'", hint=again)
+    if data["schema"] != SCHEMA:
+        raise EvidenceError(f"the baseline {label} has schema {data['schema']!r}; {SCHEMA} is read", hint=again)
+    try:
+        baseline = read_plain(data, Baseline, "baseline")
+    except EvidenceError as error:
+        raise EvidenceError(f"{label}: {error.message}", hint=again) from error
+    _check(baseline, label, again)
+    return baseline
+
+
+def _check(baseline: Baseline, label: str, again: str) -> None:
+    """What the types do not say: every row has a value for each seed.
+
+    Raises:
+        EvidenceError: One has not.
+    """
+    for name, run in baseline.runs.items():
+        wrong = [variant for variant in run.fingerprints if not variant.isdigit()]
+        if wrong:
+            raise EvidenceError(f"the baseline {label}: run {name} has the variant {wrong[0][:20]!r}", hint=again)
+        rows = {f"the fingerprints of {variant}": row for variant, row in run.fingerprints.items()}
+        for metric, phases in run.values.items():
+            for phase, by_variant in phases.items():
+                if by_variant.keys() != run.fingerprints.keys():
+                    raise EvidenceError(
+                        f"the baseline {label}: run {name} has other variants for {metric} at {phase}", hint=again
+                    )
+                rows |= {f"{metric} at {phase} of {variant}": row for variant, row in by_variant.items()}  # type: ignore[misc]
+        short = [what for what, row in rows.items() if len(row) != len(run.seeds)]
+        if short:
+            raise EvidenceError(
+                f"the baseline {label}: run {name} has {len(run.seeds)} seeds, but not for {short[0]}", hint=again
+            )
+
+
+def _plain(value: Any) -> Any:
+    if is_dataclass(value) and not isinstance(value, type):
+        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, (tuple, list)) else value
+
+
+def _text(value: Any, indent: str) -> str:
+    deeper = indent + "  "
+    if isinstance(value, dict) and value:
+        lines = [f"{deeper}{json.dumps(key)}: {_text(value[key], deeper)}" for key in sorted(value, key=_order)]
+        return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
+    if isinstance(value, list) and any(isinstance(item, (dict, list)) for item in value):
+        return "[\n" + ",\n".join(deeper + _text(item, deeper) for item in value) + f"\n{indent}]"
+    return json.dumps(value, ensure_ascii=True, allow_nan=False)
+
+
+def _order(key: str) -> tuple[int, str]:
+    """Variants by their number, other names by themselves."""
+    return (int(key), "") if key.isascii() and key.isdigit() and len(key) < 12 else (-1, key)

@@ -1,0 +1,163 @@
+"""Behaviour, completeness and decision against the baseline: what needs no statistics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from rgss.regression.baseline import Baseline, BaselineRun, DecisionState
+from rgss.regression.comparing import WHOLE_TRIAL
+from rgss.regression.observing import first_difference
+from rgss.regression.report import ChangedTrial, Failing, Trouble
+
+
+def schema_failings(baseline: Baseline, units: Mapping[str, str], record: Mapping[str, str]) -> Iterator[Failing]:
+    """What changed in what trials observe, which makes old values and new ones incomparable.
+
+    Args:
+        baseline: The baseline.
+        units: The unit of each guarded metric now.
+        record: Name and unit of every metric that a trial's record has now.
+    """
+    for name, unit in sorted(baseline.units.items()):
+        if name not in units:
+            yield Failing(trouble=Trouble.MISSING_METRIC, text=f"the baseline guards {name}, the study no longer does")
+        elif units[name] != unit:
+            yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"{name} was in {unit} and is in {units[name]}")
+    for name in sorted(units.keys() - baseline.units.keys()):
+        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"the study guards {name}, the baseline does not")
+    gone = sorted(baseline.record.keys() - record.keys())
+    new = sorted(record.keys() - baseline.record.keys())
+    other = sorted(name for name in record.keys() & baseline.record.keys() if record[name] != baseline.record[name])
+    for names, said in ((gone, "no longer have"), (new, "newly have"), (other, "have another unit for")):
+        if names:
+            yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"trials {said} {', '.join(names)}")
+
+
+def run_failings(
+    name: str, before: BaselineRun | None, *, fidelity: str, variants: Sequence[int], seeds: Sequence[int]
+) -> Iterator[Failing]:
+    """What a run lacks beside its baseline.
+
+    Args:
+        name: The run.
+        before: Its baseline; None if there is none.
+        fidelity: How much physics it has now.
+        variants: Its variants now.
+        seeds: All seeds that it may take now.
+    """
+    if before is None:
+        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"run {name} is not in the baseline")
+        return
+    if before.fidelity != fidelity:
+        text = f"run {name} was {before.fidelity} and is {fidelity}"
+        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=text)
+    gone = sorted(set(before.variants) - set(variants))
+    new = sorted(set(variants) - set(before.variants))
+    for which, said in ((gone, "no longer tries"), (new, "newly tries")):
+        if which:
+            numbers = ", ".join(map(str, which))
+            trouble = Trouble.FEWER_REPLICATES if which is gone else Trouble.CHANGED_SCHEMA
+            yield Failing(trouble=trouble, text=f"run {name} {said} variant{'s' if len(which) > 1 else ''} {numbers}")
+    if len(seeds) < len(before.seeds):
+        text = f"run {name} takes up to {len(seeds)} seeds; the baseline has {len(before.seeds)}"
+        yield Failing(trouble=Trouble.FEWER_REPLICATES, text=text)
+    elif tuple(seeds) != before.seeds:
+        text = f"run {name} takes other seeds than the baseline, which has {len(before.seeds)}"
+        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=text)
+
+
+def changed_trials(
+    name: str, before: BaselineRun, now: Mapping[int, Mapping[int, str]], seeds: Sequence[int]
+) -> Iterator[ChangedTrial]:
+    """The trials whose records are not what they were.
+
+    Args:
+        name: The run.
+        before: Its baseline.
+        now: The fingerprint of each record by variant and seed.
+        seeds: The seeds that were run.
+    """
+    for variant in before.variants:
+        was = dict(zip(before.seeds, before.fingerprints[str(variant)], strict=True))
+        for seed in seeds:
+            found = now.get(variant, {}).get(seed)
+            if found is not None and found != was.get(seed, found):
+                phase = first_difference(was[seed], found)
+                yield ChangedTrial(run=name, variant=variant, seed=seed, phase=phase)
+
+
+def unchanged_phases(
+    before: BaselineRun, now: Mapping[int, Mapping[int, str]], seeds: Sequence[int], phases: Sequence[str]
+) -> frozenset[str]:
+    """The phases, and ``trial``, whose records are what they were in every trial.
+
+    Args:
+        before: The run's baseline.
+        now: The fingerprint of each record by variant and seed.
+        seeds: The seeds that were run.
+        phases: The phases in their order.
+    """
+    names = (WHOLE_TRIAL, *phases)
+    same = set(names)
+    for variant in before.variants:
+        was = dict(zip(before.seeds, before.fingerprints[str(variant)], strict=True))
+        for seed in seeds:
+            old, new = was.get(seed, "").split(), now.get(variant, {}).get(seed, "").split()
+            if len(old) != len(names) or len(new) != len(names):
+                return frozenset()
+            same -= {name for name, one, other in zip(names, old, new, strict=True) if one != other}
+    return frozenset(same)
+
+
+def decision_changes(
+    before: DecisionState, now: DecisionState, *, explained: Mapping[str, float], error_rate: float
+) -> tuple[tuple[Failing, ...], tuple[str, ...]]:
+    """How the decision moved.
+
+    A choice or a place on the Pareto front that is gone is unstable, unless the present evidence's
+    own noise puts it back in more than the error rate's share of its resamples. A verdict may
+    become met; any other change of a verdict is unstable.
+
+    Args:
+        before: The decision of the baseline.
+        now: The decision now.
+        explained: How probable, over the noise of the present evidence, ``chosen`` as it was is,
+            and of each ``pareto N`` that changed that it is as it was.
+        error_rate: The share below which noise explains nothing.
+
+    Returns:
+        What fails, and what is told.
+    """
+    failing: list[Failing] = []
+    notes: list[str] = []
+    moves: list[tuple[str, str]] = []
+    if before.chosen != now.chosen:
+        moves.append(("chosen", f"{_variant(before.chosen)} was chosen, now {_variant(now.chosen)}"))
+    moves += [
+        (f"pareto {one}", f"variant {one} left the Pareto front") for one in before.pareto if one not in now.pareto
+    ]
+    moves += [
+        (f"pareto {one}", f"variant {one} joined the Pareto front") for one in now.pareto if one not in before.pareto
+    ]
+    for what, text in moves:
+        share = explained.get(what, 0.0)
+        if share > error_rate:
+            notes.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
+        else:
+            failing.append(Failing(trouble=Trouble.UNSTABLE, text=f"decision: {text}"))
+    for variant in sorted(before.verdicts.keys() | now.verdicts.keys(), key=int):
+        was, is_now = before.verdicts.get(variant, {}), now.verdicts.get(variant, {})
+        for requirement in sorted(was.keys() | is_now.keys()):
+            old, new = was.get(requirement, "none"), is_now.get(requirement, "none")
+            if old == new:
+                continue
+            text = f"variant {variant}: the verdict on {requirement} was {old} and is {new}"
+            if new == "met":
+                notes.append(text)
+            else:
+                failing.append(Failing(trouble=Trouble.UNSTABLE, text=text))
+    return tuple(failing), tuple(notes)
+
+
+def _variant(number: int | None) -> str:
+    return "no variant" if number is None else f"variant {number}"

@@ -1,0 +1,44 @@
+"""What many comparisons and repeated looks may cost: Holm's rule and the spending of the error rate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+SPENDING_POWER = 2.0
+"""How slowly the error rate is spent: little at the first look, most at the last."""
+
+
+def holm_adjusted(p_values: Sequence[float]) -> tuple[float, ...]:
+    """P-values that may each be held against the level of the whole family.
+
+    Holm, "A simple sequentially rejective multiple test procedure", 1979: the k-th least of m is
+    multiplied by m - k + 1, and none is less than the one before it. The probability of any false
+    rejection stays below the level, whatever the comparisons have in common.
+
+    Args:
+        p_values: One for each comparison.
+    """
+    adjusted = [1.0] * len(p_values)
+    greatest = 0.0
+    for rank, place in enumerate(sorted(range(len(p_values)), key=p_values.__getitem__)):
+        greatest = max(greatest, min(1.0, (len(p_values) - rank) * p_values[place]))
+        adjusted[place] = greatest
+    return tuple(adjusted)
+
+
+def level_of_look(look: int, looks: int, level: float) -> float:
+    """The part of an error rate that one look may spend.
+
+    The power family of spending functions (Kim and DeMets, "Design and analysis of group
+    sequential tests based on the type I error spending rate function", 1987) allows
+    ``level * (k / K)**2`` up to look k of K; each look gets what that adds. As the parts sum to the
+    level, the error over all looks is at most the level, whatever the looks have in common: no
+    joint distribution is assumed, and what is given away for that is small.
+
+    Args:
+        look: Which look, from 1.
+        looks: How many there are at most.
+        level: The error rate of all looks.
+    """
+    until, before = (float(level * (count / looks) ** SPENDING_POWER) for count in (look, look - 1))
+    return until - before

@@ -1,0 +1,58 @@
+"""Looking again with more seeds while something is inconclusive, at one error rate in all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+
+from rgss.regression.comparing import Candidate, Comparison, Subject, judge
+from rgss.regression.error_rates import level_of_look
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settled:
+    """What came of all looks.
+
+    Attributes:
+        comparisons: Every comparison, as it was first decided or as it stands at the end.
+        looks: How often was looked.
+    """
+
+    comparisons: dict[Subject, Comparison] = field(hash=False)
+    looks: int
+
+
+def settle(
+    candidates_at: Callable[[int, Collection[str] | None], Sequence[Candidate]],
+    *,
+    looks: int,
+    error_rate: float,
+    on_look: Callable[[int, int], None] | None = None,
+) -> Settled:
+    """Judge, and judge again with more seeds, until nothing is inconclusive or no look is left.
+
+    What is decided stays so. Each look judges all comparisons, at its part of the error rate; the
+    probability of any false claim over all looks is at most the sum of the parts.
+
+    Args:
+        candidates_at: Gives all comparisons with the seeds of a look, from 1; told which runs
+            need more seeds, None for all of them.
+        looks: How often may be looked.
+        error_rate: The error rate of all looks.
+        on_look: Told the number of each look and how many comparisons are open before it.
+    """
+    latest: dict[Subject, Comparison] = {}
+    look = 0
+    while look < looks:
+        look += 1
+        undecided = [one.subject for one in latest.values() if not one.outcome.is_final]
+        if on_look is not None:
+            on_look(look, len(undecided))
+        candidates = candidates_at(look, None if look == 1 else {subject.run for subject in undecided})
+        for comparison in judge(candidates, level=level_of_look(look, looks, error_rate), look=look):
+            known = latest.get(comparison.subject)
+            if known is None or not known.outcome.is_final:
+                latest[comparison.subject] = comparison
+        if all(one.outcome.is_final for one in latest.values()):
+            break
+    return Settled(comparisons=latest, looks=look)

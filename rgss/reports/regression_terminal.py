@@ -1,0 +1,33 @@
+"""A guard's report as lines for a terminal: one for each finding."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.regression.comparing import Outcome
+from rgss.regression.report import RegressionReport
+from rgss.reports.regression_words import behaviour_of, counts_of, detail_of, listed, title_of
+
+
+def report_lines(report: RegressionReport, *, everything: bool = False) -> Iterator[str]:
+    """The lines; characters that would steer a terminal are replaced.
+
+    Args:
+        report: The report.
+        everything: Also a line for each metric that is the same.
+    """
+    yield _safe(f"{report.study} against {report.baseline}: {report.verdict}")
+    for failing in report.failing:
+        yield _safe(f"  FAILED        {failing.trouble.value}: {failing.text}")
+    for comparison in listed(report):
+        if everything or comparison.outcome is not Outcome.SAME:
+            word = comparison.outcome.value.upper()
+            yield _safe(f"  {word:<13} {title_of(comparison)}: {detail_of(comparison)}")
+    yield _safe(counts_of(report))
+    yield _safe(behaviour_of(report))
+    for note in report.notes:
+        yield _safe(f"note: {note}")
+
+
+def _safe(text: str) -> str:
+    return "".join(character if character.isprintable() else "�" for character in text)

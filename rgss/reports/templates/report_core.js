@@ -1,0 +1,94 @@
+// ------------------------------------------------- data, numbers, elements, what is shown
+const variants = data.variants;
+const total = variants.id.length;
+const byId = (id) => document.getElementById(id);
+
+// A column is a list with an entry for each variant, or one value that all share.
+const at = (column, place) => (Array.isArray(column) ? column[place] : column);
+const known = (value) => value !== null && value !== undefined;
+const placeOf = new Map(variants.id.map((id, place) => [id, place]));
+const measureOf = new Map(data.measures.map((measure) => [measure.id, measure]));
+
+// How a variant stands, from what cannot be chosen to what is.
+const INFEASIBLE = 0, FEASIBLE = 1, FRONT = 2, CHOSEN = 3;
+// Colours after Okabe and Ito; form, dashes and words say the same.
+const KINDS = [
+  { name: "misses a requirement", colour: "#8a8a8a", symbol: "x-thin-open", dash: [5, 4], width: 1 },
+  { name: "meets every requirement", colour: "#009e73", symbol: "circle-open", dash: [], width: 1 },
+  { name: "Pareto front", colour: "#0072b2", symbol: "diamond", dash: [], width: 1.75 },
+  { name: "chosen", colour: "#d55e00", symbol: "star", dash: [], width: 3.5 },
+];
+const PALETTE = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#8a8a8a"];
+const DASHES = ["solid", "dash", "dot", "dashdot", "longdash", "longdashdot"];
+const kindOf = variants.id.map((id, place) => {
+  if (id === data.decision.chosen) return CHOSEN;
+  if (!variants.feasible[place]) return INFEASIBLE;
+  return variants.pareto[place] === null ? FEASIBLE : FRONT;
+});
+
+const show = (value, unit = "1") => {
+  if (!known(value)) return "–";
+  if (typeof value !== "number") return String(value);
+  const large = Math.abs(value) >= 10000;
+  const text = large ? Math.round(value).toLocaleString("en-US") : String(Number(value.toPrecision(4)));
+  return unit === "1" || unit === "" ? text : `${text} ${unit}`;
+};
+const percent = (share) => (!known(share) ? "–" : share > 0 && share < 0.001 ? "< 0.1 %" : `${Number((100 * share).toPrecision(share < 0.1 ? 2 : 3))} %`);
+const withUnit = (name, unit) => (unit === "1" || unit === "" ? name : `${name} [${unit}]`);
+const interval = (measure, place) => {
+  const low = at(measure.low, place), high = at(measure.high, place);
+  return known(low) && known(high) && low !== high ? `${show(low)} to ${show(high)}` : "";
+};
+const estimate = (measure, place) => {
+  const spread = interval(measure, place);
+  return show(at(measure.value, place), measure.unit) + (spread ? ` (${spread})` : "");
+};
+
+// Texts go in as text, never as markup.
+const element = (tag, attributes = {}, ...children) => {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === false || value === null) continue;
+    made.setAttribute(name, value === true ? "" : String(value));
+  }
+  made.append(...children);
+  return made;
+};
+const variantLink = (id) => element("a", { href: `#variant-${id}` }, String(id));
+const options = (select, entries) => {
+  select.replaceChildren(...entries.map(([value, text]) => element("option", { value }, text)));
+};
+// Plotly reads a little markup in texts.
+const plotText = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+
+// ------------------------------------------------------------------ the brush
+const brushes = new Map();
+const shownMask = new Uint8Array(total).fill(1);
+let shownPlaces = Array.from(shownMask.keys());
+const watchers = [];
+const onShown = (watcher) => watchers.push(watcher);
+let waiting = false;
+const tellShown = () => {
+  const all = shownPlaces.length === total;
+  byId("shown").textContent = all ? `All ${total} variants are shown` : `${shownPlaces.length} of ${total} variants are shown`;
+  byId("clear").disabled = brushes.size === 0;
+  if (waiting) return;
+  waiting = true;
+  requestAnimationFrame(() => {
+    waiting = false;
+    for (const watcher of watchers) watcher();
+  });
+};
+const applyBrushes = () => {
+  const ends = Array.from(brushes.values());
+  shownPlaces = [];
+  for (let place = 0; place < total; place += 1) {
+    const inside = ends.every(({ axis, low, high }) => {
+      const position = axis.position[place];
+      return !Number.isNaN(position) && position >= low - 1e-9 && position <= high + 1e-9;
+    });
+    shownMask[place] = inside ? 1 : 0;
+    if (inside) shownPlaces.push(place);
+  }
+  tellShown();
+};

@@ -1,0 +1,101 @@
+// ------------------------------------- one variant: its figures, and the trials behind them
+const trialsOf = (() => {
+  const lists = new Map();
+  data.trials.variant.forEach((place, trial) => {
+    if (!lists.has(place)) lists.set(place, []);
+    lists.get(place).push(trial);
+  });
+  return (place) => lists.get(place) || [];
+})();
+const outcomeOf = (trial) => {
+  const failure = at(data.trials.failure, trial);
+  if (failure < 0) return "success";
+  const phase = at(data.trials.failed_phase, trial);
+  return `${data.trials.failures[failure]} in ${data.trials.phases[phase] ?? "no phase"}`;
+};
+const quoted = (word) => (/^[\w./-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`);
+const study = data.study_file === "studies/pick_place.yaml" ? "" : ` --study ${quoted(data.study_file)}`;
+const replayOf = (trial) => `rgss replay ${data.trials.key[trial]}${study}`;
+const runOf = (trial) => `rgss run ${variants.id[data.trials.variant[trial]]} --seed ${data.trials.seed[trial]} --fidelity ${data.fidelity}${study}`;
+
+const showVariant = (place) => {
+  const id = variants.id[place];
+  byId("variant-choice").value = String(id);
+  const violated = variants.violates[place];
+  const rank = known(variants.rank[place]) ? `rank ${variants.rank[place]}` : `misses ${violated.join(", ") || "a requirement"}`;
+  byId("variant-note").textContent = `Variant ${id}: ${KINDS[kindOf[place]].name}; ${rank}; value ${show(variants.value[place])}.`;
+  const hosts = ["Design", "Measures", "Requirements", "Trials"].map((title) => {
+    const host = element("div");
+    byId("variant-evidence").append(element("h3", {}, `${title} of variant ${id}`), host);
+    return host;
+  });
+  byId("variant-evidence").replaceChildren(...Array.from(byId("variant-evidence").children).slice(-8));
+  pagedTable(hosts[0], {
+    label: `Design of variant ${id}`,
+    columns: [
+      { head: "parameter", cell: (one) => one.id },
+      { head: "name", cell: (one) => one.name },
+      { head: "value", number: true, cell: (one) => show(at(one.values, place), one.unit) },
+    ],
+    rows: () => data.parameters,
+  })();
+  pagedTable(hosts[1], {
+    label: `Measures of variant ${id}`,
+    columns: [
+      { head: "measure", cell: (one) => one.id },
+      { head: "name", cell: (one) => one.name },
+      { head: "value", number: true, cell: (one) => show(at(one.value, place), one.unit) },
+      { head: "interval", number: true, cell: (one) => interval(one, place) },
+      { head: "stands on", cell: (one) => (!one.from_trials ? "the design alone" : at(one.n, place) ? `${at(one.n, place)} of the trials below` : "nothing: no trial tells") },
+      { head: "assumptions", cell: (one) => element("span", { class: "many" }, one.assumptions.join(", ")) },
+    ],
+    rows: () => data.measures.filter((one) => known(at(one.value, place))),
+  })();
+  pagedTable(hosts[2], {
+    label: `Requirements and variant ${id}`,
+    columns: [
+      { head: "requirement", cell: (one) => element("a", { href: `#r-${one.id}` }, one.id) },
+      { head: "criterion", cell: (one) => one.criterion },
+      { head: "verdict", cell: (one) => element("span", { class: `verdict ${at(one.verdict, place)}` }, VERDICTS[at(one.verdict, place)].join(" ")) },
+      { head: "figure", number: true, cell: (one) => estimate(measureOf.get(one.measure), place) },
+      { head: "text", cell: (one) => element("span", { class: "words" }, one.text) },
+    ],
+    rows: () => data.requirements,
+  })();
+  pagedTable(hosts[3], {
+    label: `Trials of variant ${id}`,
+    columns: [
+      { head: "trial", cell: (trial) => element("code", {}, data.trials.key[trial]) },
+      { head: "seed", number: true, cell: (trial) => String(data.trials.seed[trial]) },
+      { head: "outcome", cell: outcomeOf },
+      { head: "run it again and compare", cell: (trial) => element("code", {}, replayOf(trial)) },
+      { head: "run it and look", cell: (trial) => element("code", {}, runOf(trial)) },
+    ],
+    rows: () => trialsOf(place),
+  })();
+};
+const startEvidence = () => {
+  const choice = byId("variant-choice");
+  const fromAddress = () => {
+    const match = /^#variant-(\d+)$/.exec(location.hash);
+    if (match === null) return;
+    const place = placeOf.get(Number(match[1]));
+    if (place === undefined) return;
+    showVariant(place);
+    byId("evidence-title").focus({ preventScroll: true });
+    byId("evidence").scrollIntoView();
+  };
+  choice.addEventListener("change", () => {
+    const place = placeOf.get(Number(choice.value));
+    if (place === undefined) byId("variant-note").textContent = `There is no variant ${choice.value} here.`;
+    else showVariant(place);
+  });
+  addEventListener("hashchange", fromAddress);
+  // The same link again changes no address.
+  addEventListener("click", (event) => {
+    const link = event.target.closest?.('a[href^="#variant-"]');
+    if (link && link.hash === location.hash) { event.preventDefault(); fromAddress(); }
+  });
+  showVariant(placeOf.get(data.decision.chosen ?? variants.id[0]) ?? 0);
+  fromAddress();
+};

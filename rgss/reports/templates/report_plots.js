@@ -1,0 +1,273 @@
+// -------------------------------------------------- plots: drawn when they come into sight
+const MOST_POINTS = 400, MOST_SCATTERED = 2000;
+const drawings = [];
+
+// The library is carried as a text, and run when the first plot comes near.
+const needPlotly = () => {
+  if (typeof Plotly !== "undefined") return;
+  document.head.append(element("script", {}, document.querySelector("script.held").textContent));
+};
+
+const layoutOf = (more) => {
+  const style = getComputedStyle(document.documentElement);
+  const ink = style.getPropertyValue("--ink").trim(), line = style.getPropertyValue("--line").trim();
+  const axis = (one) => ({ gridcolor: line, zerolinecolor: line, linecolor: ink, automargin: true, fixedrange: false, ...one });
+  const { xaxis = {}, yaxis = {}, ...rest } = more;
+  return {
+    font: { family: "system-ui, sans-serif", size: 13, color: ink },
+    paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
+    margin: { l: 60, r: 16, t: 48, b: 64 }, hovermode: "closest",
+    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, ...rest, xaxis: axis(xaxis), yaxis: axis(yaxis),
+  };
+};
+// make() → {traces, layout} or null where there is nothing to draw.
+const plot = (id, make) => {
+  const host = byId(`${id}-plot`);
+  let near = false, stale = true;
+  const draw = (always = false) => {
+    stale = true;
+    // What is out of sight is drawn when it comes near, so that a brush answers at once.
+    if (!near && !always) return;
+    stale = false;
+    needPlotly();
+    const made = make();
+    if (made === null) {
+      Plotly.purge(host);
+      host.style.height = "auto";
+      delete host.dataset.linked;
+      host.replaceChildren(element("p", {}, "There is nothing to draw here."));
+      return;
+    }
+    if (!host.classList.contains("js-plotly-plot")) host.replaceChildren();
+    host.style.height = `${made.layout.height || 420}px`;
+    Plotly.react(host, made.traces, layoutOf({ ...made.layout, height: undefined }), {
+      responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], displayModeBar: false,
+    });
+    if (!host.dataset.linked) {
+      host.dataset.linked = "yes";
+      host.on("plotly_click", (event) => {
+        const point = event.points[0];
+        const chosen = point && point.data.meta && point.data.meta[point.pointIndex ?? point.pointNumber];
+        if (known(chosen)) location.hash = `#variant-${chosen}`;
+      });
+    }
+  };
+  new IntersectionObserver((entries) => {
+    near = entries[entries.length - 1].isIntersecting;
+    if (near && stale) draw();
+  }, { rootMargin: "300px" }).observe(host);
+  const redraw = () => draw();
+  onShown(redraw);
+  drawings.push({ redraw, drawForPaper: () => { if (stale) draw(true); }, host });
+  return redraw;
+};
+// Colour and hatching, so that bars are told apart without colours too.
+const SHAPES = ["", "/", "x", "-", "\\", "+", ".", "|"];
+const filling = (colour, index) => ({ color: colour, pattern: { shape: SHAPES[index % SHAPES.length], fillmode: "replace", bgcolor: colour, fgcolor: "#ffffff", size: 7, solidity: 0.15 } });
+const markerOf = (kind, size = 9) => ({ color: KINDS[kind].colour, symbol: KINDS[kind].symbol, size: kind === CHOSEN ? size + 7 : size, line: { width: 1.5, color: KINDS[kind].colour } });
+
+// ------------------------------------------------------------ measures with intervals
+const startMeasures = () => {
+  const shownMeasures = data.measures.filter((measure) => Array.isArray(measure.value) ? measure.value.some(known) : known(measure.value));
+  const choice = byId("measure-choice");
+  options(choice, shownMeasures.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
+  const current = () => measureOf.get(choice.value);
+  const ordered = () => {
+    const measure = current();
+    return shownPlaces.filter((place) => known(at(measure.value, place)))
+      .sort((one, other) => at(measure.value, one) - at(measure.value, other) || variants.id[one] - variants.id[other]);
+  };
+  const redraw = plot("measures", () => {
+    const measure = current();
+    const places = ordered();
+    if (!places.length) return null;
+    const texts = (list) => list.map((place) => plotText(`variant ${variants.id[place]}: ${estimate(measure, place)}`));
+    const traces = [];
+    if (places.length > MOST_POINTS) {
+      const every = Math.ceil(places.length / 1000);
+      const kept = places.filter((_, index) => index % every === 0 || index === places.length - 1);
+      const across = kept.map((place) => places.indexOf(place) + 1);
+      const value = (place) => at(measure.value, place);
+      traces.push({ x: across, y: kept.map((place) => at(measure.low, place) ?? value(place)), mode: "lines", line: { width: 0 }, showlegend: false, hoverinfo: "skip" });
+      traces.push({ x: across, y: kept.map((place) => at(measure.high, place) ?? value(place)), mode: "lines", line: { width: 0 }, fill: "tonexty", fillcolor: "rgba(0,114,178,0.3)", name: "interval", hoverinfo: "skip" });
+      traces.push({ x: across, y: kept.map(value), mode: "lines", line: { color: KINDS[FRONT].colour }, name: "estimate", text: texts(kept), hoverinfo: "text", meta: kept.map((place) => variants.id[place]) });
+    }
+    const index = new Map(places.map((place, position) => [place, position + 1]));
+    for (const kind of [INFEASIBLE, FEASIBLE, FRONT, CHOSEN]) {
+      const mine = places.filter((place) => kindOf[place] === kind);
+      if (!mine.length || (places.length > MOST_POINTS && kind < FRONT)) continue;
+      const value = (place) => at(measure.value, place);
+      traces.push({
+        x: mine.map((place) => index.get(place)), y: mine.map(value), mode: "markers", name: KINDS[kind].name,
+        marker: markerOf(kind), text: texts(mine), hoverinfo: "text", meta: mine.map((place) => variants.id[place]),
+        error_y: measure.from_trials ? {
+          type: "data", symmetric: false, color: KINDS[kind].colour, thickness: 1, width: 2,
+          array: mine.map((place) => (at(measure.high, place) ?? value(place)) - value(place)),
+          arrayminus: mine.map((place) => value(place) - (at(measure.low, place) ?? value(place))),
+        } : { visible: false },
+      });
+    }
+    const limits = data.requirements.filter((one) => one.measure === measure.id);
+    return { traces, layout: {
+      shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
+      annotations: limits.map((one) => ({ xref: "paper", x: 1, xanchor: "right", y: one.threshold, yanchor: "bottom", showarrow: false, text: plotText(`${one.id}: ${one.criterion}`) })),
+      xaxis: { title: { text: "variants, by this measure" } }, yaxis: { title: { text: plotText(withUnit(measure.id, measure.unit)) } },
+    } };
+  });
+  const update = tableIn("measures-table", {
+    label: "Measures of the shown variants",
+    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : "") })),
+      { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)) }],
+    rows: byRank, search: finds,
+  });
+  onShown(update);
+  const tell = () => {
+    const measure = current();
+    byId("measure-note").textContent = measure.from_trials
+      ? `Estimated from ${[...new Set(Array.isArray(measure.n) ? measure.n : [measure.n])].sort((a, b) => a - b).slice(0, 6).join(", ")} trials of each variant, with intervals of 95 %. ${measure.better === "none" ? "" : `${measure.better === "higher" ? "Higher" : "Lower"} is better.`}`
+      : `It follows from the design alone, without trials. ${measure.better === "none" ? "" : `${measure.better === "higher" ? "Higher" : "Lower"} is better.`}`;
+  };
+  choice.addEventListener("change", () => { tell(); redraw(); });
+  const first = shownMeasures.find((measure) => measure.from_trials && measure.weight !== null) || shownMeasures[0];
+  if (first) { choice.value = first.id; tell(); }
+};
+
+// ---------------------------------------------------------------------- Pareto scatter
+const startPareto = () => {
+  const across = byId("pareto-x"), up = byId("pareto-y");
+  for (const select of [across, up]) options(select, effectiveness.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
+  const spread = effectiveness.filter((measure) => Array.isArray(measure.value) && measure.weight !== null);
+  across.value = (spread[1] || effectiveness[0]).id;
+  up.value = (spread[2] || spread[0] || effectiveness[0]).id;
+  const redraw = plot("pareto", () => {
+    const [horizontal, vertical] = [measureOf.get(across.value), measureOf.get(up.value)];
+    const places = shownPlaces.filter((place) => known(at(horizontal.value, place)) && known(at(vertical.value, place)));
+    if (!places.length) return null;
+    const traces = [];
+    const dense = places.length > MOST_SCATTERED;
+    if (dense) {
+      const others = places.filter((place) => kindOf[place] < FRONT);
+      traces.push({ type: "histogram2d", x: others.map((place) => at(horizontal.value, place)), y: others.map((place) => at(vertical.value, place)), nbinsx: 60, nbinsy: 40, colorscale: [[0, "rgba(138,138,138,0)"], [0.001, "#e3e6ea"], [1, "#4d5660"]], colorbar: { title: { text: "variants" } }, hovertemplate: "%{z} variants<extra></extra>" });
+    }
+    for (const kind of [INFEASIBLE, FEASIBLE, FRONT, CHOSEN]) {
+      const mine = places.filter((place) => kindOf[place] === kind);
+      if (!mine.length || (dense && kind < FRONT)) continue;
+      traces.push({ x: mine.map((place) => at(horizontal.value, place)), y: mine.map((place) => at(vertical.value, place)), mode: "markers", name: KINDS[kind].name, marker: markerOf(kind), hoverinfo: "text", meta: mine.map((place) => variants.id[place]),
+        text: mine.map((place) => plotText(`variant ${variants.id[place]}, ${KINDS[kind].name}`) + `<br>${plotText(`${horizontal.id}: ${estimate(horizontal, place)}`)}<br>${plotText(`${vertical.id}: ${estimate(vertical, place)}`)}`) });
+    }
+    return { traces, layout: { xaxis: { title: { text: plotText(withUnit(horizontal.id, horizontal.unit)) } }, yaxis: { title: { text: plotText(withUnit(vertical.id, vertical.unit)) } } } };
+  });
+  for (const select of [across, up]) select.addEventListener("change", redraw);
+  onShown(tableIn("pareto-table", {
+    label: "The Pareto front among the shown variants",
+    columns: [...variantColumns, { head: "support", cell: (place) => String(variants.pareto[place]).replace(/_/g, " ") }, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), number: true, cell: (place) => show(at(measure.value, place)) }))],
+    rows: () => byRank().filter((place) => variants.pareto[place] !== null),
+  }));
+};
+
+// ------------------------------------------------------------- what the weights make
+const startWeights = () => {
+  const shownRanking = drawSliders();
+  const parts = (row) => weighted.map((one, index) => normalised()[index] * (at(one.worth, row.place) ?? 0));
+  const redraw = plot("weights", () => {
+    const rows = shownRanking().slice(0, 10);
+    if (!rows.length) return null;
+    const names = rows.map((row) => `variant ${variants.id[row.place]}`);
+    return { traces: weighted.map((one, index) => ({ type: "bar", orientation: "h", name: plotText(one.id), y: names, x: rows.map((row) => parts(row)[index]), marker: filling(PALETTE[index % PALETTE.length], index), hovertemplate: "%{x:.4f}<extra>%{fullData.name}</extra>", meta: rows.map((row) => variants.id[row.place]) })),
+      layout: { barmode: "stack", yaxis: { autorange: "reversed", type: "category" }, xaxis: { title: { text: "weighted value" }, range: [0, 1] } } };
+  });
+  rankingWatchers.push(redraw);
+  const update = tableIn("weights-table", {
+    label: "What each measure adds at these weights",
+    columns: [{ head: "rank", cell: (row) => String(row.rank) }, { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
+      ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => parts(row)[index].toFixed(4) })), { head: "value", number: true, cell: (row) => row.value.toFixed(4) }],
+    rows: shownRanking, size: 20,
+  });
+  rankingWatchers.push(update);
+  onShown(update);
+};
+
+// ----------------------------------------------------------------------- acceptability
+const startAcceptability = () => {
+  const found = data.decision.acceptability;
+  const note = byId("acceptability-note");
+  if (found === null) {
+    note.textContent = "Acceptability was not analysed, for the choice is not made by weighted value or nothing is feasible.";
+  } else {
+    const noise = found.with_noise ? " and the noise of the replicates" : "";
+    note.textContent = `The share of ${found.iterations.toLocaleString("en-US")} draws of ${found.elicited ? "the elicited" : "all"} weights${noise} in which no variant is better.` + (found.more ? ` ${found.more} more come first in some draws.` : "");
+  }
+  const rows = () => (found === null ? [] : found.variants.filter((one) => shownMask[placeOf.get(one.variant)]));
+  plot("acceptability", () => {
+    const bars = rows();
+    if (!bars.length) return null;
+    return { traces: [{ type: "bar", x: bars.map((one) => String(one.variant)), y: bars.map((one) => one.first), error_y: { type: "data", array: bars.map((one) => 1.96 * one.error), thickness: 1 }, marker: { color: bars.map((one) => KINDS[kindOf[placeOf.get(one.variant)]].colour), pattern: { shape: bars.map((one) => (kindOf[placeOf.get(one.variant)] === INFEASIBLE ? "/" : "")), fillmode: "replace", bgcolor: "#8a8a8a", fgcolor: "#ffffff", size: 7, solidity: 0.15 } }, hoverinfo: "text", text: bars.map((one) => plotText(`variant ${one.variant}: first in ${percent(one.first)}`)), textposition: "none", meta: bars.map((one) => one.variant) }],
+      layout: { xaxis: { type: "category", title: { text: "variant" } }, yaxis: { title: { text: "share of draws" }, rangemode: "tozero", tickformat: ".0%" } } };
+  });
+  onShown(tableIn("acceptability-table", {
+    label: "Acceptability of the shown variants",
+    columns: [{ head: "variant", cell: (one) => variantLink(one.variant) }, { head: "first", number: true, cell: (one) => percent(one.first) }, { head: "± (1.96 standard errors)", number: true, cell: (one) => percent(1.96 * one.error) }, { head: "confidence", number: true, cell: (one) => percent(one.confidence) }, { head: "feasible in", number: true, cell: (one) => percent(one.feasible) }, { head: "share of weights", number: true, cell: (one) => percent(one.region) }],
+    rows,
+  }));
+};
+
+// ------------------------------------------------------------------------ main effects
+const startEffects = () => {
+  const choice = byId("effect-choice"), note = byId("effect-note");
+  const shownEffects = data.effects.filter((one) => one.main.length || one.shares.length);
+  options(choice, shownEffects.map((one) => [one.measure, `${one.measure}: ${measureOf.get(one.measure).name}`]));
+  const current = () => shownEffects.find((one) => one.measure === choice.value);
+  const factorOf = new Map(data.factors.map((factor) => [factor.id, factor]));
+  const meanAmongShown = (one, factorId, levelName) => {
+    const factor = factorOf.get(factorId), level = factor.levels.indexOf(levelName), measure = measureOf.get(one.measure);
+    let sum = 0, count = 0;
+    for (const place of shownPlaces) {
+      const value = factor.level[place] === level ? at(measure.value, place) : null;
+      if (known(value)) { sum += value; count += 1; }
+    }
+    return count ? sum / count : null;
+  };
+  const rows = () => {
+    const one = current();
+    if (!one) return [];
+    return one.main.flatMap((term) => term.levels.map((level, index) => ({
+      factor: term.factor, share: term.share, level, effect: term.effect[index],
+      low: term.low === null ? null : term.low[index], high: term.high === null ? null : term.high[index],
+      mean: one.mean + term.effect[index], brushed: meanAmongShown(one, term.factor, level),
+    }))).concat(one.shares.map((share) => ({ factor: share.factor, share: share.share, level: "", effect: null, low: share.low, high: share.high, mean: null, brushed: null })));
+  };
+  const redraw = plot("effects", () => {
+    const one = current();
+    if (!one) return null;
+    if (!one.main.length) {
+      return { traces: [{ type: "bar", x: one.shares.map((share) => plotText(share.factor)), y: one.shares.map((share) => share.share), marker: { color: KINDS[FRONT].colour }, error_y: { type: "data", symmetric: false, array: one.shares.map((share) => share.high - share.share), arrayminus: one.shares.map((share) => share.share - share.low) } }], layout: { xaxis: { type: "category" }, yaxis: { title: { text: "share of the variance" }, rangemode: "tozero" } } };
+    }
+    const traces = [], found = rows();
+    one.main.forEach((term, index) => {
+      const mine = found.filter((row) => row.factor === term.factor);
+      traces.push({ x: [mine.map(() => plotText(term.factor)), mine.map((row) => plotText(row.level))], y: mine.map((row) => row.mean), mode: "lines+markers", name: plotText(`${term.factor} (${percent(term.share)})`), line: { color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length] }, marker: { size: 9 },
+        error_y: term.low === null ? { visible: false } : { type: "data", symmetric: false, thickness: 1, array: mine.map((row) => row.high - row.effect), arrayminus: mine.map((row) => row.effect - row.low) } });
+    });
+    if (shownPlaces.length < total) {
+      traces.push({ x: [found.map((row) => plotText(row.factor)), found.map((row) => plotText(row.level))], y: found.map((row) => row.brushed), mode: "markers", name: "mean of the shown variants", marker: { symbol: "x", size: 10, color: "#d55e00" } });
+    }
+    return { traces, layout: { xaxis: { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withUnit(one.measure, one.unit)}`) } }, height: 460 } };
+  });
+  const update = tableIn("effects-table", {
+    label: "Main effects",
+    columns: [{ head: "factor", cell: (row) => row.factor }, { head: "share", number: true, cell: (row) => percent(row.share) }, { head: "level", cell: (row) => row.level }, { head: "effect", number: true, cell: (row) => show(row.effect) }, { head: "interval of 95 %", number: true, cell: (row) => (known(row.low) ? `${show(row.low)} to ${show(row.high)}` : "–") }, { head: "mean of the shown variants", number: true, cell: (row) => show(row.brushed) }],
+    rows,
+  });
+  onShown(update);
+  const tell = () => {
+    const one = current();
+    if (!one) { note.textContent = "No factor varies."; return; }
+    const joint = one.interactions.map((term) => `${term.factors.join(" × ")} ${percent(term.share)}`).join(", ");
+    note.textContent = `Over ${one.designs} designs${one.left_out.length ? `, without ${one.left_out.join(", ")}, which lack the measure` : ""}; in brackets the share of the differences between designs.${joint ? ` Interactions: ${joint}.` : ""}`;
+  };
+  choice.addEventListener("change", () => { tell(); redraw(); update(); });
+  const first = shownEffects.find((one) => measureOf.get(one.measure).weight !== null && measureOf.get(one.measure).from_trials) || shownEffects[0];
+  if (first) choice.value = first.measure;
+  tell();
+  update();
+};

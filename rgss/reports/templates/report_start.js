@@ -1,0 +1,45 @@
+// ------------------------------------------------------------------------------ start
+drawLegends();
+applyBrushes();
+onShown(parallel.draw);
+onShown(verdictsTable());
+onShown(tableIn("parallel-table", {
+  label: "The shown variants",
+  columns: [...variantColumns,
+    ...varying.map((one) => ({ head: withUnit(one.name, one.unit), number: true, cell: (place) => show(at(one.values, place)) })),
+    ...effectiveness.map((one) => ({ head: withUnit(one.id, one.unit), title: one.name, number: true, cell: (place) => show(at(one.value, place)) })),
+    { head: "value", number: true, cell: (place) => show(variants.value[place]) }],
+  rows: byRank, search: finds,
+}));
+startMeasures();
+startPareto();
+startWeights();
+startAcceptability();
+startEffects();
+startPlanning();
+startFailures();
+startTimeline();
+startEvidence();
+parallel.draw();
+
+// Colours come from the style, which follows the reader's scheme; paper is always light.
+const redrawAll = () => {
+  parallel.draw();
+  for (const { redraw } of drawings) redraw();
+};
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
+addEventListener("beforeprint", () => {
+  // The page's own script has opened what was closed, but tells of it too late for the paper.
+  for (const refresh of refreshers) refresh();
+  for (const { drawForPaper, host } of drawings) {
+    drawForPaper();
+    if (host.classList.contains("js-plotly-plot")) Plotly.relayout(host, { width: 960, autosize: false });
+  }
+});
+addEventListener("afterprint", () => {
+  for (const { host } of drawings) {
+    if (host.classList.contains("js-plotly-plot")) Plotly.relayout(host, { width: null, autosize: true });
+  }
+});
+performance.mark("rgss-report");
+document.documentElement.dataset.ready = "yes";

@@ -1,0 +1,41 @@
+// ------------------------------------------------------- verdicts of the shown variants
+const VERDICTS = {
+  met: ["✔", "met"], not_met: ["✘", "not met"], inconclusive: ["◐", "inconclusive"],
+  not_run: ["○", "not run"], stale: ["↻", "stale"],
+};
+const drawLegends = () => {
+  const swatch = (kind) => {
+    const look = KINDS[kind];
+    const line = element("span", { class: `swatch kind-${kind}`, "aria-hidden": "true" });
+    return element("li", {}, line, ` ${look.name}`);
+  };
+  byId("legend").replaceChildren(...[CHOSEN, FRONT, FEASIBLE, INFEASIBLE].filter((kind) => kindOf.includes(kind)).map(swatch));
+  const shown = new Set(data.requirements.flatMap((one) => (Array.isArray(one.verdict) ? one.verdict : [one.verdict])));
+  byId("verdict-legend").replaceChildren(...Object.entries(VERDICTS).filter(([name]) => shown.has(name))
+    .map(([name, [sign, words]]) => element("li", {}, element("span", { class: `verdict ${name}` }, `${sign} ${words}`))));
+};
+const verdictCell = (requirement, place) => {
+  const verdict = at(requirement.verdict, place);
+  const [sign, words] = VERDICTS[verdict];
+  const causes = requirement.stale[String(place)] || [];
+  const measure = measureOf.get(requirement.measure);
+  const number = element("a", { href: `#variant-${variants.id[place]}`, tabindex: -1, class: "quiet" }, estimate(measure, place));
+  const badge = element("span", { class: `verdict ${verdict}`, title: causes.length ? `${words}: ${causes.join(", ")} changed` : words },
+    element("span", { "aria-hidden": "true" }, sign), element("span", { class: "vh" }, words));
+  return element("span", { class: "judged" }, badge, " ", number);
+};
+const verdictsTable = () => tableIn("verdict-table", {
+  label: "Verdicts of the shown variants",
+  columns: [
+    ...variantColumns,
+    { head: "value", number: true, cell: (place) => show(variants.value[place]) },
+    ...data.requirements.map((requirement) => ({
+      head: element("span", {}, element("span", { class: "id" }, requirement.id), element("br"), element("span", { class: "small" }, requirement.criterion)),
+      title: requirement.text,
+      number: true,
+      cell: (place) => verdictCell(requirement, place),
+    })),
+  ],
+  rows: byRank,
+  search: finds,
+});

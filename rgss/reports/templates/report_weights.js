@@ -1,0 +1,89 @@
+// ----------------------------------------------------- the weights, and who would win
+const TIE = 1e-9;
+const weighted = data.weights.measures;
+let raw = weighted.map((one) => one.weight);
+
+const normalised = () => {
+  const sum = raw.reduce((before, weight) => before + weight, 0);
+  return raw.map((weight) => (sum > 0 ? weight / sum : 1 / raw.length));
+};
+const worth = (place, weights) => {
+  let value = 0;
+  for (let index = 0; index < weighted.length; index += 1) {
+    if (weights[index] === 0) continue;
+    const one = at(weighted[index].worth, place);
+    if (!known(one)) return null;
+    value += weights[index] * one;
+  }
+  return value;
+};
+// As the trade-off ranks: of those within a tie of the best the smallest id first, then the rest.
+const ranked = (weights, places) => {
+  const found = [];
+  for (const place of places) {
+    const value = worth(place, weights);
+    if (value !== null) found.push({ place, value });
+  }
+  found.sort((one, other) => other.value - one.value || variants.id[one.place] - variants.id[other.place]);
+  for (let first = 0; first < found.length;) {
+    let end = first + 1;
+    while (end < found.length && found[first].value - found[end].value <= TIE) end += 1;
+    const tied = found.slice(first, end).sort((one, other) => variants.id[one.place] - variants.id[other.place]);
+    tied.forEach((one, index) => { found[first + index] = one; });
+    first = end;
+  }
+  return found;
+};
+const allowed = variants.id.map((_, place) => place).filter((place) => variants.feasible[place]);
+let ranking = [];
+const rankingWatchers = [];
+const rankAnew = () => {
+  const weights = normalised();
+  ranking = ranked(weights, allowed);
+  const best = ranking.length ? variants.id[ranking[0].place] : null;
+  const winner = byId("weight-winner");
+  if (best === null) winner.textContent = "No variant meets every requirement.";
+  else if (best === data.decision.chosen) winner.textContent = `Variant ${best} stays the best.`;
+  else winner.textContent = `Variant ${best} would be the best${data.decision.chosen === null ? "" : `, instead of ${data.decision.chosen}`}.`;
+  for (const watcher of rankingWatchers) watcher();
+};
+const drawSliders = () => {
+  const rows = weighted.map((one, index) => {
+    const slider = element("input", { type: "range", min: 0, max: 1, step: 0.01, id: `weight-${index}` });
+    const told = element("output", { for: `weight-${index}` });
+    const measure = measureOf.get(one.id);
+    slider.addEventListener("input", () => { raw[index] = Number(slider.value); rankAnew(); });
+    rankingWatchers.push(() => {
+      const share = normalised()[index];
+      told.textContent = share.toFixed(3);
+      slider.setAttribute("aria-valuetext", `${share.toFixed(3)} of the weight`);
+    });
+    const scale = known(one.worst) ? `0 at ${show(one.worst, measure.unit)}, 1 at ${show(one.best, measure.unit)}` : "";
+    byId("weight-rows").append(element("div", { class: "weight" },
+      element("label", { for: `weight-${index}` }, `${one.id}: ${measure.name}`), told, slider, element("span", { class: "small" }, scale)));
+    return slider;
+  });
+  const reset = () => {
+    raw = weighted.map((one) => one.weight);
+    rows.forEach((slider, index) => { slider.value = String(raw[index]); });
+    rankAnew();
+  };
+  byId("weight-reset").addEventListener("click", reset);
+  byId("weight-sliders").addEventListener("submit", (event) => event.preventDefault());
+  const shownRanking = () => ranking.map((one, index) => ({ ...one, rank: index + 1 })).filter((one) => shownMask[one.place]);
+  const update = pagedTable(byId("ranking-table"), {
+    label: "Ranking at these weights",
+    size: 10,
+    columns: [
+      { head: "rank", cell: (row) => String(row.rank) },
+      { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
+      { head: "value", number: true, cell: (row) => row.value.toFixed(4) },
+      { head: "rank in the study", number: true, cell: (row) => show(variants.rank[row.place]) },
+    ],
+    rows: shownRanking,
+  });
+  rankingWatchers.push(update);
+  onShown(update);
+  reset();
+  return shownRanking;
+};

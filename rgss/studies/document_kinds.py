@@ -1,0 +1,124 @@
+"""Every kind of YAML document that a project has: its model, its schema, and which file is of which kind."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import PurePosixPath
+from typing import Any
+
+from rgss.designs.catalogue import CatalogueModel
+from rgss.designs.document import DesignSpaceModel
+from rgss.documents import DocumentModel, json_schema, read_document
+from rgss.errors import DefinitionError
+from rgss.measures.document import MeasuresDocument
+from rgss.requirements.architecture_files import ArchitectureFile
+from rgss.requirements.files import ReviewsFile, RulesFile, StakeholderFile, SystemFile
+from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
+from rgss.studies.document import StudyDocument
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DocumentKind:
+    """A kind of document.
+
+    Attributes:
+        id: Its name, such as ``design-space``.
+        title: What it is, in a few words.
+        model: What reads it.
+        place: Where in a project such a document stands.
+    """
+
+    id: str
+    title: str
+    model: type[DocumentModel]
+    place: str
+
+    @property
+    def schema_file(self) -> str:
+        """The name of its schema's file."""
+        return f"{self.id}.schema.json"
+
+    def schema(self) -> dict[str, Any]:
+        """Its JSON Schema, as plain data."""
+        return json_schema(self.model, title=self.title, texts=key_texts())
+
+    def schema_text(self) -> str:
+        """Its JSON Schema, as the text of a file."""
+        return json.dumps(self.schema(), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+DOCUMENT_KINDS = (
+    DocumentKind(
+        id="stakeholder",
+        title="Stakeholder requirements",
+        model=StakeholderFile,
+        place="requirements/stakeholder.yaml, or a folder of that name",
+    ),
+    DocumentKind(
+        id="system",
+        title="System requirements",
+        model=SystemFile,
+        place="requirements/system.yaml, or a folder of that name",
+    ),
+    DocumentKind(
+        id="architecture",
+        title="Structure and behaviour",
+        model=ArchitectureFile,
+        place="requirements/architecture.yaml, or a folder of that name",
+    ),
+    DocumentKind(id="measures", title="Measures", model=MeasuresDocument, place="requirements/measures.yaml"),
+    DocumentKind(id="rules", title="Settings of rules", model=RulesFile, place="requirements/rules.yaml"),
+    DocumentKind(id="reviews", title="Reviews", model=ReviewsFile, place="requirements/reviews.yaml"),
+    DocumentKind(id="design-space", title="Design space", model=DesignSpaceModel, place="designs/"),
+    DocumentKind(id="catalogue", title="Catalogue of components", model=CatalogueModel, place="designs/"),
+    DocumentKind(id="scene", title="Scene", model=SceneDocument, place="scenes/"),
+    DocumentKind(id="robot", title="Robot", model=RobotDocument, place="scenes/robots/"),
+    DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
+    DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
+)
+
+_OF_REQUIREMENTS = ("stakeholder", "system", "architecture", "measures", "rules", "reviews")
+_BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
+    "designs": (("components", "catalogue"), ("parameters", "design-space")),
+    "scenes": (("bodies", "scene"), ("joints", "robot"), ("azimuths", "gripper")),
+    "studies": (("study", "study"),),
+}
+
+
+def document_kind(name: str) -> DocumentKind:
+    """The kind of a name.
+
+    Raises:
+        DefinitionError: There is none.
+    """
+    for kind in DOCUMENT_KINDS:
+        if kind.id == name:
+            return kind
+    known = ", ".join(kind.id for kind in DOCUMENT_KINDS)
+    raise DefinitionError(f"there is no document {name!r}", hint=f"documents: {known}")
+
+
+def kind_of(name: str, data: Any) -> DocumentKind | None:
+    """The kind of a project's file; None if it is of none that rgss reads.
+
+    Args:
+        name: The file relative to the project, such as ``scenes/kitchen.yaml``.
+        data: Its content as plain data, which tells apart what stands in one folder.
+    """
+    folder, *rest = PurePosixPath(name).parts
+    if folder == "requirements" and rest:
+        part = rest[0].removesuffix(".yaml")
+        return document_kind(part) if part in _OF_REQUIREMENTS else None
+    keys = data if isinstance(data, dict) else {}
+    found = next((kind for key, kind in _BY_KEY.get(folder, ()) if key in keys), None)
+    return None if found is None else document_kind(found)
+
+
+def key_texts() -> Mapping[str, Mapping[str, str]]:
+    """What each key of the documents means, by the model that reads it."""
+    with resources.as_file(resources.files("rgss.studies") / "field_descriptions.yaml") as path:
+        texts: Mapping[str, Mapping[str, str]] = read_document(path, label="field_descriptions.yaml").data
+    return texts

@@ -1,0 +1,151 @@
+"""What the watched trials decide, and how much of a change their own noise explains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from rgss.designs import sources
+from rgss.errors import EvidenceError, TradeoffError
+from rgss.evidence import TrialRecord
+from rgss.measures import Verdict, evaluate, judge
+from rgss.regression.baseline import DecisionState
+from rgss.studies.choosing import choose, trade_problem
+from rgss.studies.measuring import VariantMeasures, requirements_with_criteria
+from rgss.studies.regressing_runs import WatchedTrials
+from rgss.tradeoff import AdditiveValue
+from rgss.tradeoff.dominance import nondominated
+from rgss.tradeoff.enumeration import enumerate_alternatives
+from rgss.tradeoff.outcomes import noisy_outcomes, replicate_number, single_values
+from rgss.tradeoff.pareto import pareto_front
+from rgss.tradeoff.resampling import bootstrap
+
+RESAMPLES = 1_000
+"""So often the seeds are drawn anew, where there are too many distinct draws to look at each."""
+
+_TIE = 1e-9
+
+
+def measured_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialRecord]]) -> Sequence[VariantMeasures]:
+    """Every variant of a run with its estimates and verdicts.
+
+    Args:
+        trials: The run.
+        records: The record of each of its trials, by variant and seed.
+
+    Raises:
+        EvidenceError: A trial has no record.
+    """
+    project = trials.project
+    criteria = [(one.id, one.criterion) for one in requirements_with_criteria(project) if one.criterion is not None]
+    number = max(len(row) for row in records.values())
+    measured = []
+    for variant in sorted(trials.variants, key=lambda one: one.id):
+        rows = [record for _, record in sorted(records[variant.id].items())]
+        if len(rows) < number:
+            raise EvidenceError(f"trials of variant {variant.id} have no record", hint="see what failed")
+        estimates = evaluate(
+            project.measures,
+            fixed=sources(variant),
+            trials=[record.metrics for record in rows],
+            seed=project.study.seed,
+            variant=variant.id,
+        )
+        verdicts = {name: judge(criterion, estimates[criterion.measure]) for name, criterion in criteria}
+        measured.append(
+            VariantMeasures(
+                variant=variant,
+                trials=(),
+                records=tuple(rows),
+                missing=0,
+                estimates=estimates,
+                verdicts={
+                    name: Verdict.INCONCLUSIVE if verdict is Verdict.NOT_RUN else verdict
+                    for name, verdict in verdicts.items()
+                },
+            )
+        )
+    return measured
+
+
+def decision_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialRecord]]) -> DecisionState:
+    """What is decided among the variants of a run by its records.
+
+    Args:
+        trials: The run.
+        records: The record of each of its trials, by variant and seed.
+
+    Raises:
+        EvidenceError: A trial has no record.
+        TradeoffError: The choice is ill posed.
+        DefinitionError: As for `rgss.studies.choosing.trade_problem`.
+    """
+    measured = measured_of(trials, records)
+    enumeration = enumerate_alternatives(trade_problem(trials.project, measured))
+    table = enumeration.table
+    front = pareto_front(single_values(trade_problem(trials.project, measured), table), enumeration.feasible)
+    return DecisionState(
+        run=trials.run.id,
+        chosen=choose(trials.project, measured).chosen,
+        pareto=tuple(sorted(int(table.variants[row]) for row in front.rows)),
+        verdicts={
+            str(one.variant.id): {name: verdict.value for name, verdict in one.verdicts.items()} for one in measured
+        },
+    )
+
+
+def explained_by_noise(
+    trials: WatchedTrials,
+    records: Mapping[int, Mapping[int, TrialRecord]],
+    before: DecisionState,
+    now: DecisionState,
+) -> dict[str, float]:
+    """How probable each part of the decision that moved is as it was, over the noise of the seeds.
+
+    The seeds are drawn anew with replacement, the same for all variants, and it is decided again.
+    A former choice also counts where it comes within the study's practical margin of the best.
+
+    Args:
+        trials: The run.
+        records: The record of each of its trials, by variant and seed.
+        before: The decision as it was.
+        now: The decision as it is.
+
+    Returns:
+        Probabilities by ``chosen`` and ``pareto N``; empty where the study does not choose by a
+        weighted value or there is no noise to draw from.
+    """
+    problem = trade_problem(trials.project, measured_of(trials, records))
+    if not isinstance(problem.program, AdditiveValue):
+        return {}
+    table = enumerate_alternatives(problem).table
+    try:
+        number = replicate_number(table)
+        resamples = bootstrap(number, draws=RESAMPLES, generator=np.random.default_rng(trials.project.study.seed))
+    except TradeoffError:
+        return {}
+    outcomes = noisy_outcomes(problem, table, resamples)
+    deciding = problem.weighting.deciding_measures
+    weights = np.array([problem.weighting.weights[measure] for measure in deciding])
+    rows = {int(variant): row for row, variant in enumerate(table.variants)}
+    worth = np.where(outcomes.feasible, outcomes.values @ weights, -np.inf)
+    margin = trials.project.study.trade_off.practical_margin + _TIE
+    best = worth.max(axis=1)
+    if before.chosen is None:
+        as_it_was = ~outcomes.feasible.any(axis=1)
+    elif before.chosen in rows:
+        row = rows[before.chosen]
+        as_it_was = outcomes.feasible[:, row] & (worth[:, row] >= best - margin)
+    else:
+        as_it_was = np.zeros(len(worth), dtype=np.bool_)
+    found = {"chosen": float(outcomes.probabilities @ as_it_was)}
+    on_front = np.zeros(outcomes.feasible.shape, dtype=np.bool_)
+    for draw, (values, feasible) in enumerate(zip(outcomes.values, outcomes.feasible, strict=True)):
+        if feasible.any():
+            on_front[draw, np.flatnonzero(feasible)] = nondominated(values[feasible])
+    for variant in set(before.pareto) ^ set(now.pareto):
+        if variant in rows:
+            was = on_front[:, rows[variant]] == (variant in before.pareto)
+            found[f"pareto {variant}"] = float(outcomes.probabilities @ was)
+    return found

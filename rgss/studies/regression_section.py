@@ -1,0 +1,272 @@
+"""What a study says of the guard of its metrics: which trials, which metrics, which margins."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, WithJsonSchema
+
+from rgss.documents import Dimensionless, Document, DocumentModel, Identifier, Text
+from rgss.errors import QuantityError
+from rgss.evidence import Fidelity, Phase
+from rgss.findings import Finding, shown
+from rgss.quantities import parse_quantity
+from rgss.regression.comparing import WHOLE_TRIAL, Guard
+from rgss.regression.observing import OF_PHASES, SUCCESS
+from rgss.trials.metrics import METRICS
+
+MOST_SEEDS = 200
+"""Seeds of a variant that a guard may take."""
+
+PHASE_METRICS = {
+    **{name: kind.unit for name, kind in METRICS.items() if kind.length is None},
+    **OF_PHASES,
+    "opening_s": "s",
+    "settling_s": "s",
+    "tightenings": "1",
+    "finger_force_needed_n": "N",
+    "workpiece_displacement_m": "m",
+    "workpiece_tilt_rad": "rad",
+}
+"""The unit of each metric that a phase may observe."""
+
+_PHASES = tuple(phase.value for phase in Phase)
+
+
+def _margin_text(value: Any) -> Any:
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+MarginText = Annotated[
+    str,
+    BeforeValidator(_margin_text),
+    Field(min_length=1, max_length=60),
+    WithJsonSchema({"type": ["string", "number"], "minLength": 1, "description": "A quantity, such as 0.2 s."}),
+]
+
+
+class RegressionRunEntry(DocumentModel):
+    """Trials that are watched."""
+
+    id: Identifier
+    fidelity: Literal["kinematic", "dynamic", "contact"]
+    variants: Text
+    replicates: Annotated[int, Field(ge=2, le=MOST_SEEDS)]
+    batch: Annotated[int, Field(ge=1, le=MOST_SEEDS)] | None = None
+    cap: Annotated[int, Field(ge=2, le=MOST_SEEDS)] | None = None
+
+
+class RegressionMetricEntry(DocumentModel):
+    """A metric that is guarded."""
+
+    metric: Identifier
+    runs: tuple[Identifier, ...] | None = None
+    phases: Literal["all"] | tuple[Identifier, ...] | None = None
+    better: Literal["higher", "lower"]
+    margin: MarginText
+
+
+class RegressionEntry(DocumentModel):
+    """The guard of a study's metrics."""
+
+    error_rate: Dimensionless = 0.05
+    runs: Annotated[tuple[RegressionRunEntry, ...], Field(min_length=1)]
+    metrics: Annotated[tuple[RegressionMetricEntry, ...], Field(min_length=1)]
+    decision: Identifier | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WatchedRun:
+    """Trials that are watched.
+
+    Attributes:
+        id: Their name.
+        fidelity: How much physics they have.
+        variants: Which variants, as ``--only`` takes it.
+        replicates: Seeds at the first look.
+        batch: Seeds that each further look adds.
+        cap: The most seeds.
+    """
+
+    id: str
+    fidelity: Fidelity
+    variants: str
+    replicates: int
+    batch: int
+    cap: int
+
+    @property
+    def looks(self) -> int:
+        """How often is looked at most."""
+        return 1 + -(-(self.cap - self.replicates) // self.batch)
+
+    def seeds_at(self, look: int) -> int:
+        """How many seeds there are at a look, from 1."""
+        return min(self.cap, self.replicates + (look - 1) * self.batch)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GuardedMetric:
+    """A metric that is guarded.
+
+    Attributes:
+        metric: Its name.
+        guard: How it may move.
+        runs: The runs in which it is compared.
+        phases: The phases, or ``trial``.
+        wherever: Whether it is compared in those of the phases alone that observe it.
+    """
+
+    metric: str
+    guard: Guard
+    runs: tuple[str, ...]
+    phases: tuple[str, ...]
+    wherever: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RegressionGuard:
+    """What is guarded.
+
+    Attributes:
+        error_rate: The probability of any false alarm.
+        runs: The trials.
+        metrics: The metrics.
+        decision: The run among whose variants is decided; None if no decision is guarded.
+    """
+
+    error_rate: float
+    runs: tuple[WatchedRun, ...]
+    metrics: tuple[GuardedMetric, ...]
+    decision: str | None
+
+
+def read_regression(
+    entry: RegressionEntry | None, document: Document, findings: list[Finding]
+) -> RegressionGuard | None:
+    """Read the section.
+
+    Args:
+        entry: The section as it stands in the file; None if there is none.
+        document: The file.
+        findings: Takes what is wrong.
+
+    Returns:
+        The guard; None if there is none. It can be used if nothing was found.
+    """
+    return None if entry is None else _Reader(document, findings).read(entry)
+
+
+class _Reader:
+    def __init__(self, document: Document, findings: list[Finding]) -> None:
+        self._document = document
+        self._findings = findings
+
+    def read(self, entry: RegressionEntry) -> RegressionGuard:
+        if not 0.0 < entry.error_rate < 0.5:
+            message = f"an error rate of {entry.error_rate:g} is none"
+            self._report(message, ("error_rate",), "give a share between 0 and 0.5, such as 0.05")
+        runs = [self._run(one, place) for place, one in enumerate(entry.runs)]
+        names = [one.id for one in entry.runs]
+        for place, name in enumerate(names):
+            if name in names[:place]:
+                self._report(f"there are two runs {name!r}", ("runs", place, "id"), "give each its own name")
+        metrics = [self._metric(one, place, names) for place, one in enumerate(entry.metrics)]
+        seen: set[tuple[str, str, str]] = set()
+        for place, metric in enumerate(metrics):
+            # One name for two margins would be compared twice, and stand once in the baseline.
+            subjects = {(run, metric.metric, phase) for run in metric.runs for phase in metric.phases}
+            if subjects & seen:
+                self._report(f"{metric.metric} is guarded twice", ("metrics", place, "metric"), "keep one")
+            seen |= subjects
+        if entry.decision is not None and entry.decision not in names:
+            self._unknown_run(entry.decision, ("decision",), names)
+        return RegressionGuard(
+            error_rate=entry.error_rate, runs=tuple(runs), metrics=tuple(metrics), decision=entry.decision
+        )
+
+    def _run(self, entry: RegressionRunEntry, place: int) -> WatchedRun:
+        cap = entry.replicates if entry.cap is None else entry.cap
+        if cap < entry.replicates:
+            message = f"the cap of {cap} seeds is below the {entry.replicates} of the first look"
+            self._report(message, ("runs", place, "cap"), "raise it, or leave it away")
+        return WatchedRun(
+            id=entry.id,
+            fidelity=Fidelity(entry.fidelity),
+            variants=entry.variants,
+            replicates=entry.replicates,
+            batch=entry.batch or entry.replicates,
+            cap=max(cap, entry.replicates),
+        )
+
+    def _metric(self, entry: RegressionMetricEntry, place: int, runs: list[str]) -> GuardedMetric:
+        at = ("metrics", place)
+        for number, run in enumerate(entry.runs or ()):
+            if run not in runs:
+                self._unknown_run(run, (*at, "runs", number), runs)
+        unit = self._unit(entry, at)
+        margin = 1.0 if unit is None else self._margin(entry, unit, at)
+        phases = (WHOLE_TRIAL,) if entry.phases is None else _PHASES if entry.phases == "all" else tuple(entry.phases)
+        for number, phase in enumerate(phases):
+            if phase not in (*_PHASES, WHOLE_TRIAL):
+                hint = f"phases: {', '.join(_PHASES)}"
+                self._report(f"there is no phase {phase!r}", (*at, "phases", number), hint)
+        return GuardedMetric(
+            metric=entry.metric,
+            guard=Guard(
+                unit=unit or "1",
+                higher_is_better=entry.better == "higher",
+                margin=margin,
+                is_success=entry.metric == SUCCESS,
+            ),
+            runs=tuple(runs) if entry.runs is None else entry.runs,
+            phases=phases,
+            wherever=entry.phases == "all",
+        )
+
+    def _unit(self, entry: RegressionMetricEntry, at: tuple[str | int, ...]) -> str | None:
+        name = entry.metric
+        if entry.phases is not None:
+            if name not in PHASE_METRICS:
+                self._report(f"no phase observes a metric {name!r}", (*at, "metric"), _near(name, tuple(PHASE_METRICS)))
+            return PHASE_METRICS.get(name)
+        kind = METRICS.get(name)
+        if kind is None:
+            self._report(f"no trial observes a metric {name!r}", (*at, "metric"), _near(name, tuple(METRICS)))
+            return None
+        if kind.length is not None:
+            hint = "write 'phases: all'" if name in PHASE_METRICS else "guard one that is a single number"
+            self._report(f"{name} is a row of {kind.length} numbers", (*at, "metric"), hint)
+            return None
+        return kind.unit
+
+    def _margin(self, entry: RegressionMetricEntry, unit: str, at: tuple[str | int, ...]) -> float:
+        text = entry.margin.strip()
+        if unit == "1":
+            text = text.removesuffix("percent") + "%" if text.endswith("percent") else text
+        try:
+            margin = parse_quantity(text, unit)
+        except QuantityError as error:
+            self._report(error.message, (*at, "margin"), error.hint)
+            return 1.0
+        if margin <= 0.0:
+            message = f"a margin of {shown(entry.margin)} can never be kept for certain"
+            self._report(message, (*at, "margin"), "say how much worse it may get")
+        elif entry.metric == SUCCESS and margin >= 1.0:
+            message = f"a margin of {shown(entry.margin)} lets every trial fail"
+            self._report(message, (*at, "margin"), "give a share below 1, such as 20 %")
+        return margin
+
+    def _unknown_run(self, name: str, at: tuple[str | int, ...], runs: list[str]) -> None:
+        self._report(f"there is no run {name!r}", at, f"runs: {', '.join(runs)}")
+
+    def _report(self, message: str, at: tuple[str | int, ...], hint: str) -> None:
+        self._findings.append(self._document.finding("study.regression", message, ("regression", *at), hint=hint))
+
+
+def _near(name: str, names: tuple[str, ...]) -> str:
+    import difflib
+
+    near = difflib.get_close_matches(name, names, n=1)
+    return f"did you mean {near[0]!r}?" if near else "such as success, duration_s, planning_time_s, slip_m"

@@ -1,0 +1,59 @@
+"""A new project: small, sound, and commented for its reader."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from importlib import resources
+from pathlib import Path
+
+from rgss.documents import read_document
+from rgss.errors import DefinitionError
+from rgss.studies.document_kinds import DOCUMENT_KINDS, kind_of
+from rgss.studies.schema_headers import SCHEMAS, cannot_write, schema_reference, with_header
+
+
+def scaffold_texts() -> Mapping[str, str]:
+    """The files of a new project: name relative to its folder, and text."""
+    texts = {name.replace("gitignore", ".gitignore"): text for name, text in _packaged()}
+    return {**texts, **{f"{SCHEMAS}/{kind.schema_file}": kind.schema_text() for kind in DOCUMENT_KINDS}}
+
+
+def write_scaffold(folder: Path) -> tuple[str, ...]:
+    """Write a new project into a folder, which is made if it is not there.
+
+    Args:
+        folder: The folder; what is in it already stays as it is.
+
+    Returns:
+        The names of the files that were written, relative to the folder.
+
+    Raises:
+        DefinitionError: A file of that name is there already (then nothing is written), or the folder
+            cannot be written to.
+    """
+    texts = scaffold_texts()
+    try:
+        there = [name for name in texts if (folder / name).exists() or (folder / name).is_symlink()]
+        if there:
+            also = f" and {len(there) - 1} more are" if len(there) > 1 else " is"
+            raise DefinitionError(
+                f"{folder / there[0]}{also} there already, and nothing is overwritten", hint="name a new folder"
+            )
+        for name, text in texts.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("x", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+    except (OSError, ValueError) as error:  # ValueError: a name with a null character in it
+        raise cannot_write(folder, error) from error
+    return tuple(texts)
+
+
+def _packaged() -> Iterator[tuple[str, str]]:
+    """The packaged files, each YAML document with the line that names its schema."""
+    with resources.as_file(resources.files("rgss.studies") / "scaffold") as root:
+        for path in sorted(path for path in root.rglob("*") if path.is_file()):
+            name = path.relative_to(root).as_posix()
+            text = path.read_text(encoding="utf-8")
+            kind = kind_of(name, read_document(path, label=name).data) if name.endswith(".yaml") else None
+            yield name, text if kind is None else with_header(text, schema_reference(name, kind))

@@ -1,0 +1,263 @@
+"""A report of made evidence in headless Chromium, driven as a reader would."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import pytest
+from selenium import webdriver
+
+from rgss.evidence import (
+    PLANNED_PHASES,
+    EvidenceStore,
+    Failure,
+    Phase,
+    PhaseOutcome,
+    PhaseRecord,
+    PlanningRecord,
+    PlanOutcome,
+    Provenance,
+    TrialRecord,
+)
+from rgss.reports.report_page import TrialPictures, study_report_to_html
+from rgss.reports.trace_report import trace_report
+from rgss.studies.choosing import choose
+from rgss.studies.evidence_state import evidence_state
+from rgss.studies.expansion import trial_specs
+from rgss.studies.measuring import measure_variants
+from rgss.studies.project import FOLDERS, load_project
+from rgss.studies.report_document import report_document
+from rgss.studies.robustness import analyse_robustness
+from rgss.studies.sweep import key_of
+from rgss.studies.trace_evidence import trace_evidence
+from rgss.trace.model import build_trace_model
+from rgss.trials.metrics import METRICS
+
+REPOSITORY = Path(__file__).parents[2]
+PIXEL = bytes.fromhex(
+    "89504e470d0a1a0a0000000d49484452000000010000000108060000001f15c4890000000d49444154789c6360f8ffff3f0005fe02fe"
+    "a735818400000000049454e44ae426082"[:-1]
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """A study with evidence: its document, its traceability, and its folder."""
+
+    document: dict[str, Any]
+    trace: Any
+    folder: Path
+
+
+def made_record(spec) -> TrialRecord:
+    """A trial that was never run: STRIDE fails at the first move, some of TRRT drop the object."""
+    dropped = spec.planner == "TRRT" and spec.variant % 7 == 0 and spec.seed == 2
+    failure = Failure.PLANNING_LIMIT if spec.planner == "STRIDE" else Failure.OBJECT_DROPPED if dropped else None
+    ended = {None: 8, Failure.PLANNING_LIMIT: 0, Failure.OBJECT_DROPPED: 2}[failure]
+    time_s = (0.3 if spec.planner == "RRT" else 0.2) + 0.002 * spec.variant + 0.001 * spec.seed
+    planned = sum(list(Phase).index(phase) < max(1, ended) for phase in PLANNED_PHASES) if ended else 0
+    success = failure is None
+    metrics = dict.fromkeys(METRICS) | {
+        "success": int(success),
+        "phases_completed": ended,
+        "phases_total": 8,
+        "planning_time_s": (time_s,) * planned + (None,) * (5 - planned),
+        "path_length_m": (0.6,) * planned + (None,) * (5 - planned),
+        "motion_time_s": 9.0 + 0.1 * spec.seed,
+        "task_time_s": 9.0 + 0.1 * spec.seed + 5 * time_s if success else None,
+    }
+
+    def outcome(place: int) -> PhaseOutcome:
+        if place < ended:
+            return PhaseOutcome.COMPLETED
+        return PhaseOutcome.FAILED if place == ended and not success else PhaseOutcome.NOT_RUN
+
+    return TrialRecord(
+        variant=spec.variant,
+        seed=spec.seed,
+        fidelity=spec.fidelity,
+        success=success,
+        failure=failure,
+        failed_phase=None if success else list(Phase)[ended],
+        failure_detail="" if success else "no path",
+        phases=tuple(
+            PhaseRecord(
+                phase=phase,
+                outcome=outcome(place),
+                duration_s=1.0 + 0.1 * place if place <= ended else None,
+                metrics={},
+            )
+            for place, phase in enumerate(Phase)
+        ),
+        planning=tuple(
+            PlanningRecord(
+                subtask=phase,
+                outcome=PlanOutcome.SOLVED
+                if place < planned
+                else PlanOutcome.BUDGET_SPENT
+                if place == planned and failure is Failure.PLANNING_LIMIT
+                else PlanOutcome.NOT_RUN,
+                checks=100 + spec.variant,
+                simplification_checks=0,
+                time_s=time_s if place < planned else None,
+                path_length_m=0.6 if place < planned else None,
+            )
+            for place, phase in enumerate(PLANNED_PHASES)
+        ),
+        metrics=metrics,
+    )
+
+
+@pytest.fixture(scope="session")
+def study(tmp_path_factory) -> Study:
+    """The shipped study with a made record for each of its trials."""
+    folder = tmp_path_factory.mktemp("report") / "project"
+    for name in FOLDERS:
+        shutil.copytree(REPOSITORY / name, folder / name)
+    project = load_project(folder)
+    with EvidenceStore.open(project.evidence) as store:
+        for spec in trial_specs(project):
+            store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+        measured = measure_variants(project, store)
+        decision = choose(project, measured)
+        found = analyse_robustness(project, measured, decision)
+        document = report_document(project, measured, decision, found, store, evidence="evidence.sqlite")
+    trace = trace_report(
+        build_trace_model(project.requirements, project.measure_traces),
+        trace_evidence(project, measured, evidence_state(project, measured)),
+        title="Traceability",
+        definitions=project.measures,
+    )
+    return Study(document=document, trace=trace, folder=folder)
+
+
+@pytest.fixture(scope="session")
+def pictures() -> tuple[TrialPictures, ...]:
+    """Pictures of one pixel."""
+    return (
+        TrialPictures(title="Variant 28", note="It succeeded.", replay="rgss replay 0", filmstrip=PIXEL, film=PIXEL),
+    )
+
+
+@pytest.fixture(scope="session")
+def page(study, pictures, tmp_path_factory) -> Path:
+    """The report as a file."""
+    file = tmp_path_factory.mktemp("page") / "report.html"
+    file.write_text(study_report_to_html(study.document, study.trace, pictures=pictures), encoding="utf-8")
+    return file
+
+
+@pytest.fixture(scope="session")
+def large_page(study, tmp_path_factory) -> Path:
+    """The report of 10,000 variants as a file."""
+    path = REPOSITORY / "benchmarks" / "report_page.py"
+    spec = importlib.util.spec_from_file_location("report_page_benchmark", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    file = tmp_path_factory.mktemp("large") / "report.html"
+    file.write_text(
+        study_report_to_html(module.enlarged(study.document, module.VARIANTS), study.trace), encoding="utf-8"
+    )
+    return file
+
+
+class Reader:
+    """A browser with a page open."""
+
+    def __init__(self, driver: webdriver.Chrome) -> None:
+        self.driver = driver
+
+    def open(self, page: Path, *, width: int = 1400) -> None:
+        """Open a page and wait until its script is done."""
+        self.driver.execute_cdp_cmd(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600},
+        )
+        self.driver.get_log("browser")
+        self.driver.get_log("performance")
+        self.driver.get(page.as_uri())
+        self.until("return document.documentElement.dataset.ready === 'yes'")
+
+    def script(self, text: str, *arguments: Any) -> Any:
+        """Run a script in the page."""
+        return self.driver.execute_script(text, *arguments)
+
+    def until(self, text: str, *arguments: Any) -> None:
+        """Wait until a script says true."""
+        from selenium.webdriver.support.wait import WebDriverWait
+
+        WebDriverWait(self.driver, 30, poll_frequency=0.05).until(lambda _: self.script(text, *arguments))
+
+    def see_all_plots(self) -> None:
+        """Scroll through the page until every plot is drawn or says that there is nothing to draw."""
+        count = self.script("return document.querySelectorAll('.plot').length")
+        for place in range(count):
+            self.script("document.querySelectorAll('.plot')[arguments[0]].scrollIntoView()", place)
+            self.until("return document.querySelectorAll('.plot')[arguments[0]].children.length > 0", place)
+        self.until(
+            "return Array.from(document.querySelectorAll('.plot'))"
+            ".every((one) => one.querySelector('.main-svg, p') !== null)"
+        )
+
+    def text(self, selector: str) -> str:
+        """The text of an element."""
+        return self.script("return document.querySelector(arguments[0]).textContent", selector)
+
+    def rows(self, selector: str) -> list[list[str]]:
+        """The cells of the rows of a table."""
+        return self.script(
+            "return Array.from(document.querySelectorAll(arguments[0] + ' tbody tr'))"
+            ".map((row) => Array.from(row.cells).map((cell) => cell.textContent.trim()))",
+            selector,
+        )
+
+    def complaints(self) -> list[str]:
+        """What the console has to say."""
+        return [entry["message"] for entry in self.driver.get_log("browser")]
+
+    def requests(self) -> list[str]:
+        """What the page asked for beyond itself and what it carries."""
+        messages = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
+        asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+        return [url for url in asked if not url.startswith(("data:", "blob:")) and not url.endswith("/report.html")]
+
+    def accessibility_findings(self, *, without: tuple[str, ...] = ()) -> list[str]:
+        """What axe-core finds that is serious or critical, in all elements but those of some selectors."""
+        axe = resources.files("axe_core_python").joinpath("axe.min.js").read_text(encoding="utf-8")
+        self.script(axe)
+        found = self.driver.execute_async_script(
+            "const [without, done] = arguments;"
+            "axe.run({include: [['html']], exclude: without.map((one) => [one])}, {resultTypes: ['violations']})"
+            ".then((result) => done(result.violations.map((one) =>"
+            " [one.impact, one.id, one.nodes.length, one.nodes[0].html.slice(0, 160)])))",
+            list(without),
+        )
+        return [str(one) for one in found if one[0] in ("serious", "critical")]
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[webdriver.Chrome]:
+    """Headless Chromium."""
+    options = webdriver.ChromeOptions()
+    options.binary_location = str(shutil.which("chromium"))
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    service = webdriver.ChromeService(str(shutil.which("chromedriver")))
+    driver = webdriver.Chrome(options=options, service=service)
+    driver.set_script_timeout(60)
+    yield driver
+    driver.quit()
+
+
+@pytest.fixture
+def reader(browser) -> Reader:
+    """A reader with the browser."""
+    return Reader(browser)

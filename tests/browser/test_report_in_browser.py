@@ -1,0 +1,235 @@
+"""The report as a reader meets it: it opens, it is brushed and weighed, and it asks for nothing."""
+
+from __future__ import annotations
+
+import copy
+
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from rgss.reports.report_page import study_report_to_html
+
+pytestmark = pytest.mark.browser
+
+HOSTILE = "</script><script>window.hacked=1</script><img src=x onerror=window.hacked=2>\"'`=1+1 \u2028🤖<b>bold</b>"
+
+
+def test_it_opens_draws_everything_and_asks_for_nothing(reader, page):
+    reader.open(page)
+    reader.see_all_plots()
+
+    assert reader.complaints() == []
+    assert reader.requests() == []
+    # All but the pictures are there: a plot of each kind, and lines for every variant.
+    assert reader.script("return document.querySelectorAll('.plot .main-svg').length") >= 9
+    drawn = reader.script("return document.querySelector('#parallel canvas').dataset.drawn").split()
+    assert sum(map(int, drawn)) == 72
+
+
+def test_a_brush_on_an_axis_filters_every_other_view(reader, page, study):
+    reader.open(page)
+    reader.see_all_plots()
+    before = {name: reader.text(f"#{name}-note") for name in ("failure",)}
+    canvas = reader.driver.find_element(By.CSS_SELECTOR, "#parallel canvas")
+    reader.script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    box = canvas.rect
+    # The fourth axis is the planner's, with RRT at its foot: a drag over its lower quarter keeps RRT alone.
+    axis_x, foot, height = 64 + 3 * 108, 420 - 46, 420 - 62 - 46
+    to = (axis_x - box["width"] / 2, foot - 0.25 * height - box["height"] / 2)
+    start = (axis_x - box["width"] / 2, foot + 4 - box["height"] / 2)
+    (
+        ActionChains(reader.driver)
+        .move_to_element_with_offset(canvas, round(start[0]), round(start[1]))
+        .click_and_hold()
+        .move_to_element_with_offset(canvas, round(to[0]), round(to[1]))
+        .release()
+        .perform()
+    )
+    planner = next(one for one in study.document["parameters"] if one["name"] == "planner")
+    kept = [study.document["variants"]["id"][p] for p, name in enumerate(planner["values"]) if name == "RRT"]
+    reader.until("return document.getElementById('shown').textContent === arguments[0]", "24 of 72 variants are shown")
+    reader.until("return document.querySelectorAll('#verdict-table tbody tr').length === 24")
+
+    assert sorted(int(row[0]) for row in reader.rows("#verdict-table")) == kept
+    assert reader.text("#failure-note") != before["failure"]
+    assert reader.text("#failure-note").startswith("0 of 72 trials")
+    assert {int(row[1]) for row in reader.rows("#ranking-table")} <= set(kept)
+    reader.script("document.querySelector('#planning-table').closest('details').open = true")
+    reader.until("return document.querySelectorAll('#planning-table tbody tr').length > 0")
+    assert [row[0] for row in reader.rows("#planning-table")] == ["RRT"]
+    # A plot is drawn anew when it comes into sight.
+    reader.script("document.getElementById('planning-plot').scrollIntoView()")
+    reader.until("return document.getElementById('planning-plot').data.map((one) => one.name).join() === 'RRT'")
+    reader.script("document.getElementById('pareto-plot').scrollIntoView()")
+    reader.until(
+        "return document.getElementById('pareto-plot').data.flatMap((one) => one.meta)"
+        ".every((one) => arguments[0].includes(one))",
+        kept,
+    )
+
+    reader.driver.find_element(By.ID, "clear").click()
+    reader.until("return document.querySelectorAll('#verdict-table tbody tr').length === 72")
+    assert reader.text("#failure-note") == before["failure"]
+
+
+def test_the_keyboard_brushes_too(reader, page):
+    reader.open(page)
+    reader.script("document.getElementById('axis-ends').open = true")
+    slider = reader.driver.find_element(By.CSS_SELECTOR, "input[aria-label='gripper fingers to']")
+    slider.send_keys(Keys.HOME)
+
+    reader.until("return document.getElementById('shown').textContent === '36 of 72 variants are shown'")
+    assert slider.get_attribute("aria-valuetext") == "2"
+
+
+def test_a_weight_ranks_the_variants_anew_as_the_figures_say(reader, page, study):
+    reader.open(page)
+    document = study.document
+    ids, feasible = document["variants"]["id"], document["variants"]["feasible"]
+    weighted = document["weights"]["measures"]
+    ranked = sorted((rank, one) for rank, one in zip(document["variants"]["rank"], ids, strict=True) if rank)
+
+    before = [int(row[1]) for row in reader.rows("#ranking-table")]
+    assert before == [variant for _, variant in ranked[:10]]
+    assert reader.text("#weight-winner") == f"Variant {document['decision']['chosen']} stays the best."
+
+    place = next(index for index, one in enumerate(weighted) if one["id"] == "t_e")
+    cost = next(index for index, one in enumerate(weighted) if one["id"] == "C_total")
+    reader.driver.find_element(By.ID, f"weight-{place}").send_keys(Keys.END)
+    reader.driver.find_element(By.ID, f"weight-{cost}").send_keys(Keys.HOME)
+    raw = [one["weight"] for one in weighted]
+    raw[place], raw[cost] = 1.0, 0.0
+
+    def value(row):
+        worths = [one["worth"][row] if isinstance(one["worth"], list) else one["worth"] for one in weighted]
+        return sum(share / sum(raw) * worth for share, worth in zip(raw, worths, strict=True) if share)
+
+    expected = sorted((-round(value(row), 9), ids[row]) for row in range(len(ids)) if feasible[row])
+    after = reader.rows("#ranking-table")
+    assert [int(row[1]) for row in after] == [variant for _, variant in expected[:10]]
+    assert [float(row[2]) for row in after] == pytest.approx([-one for one, _ in expected[:10]], abs=5e-5)
+    assert [int(row[1]) for row in after] != before
+    assert f"Variant {expected[0][1]} would be the best" in reader.text("#weight-winner")
+
+    reader.driver.find_element(By.ID, "weight-reset").click()
+    assert [int(row[1]) for row in reader.rows("#ranking-table")] == before
+
+
+def test_a_variant_leads_to_its_trials_and_the_commands_that_run_them_again(reader, page, study):
+    reader.open(page)
+    reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table a[href='#variant-31']").click()
+
+    reader.until("return document.getElementById('variant-choice').value === '31'")
+    assert reader.script("return document.activeElement.id") == "evidence-title"
+    trials = study.document["trials"]
+    keys = [
+        key
+        for key, at in zip(trials["key"], trials["variant"], strict=True)
+        if study.document["variants"]["id"][at] == 31
+    ]
+    text = reader.text("#variant-evidence")
+    assert all(f"rgss replay {key}" in text for key in keys)
+    assert "rgss run 31 --seed 1 --fidelity contact" in text
+
+
+# The traceability sections are long, and the same at every width but for their layout.
+@pytest.mark.parametrize(("width", "without"), [(1400, ()), (400, (".matrix", "#verification", "#architecture"))])
+def test_an_audit_finds_nothing_serious_and_nothing_sticks_out(reader, page, width, without):
+    reader.open(page, width=width)
+    reader.script("for (const one of document.querySelectorAll('details')) one.open = true")
+    reader.see_all_plots()
+
+    assert reader.script("return document.documentElement.scrollWidth") <= width
+    assert reader.accessibility_findings(without=without) == []
+
+
+def test_texts_are_shown_as_texts(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    document["study"] = document["study_file"] = HOSTILE
+    for requirement in document["requirements"]:
+        requirement["text"] = requirement["criterion"] = HOSTILE
+    for parameter in document["parameters"]:
+        parameter["name"] = HOSTILE
+    for measure in document["measures"]:
+        measure["name"] = HOSTILE
+    for factor in document["effects"]:
+        for term in factor["main"]:
+            term["levels"] = [f"{HOSTILE} {level}" for level in term["levels"]]
+    document["planning"]["planners"][0]["name"] = HOSTILE
+    document["trials"]["failures"] = [HOSTILE] * len(document["trials"]["failures"])
+    document["decision"]["reasons"] = [HOSTILE]
+    document["provenance"]["files"].append([HOSTILE, HOSTILE])
+    document["assumptions"].append({"where": HOSTILE, "about": HOSTILE, "why": HOSTILE})
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    reader.open(file)
+    reader.script("for (const one of document.querySelectorAll('details')) one.open = true")
+    reader.see_all_plots()
+
+    assert reader.script("return window.hacked === undefined")
+    assert reader.script("return document.querySelectorAll('img, main b').length") == 0
+    assert reader.requests() == []
+    assert reader.complaints() == []
+    assert reader.text(".reasons li") == HOSTILE
+    assert HOSTILE in reader.text("#variant-evidence")
+    assert "<b>bold</b>" in reader.text("#planning-plot")
+
+
+def test_paper_has_every_table_and_every_plot(reader, page):
+    reader.open(page)
+    reader.script("dispatchEvent(new Event('beforeprint'))")
+
+    rows = reader.script(
+        "const all = Array.from(document.querySelectorAll('details.figures'));"
+        "return all.map((one) => one.querySelectorAll('td').length)"
+    )
+    # The second of them holds the sliders, which paper has no use for.
+    assert 0 not in [count for place, count in enumerate(rows) if place != 1]
+    assert reader.script("return document.querySelectorAll('details:not([open])').length") == 0
+    assert reader.script("return document.querySelectorAll('.plot .main-svg').length") >= 9
+    assert reader.complaints() == []
+
+
+def test_a_study_without_a_choice_says_so(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    count = len(document["variants"]["id"])
+    document["variants"] |= {"feasible": [0] * count, "pareto": [None] * count, "rank": [None] * count}
+    document["decision"] |= {
+        "chosen": None,
+        "runner_up": None,
+        "acceptability": None,
+        "headline": "No variant is chosen.",
+    }
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    reader.open(file)
+    reader.see_all_plots()
+
+    assert reader.complaints() == []
+    assert reader.text(".headline") == "No variant is chosen."
+    assert reader.text("#weight-winner") == "No variant meets every requirement."
+    assert reader.text("#acceptability-plot") == "There is nothing to draw here."
+    assert reader.rows("#ranking-table") == []
+
+
+def test_ten_thousand_variants_can_be_used(reader, large_page):
+    reader.open(large_page)
+    reader.see_all_plots()
+
+    assert large_page.stat().st_size < 15e6
+    assert reader.complaints() == []
+    # Many lines are one picture of how many there are; a table shows a page of them.
+    assert "density" in reader.script("return document.querySelector('#parallel canvas').dataset.drawn")
+    assert len(reader.rows("#verdict-table")) == 100
+    assert "Rows 1 to 100 of 10000" in reader.text("#verdict-table")
+    points = reader.script(
+        "return ['pareto', 'measures'].map((id) => document.getElementById(`${id}-plot`).data"
+        ".filter((one) => one.type !== 'histogram2d').reduce((sum, one) => sum + one.x.length, 0))"
+    )
+    assert max(points) < 5000
+    search = reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table input")
+    search.send_keys("9999")
+    reader.until("return document.querySelectorAll('#verdict-table tbody tr').length === 1")
+    assert reader.rows("#verdict-table")[0][0] == "9999"

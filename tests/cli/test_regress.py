@@ -1,0 +1,171 @@
+"""``rgss regress`` on evidence that is there already."""
+
+from __future__ import annotations
+
+import json
+import re
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from rgss.evidence import EvidenceStore, Provenance
+from rgss.studies.project import load_project
+from rgss.studies.regressing_runs import guard_of, watched_trials
+from rgss.studies.sweep import key_of
+
+from .conftest import made_record
+
+STUDY = "studies/pick_place.yaml"
+BASELINE = "studies/pick_place.baseline.json"
+SECTION = """
+regression:
+  runs:
+    - {id: planning, fidelity: kinematic, variants: "57,60", replicates: 4, batch: 4, cap: 8}
+  metrics:
+    - {metric: success, better: higher, margin: 40 %}
+    - {metric: planning_time_s, phases: all, better: lower, margin: 0.2 s}
+"""
+
+
+@pytest.fixture
+def guarded(folder):
+    """A copy of the shipped project that guards a little, with evidence of all that it watches."""
+    path = folder / STUDY
+    text = path.read_text(encoding="utf-8")
+    path.write_text(re.sub(r"(?ms)^regression:\n.*?(?=^\S|\Z)", "", text) + SECTION, encoding="utf-8")
+    project = load_project(folder)
+    with EvidenceStore.open(project.evidence) as store:
+        for trials in watched_trials(project, guard_of(project)):
+            for spec in trials.specs(trials.run.cap):
+                store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+    return folder
+
+
+@pytest.fixture
+def with_baseline(rgss, guarded):
+    """The same with a baseline."""
+    told = rgss("regress", "--project", guarded, "--update", "--reason", "First <b>baseline</b>.")
+    assert (told.status, told.errors) == (0, "")
+    assert told.output == f"{BASELINE} written: 16 trials, change 1 of its history.\n"
+    return guarded
+
+
+@pytest.fixture
+def spoil(with_baseline):
+    """Changes the baseline, as if the code had been better then."""
+
+    def change(edit):
+        path = with_baseline / BASELINE
+        document = json.loads(path.read_text(encoding="ascii"))
+        edit(document)
+        path.write_text(json.dumps(document), encoding="ascii")
+        return with_baseline
+
+    return change
+
+
+def faster(document):
+    run = document["runs"]["planning"]
+    run["values"]["planning_time_s"]["lift"] = run["values"]["planning_time_s"]["move_to_grasp"]
+    for row in run["values"]["planning_time_s"]["move_to_grasp"].values():
+        row[:] = [value - 0.5 for value in row]
+    for row in run["fingerprints"].values():
+        row[:] = [" ".join(["f" * 12] * 9) for _ in row]
+
+
+def test_nothing_changed(rgss, with_baseline):
+    told = rgss("regress", "--project", with_baseline)
+    assert (told.status, told.errors) == (0, "")
+    assert told.output.splitlines() == [
+        f"{STUDY} against {BASELINE}: same",
+        "6 comparisons: 6 same; seeds after 1 look: planning 4",
+        "behaviour unchanged: 8 trials the same bit for bit",
+    ]
+    assert len(rgss("regress", "--all", "--project", with_baseline).output.splitlines()) == 9
+
+
+def test_a_regression_in_every_form(rgss, spoil, tmp_path):
+    folder = spoil(faster)
+    words = ("regress", "--project", folder, "--junit", tmp_path / "j.xml", "--markdown", tmp_path / "s.md")
+    told = rgss(*words)
+    assert (told.status, told.errors) == (1, "")
+    assert "  WORSE         planning_time_s at move_to_grasp (run planning): " in told.output
+    assert "  MISSING       planning_time_s at lift (run planning): 8 trials had a value" in told.output
+    suite = ET.fromstring((tmp_path / "j.xml").read_bytes())  # noqa: S314 - our own file
+    failed = {case.get("name") for case in suite if case.find("failure") is not None}
+    assert failed == {"planning_time_s at move_to_grasp", "planning_time_s at lift"}
+    assert "❌ worse | planning\\_time\\_s | move\\_to\\_grasp" in (tmp_path / "s.md").read_text(encoding="utf-8")
+    document = rgss("regress", "--json", "--project", folder).document
+    assert (document["verdict"], document["fails"]) == ("failed", True)
+
+
+def test_what_is_inconclusive_fails_if_it_must(rgss, spoil):
+    def noisy(document):
+        faster(document)
+        del document["runs"]["planning"]["values"]["planning_time_s"]["lift"]
+        for row in document["runs"]["planning"]["values"]["planning_time_s"]["move_to_grasp"].values():
+            row[:] = [value + 0.5 + (-1) ** place for place, value in enumerate(row)]
+
+    folder = spoil(noisy)
+    told = rgss("regress", "--project", folder)
+    assert "INCONCLUSIVE  planning_time_s at move_to_grasp" in told.output
+    assert "seeds after 2 looks: planning 8" in told.output
+    assert told.status == 0
+    assert rgss("regress", "--strict", "--project", folder).status == 1
+
+
+def test_the_history_goes_on(rgss, with_baseline):
+    told = rgss("regress", "--project", with_baseline, "--update", "--reason", "Again.", "--json")
+    assert told.document == {"baseline": BASELINE, "trials": 16, "changes": 2}
+    history = json.loads((with_baseline / BASELINE).read_text(encoding="ascii"))["history"]
+    assert [change["reason"] for change in history] == ["First <b>baseline</b>.", "Again."]
+
+
+def test_a_baseline_elsewhere(rgss, guarded, tmp_path):
+    path = tmp_path / "other.json"
+    assert rgss("regress", "--project", guarded, "--baseline", path, "--update", "--reason", "x").status == 0
+    assert not (guarded / BASELINE).exists()
+    assert rgss("regress", "--project", guarded, "--baseline", path).status == 0
+
+
+def test_a_damaged_baseline_is_not_replaced_unseen(rgss, with_baseline):
+    path = with_baseline / BASELINE
+    path.write_text("{", encoding="ascii")
+    told = rgss("regress", "--project", with_baseline, "--update", "--reason", "x")
+    assert told.status == 2
+    assert told.complaint.startswith(f"rgss: the baseline {BASELINE} is not JSON: ")
+    assert path.read_text(encoding="ascii") == "{"
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        ((), f"rgss: there is no baseline {BASELINE} (make it with 'rgss regress --update --reason TEXT')"),
+        (("--jobs", "0"), "rgss: --jobs must be at least 1 (leave it away for one process a core)"),
+        (("--reason", "x"), "rgss: --reason needs --update (without it nothing is changed)"),
+        (("--update",), "rgss: --update needs a reason (say with --reason why the numbers may move)"),
+        (("--update", "--reason", " "), "rgss: --update needs a reason (say with --reason why the numbers may move)"),
+        (
+            ("--update", "--reason", "x", "--junit", "j"),
+            "rgss: --update and --junit exclude each other (compare in a run of its own)",
+        ),
+        (
+            ("--update", "--reason", "x", "--markdown", "m"),
+            "rgss: --update and --markdown exclude each other (compare in a run of its own)",
+        ),
+        (
+            ("--update", "--reason", "x", "--strict"),
+            "rgss: --update and --strict exclude each other (compare in a run of its own)",
+        ),
+    ],
+)
+def test_bad_input(rgss, untouched, words, complaint):
+    told = rgss("regress", "--project", untouched, *words)
+    assert (told.status, told.output, told.complaint) == (2, "", complaint)
+
+
+def test_files_that_cannot_be_written(rgss, with_baseline, tmp_path):
+    for option in ("--junit", "--markdown"):
+        told = rgss("regress", "--project", with_baseline, option, tmp_path / "no" / "file")
+        assert told.status == 2
+        assert "cannot be written" in told.complaint

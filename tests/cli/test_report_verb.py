@@ -1,0 +1,221 @@
+"""``rgss report``: one page whose figures are those of the study, and one line for what is wrong."""
+
+from __future__ import annotations
+
+import json
+import re
+from contextlib import redirect_stdout
+from io import StringIO
+
+import numpy as np
+import pytest
+
+from rgss.cli import report_pictures
+from rgss.cli.main import main
+from rgss.evidence import EvidenceStore
+from rgss.studies.choosing import choose
+from rgss.studies.expansion import trial_specs
+from rgss.studies.measuring import measure_variants
+from rgss.studies.planning_runs import planning_runs
+from rgss.studies.project import load_project
+from rgss.studies.report_trials import NotableTrial
+from rgss.studies.robustness import analyse_robustness
+from rgss.trials.run import run_trial
+
+
+@pytest.fixture(scope="module")
+def told(with_evidence, tmp_path_factory):
+    """The page, and the document that it shows."""
+    file = tmp_path_factory.mktemp("report") / "report.html"
+    with redirect_stdout(StringIO()) as output:
+        status = main(["report", "--project", str(with_evidence), "--out", str(file), "--no-film", "--json"])
+    answer = json.loads(output.getvalue())
+    assert status == 0
+    assert answer["bytes"] == file.stat().st_size
+    return file.read_text(encoding="utf-8"), answer["report"]
+
+
+@pytest.fixture(scope="module")
+def side(with_evidence):
+    """The project, its measures, its decision and how robust that is, from the study itself."""
+    project = load_project(with_evidence)
+    with EvidenceStore.open(project.evidence, create=False) as store:
+        measured = measure_variants(project, store)
+        runs = planning_runs(project, store)
+    decision = choose(project, measured)
+    return project, measured, decision, analyse_robustness(project, measured, decision), runs
+
+
+def at(column, place):
+    return column[place] if isinstance(column, list) else column
+
+
+def test_estimates_and_verdicts_are_those_of_the_study(told, side):
+    _, document = told
+    _, measured, *_ = side
+    assert document["variants"]["id"] == [entry.variant.id for entry in measured]
+    for place, entry in enumerate(measured):
+        for column in document["measures"]:
+            estimate = entry.estimates[column["id"]]
+            assert at(column["value"], place) == (
+                None if estimate.value is None else pytest.approx(estimate.value, rel=1e-4)
+            )
+            if column["from_trials"]:
+                assert at(column["n"], place) == estimate.n
+                assert at(column["low"], place) == (
+                    None if estimate.low is None else pytest.approx(estimate.low, rel=1e-4)
+                )
+        for column in document["requirements"]:
+            assert at(column["verdict"], place) == entry.verdicts[column["id"]].value
+
+
+def test_the_decision_and_the_ranking_are_those_of_the_study(told, side):
+    _, document = told
+    _, measured, decision, found, _ = side
+    variants = document["variants"]
+    assert document["decision"]["chosen"] == decision.chosen
+    ranks = {one: rank for rank, one in zip(variants["rank"], variants["id"], strict=True) if rank}
+    assert sorted(ranks, key=ranks.get) == [one.variant for one in decision.ranking]
+    # What the page ranks with gives the values that the study has.
+    worths = np.array(
+        [np.broadcast_to(np.array(one["worth"], dtype=float), len(measured)) for one in document["weights"]["measures"]]
+    )
+    weights = np.array([one["weight"] for one in document["weights"]["measures"]])
+    values = {one.variant: one.value for one in decision.ranking}
+    for place, variant in enumerate(variants["id"]):
+        if variant in values:
+            assert weights @ worths[:, place] == pytest.approx(values[variant], abs=1e-10)
+    front = [variant for variant, support in zip(variants["id"], variants["pareto"], strict=True) if support]
+    assert front == [found.variants[p.row] for p in found.front.points if p.support.value != "dominated"]
+    first = {found.variants[row]: share for row, share in enumerate(found.weighting.acceptability.first)}
+    for one in document["decision"]["acceptability"]["variants"]:
+        assert one["first"] == pytest.approx(first[one["variant"]], abs=1e-6)
+
+
+def test_main_effects_are_those_of_the_study(told, side):
+    _, document = told
+    *_, found, _ = side
+    of = {one.measure: one.analysis for one in found.effects.measures}
+    for column in document["effects"]:
+        analysis = of[column["measure"]]
+        mains = [] if analysis is None else [effect for effect in analysis.effects if len(effect.factors) == 1]
+        for term, effect in zip(column["main"], mains, strict=True):
+            assert term["factor"] == effect.factors[0]
+            assert term["effect"] == pytest.approx(effect.levels.tolist(), rel=1e-6, abs=1e-12)
+
+
+def test_each_search_is_shown_once(told, side):
+    _, document = told
+    *_, runs = side
+    planning = document["planning"]
+    names = [one["name"] for one in planning["planners"]]
+    shown = sorted(
+        (planner, time or -1.0) for planner, time in zip(planning["planner"], planning["time_s"], strict=True)
+    )
+    expected = sorted((names.index(run.planner), run.time_s if run.outcome.value == "solved" else -1.0) for run in runs)
+    assert [planner for planner, _ in shown] == [planner for planner, _ in expected]
+    assert [time for _, time in shown] == pytest.approx([time for _, time in expected], rel=1e-6)
+    # Every variant shares some searches, unless none of its moves was planned.
+    assert {place for group in planning["groups"] for place in group} <= set(range(72))
+
+
+def test_trials_their_failures_and_their_commands(told, side):
+    text, document = told
+    project, measured, decision, *_ = side
+    trials = document["trials"]
+    keys = [key[:12] for entry in measured for key in entry.trials]
+    assert trials["key"] == keys
+    failed = sum(failure >= 0 for failure in trials["failure"])
+    assert failed == sum(not record.success for entry in measured for record in entry.records)
+    notable = [(trials["key"][one["trial"]], one["why"]) for one in trials["notable"]]
+    first = next(entry for entry in measured if entry.variant.id == decision.chosen)
+    assert notable[0] == (first.trials[0][:12], "the deciding trial: the chosen variant")
+    assert [why for _, why in notable[1:]] == ["a failure of the kind “planning limit”"]
+    assert "The report was made without films" in text
+    assert len(trials["timelines"]) == len(keys) == len(trial_specs(project))
+
+
+def test_assumptions_and_provenance_are_there(told, side):
+    _, document = told
+    project, *_ = side
+    said = {(one["where"], one["about"]) for one in document["assumptions"]}
+    assert ("studies/pick_place.yaml", "planning.charge_per_check") in said
+    assert len([one for one in said if one[0] == "measures"]) == len(project.measures.assumptions)
+    assert "studies/pick_place.yaml" in [name for name, _ in document["provenance"]["files"]]
+    assert {"ompl", "pybullet"} <= {name for name, _ in document["provenance"]["versions"]}
+
+
+def test_the_same_study_gives_the_same_bytes(told, with_evidence, tmp_path, rgss):
+    text, _ = told
+    again = tmp_path / "again.html"
+    said = rgss("report", "--project", with_evidence, "--out", again, "--no-film")
+
+    assert said.status == 0
+    assert said.output.endswith(f"Wrote {again} ({again.stat().st_size / 1e6:.1f} MB)\n")
+    assert again.read_text(encoding="utf-8") == text
+    assert len(text) < 15e6
+
+
+def test_the_page_names_nothing_to_load(told):
+    text, _ = told
+    shell = re.sub(r"<script[^>]*>.*?</script>", "", text, flags=re.DOTALL)
+    assert re.findall(r'(?:src|srcset|action|poster)="(?!data:)', shell) == []
+    assert re.findall(r"<(?:link|iframe|object|embed)\b|@import|url\(", shell) == []
+    assert re.findall(r'href="(?!#)', shell) == []
+    assert "default-src 'none'" in text
+
+
+def test_without_evidence_one_line_says_what_to_run(folder, tmp_path, rgss):
+    said = rgss("report", "--project", folder, "--out", tmp_path / "report.html")
+
+    assert said.status == 2
+    assert "run the sweep first" in said.complaint
+    assert not (tmp_path / "report.html").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "problem"),
+    [("report.txt", "does not end in .html"), ("no/where/report.html", "there is no folder")],
+)
+def test_a_wrong_file_is_told_before_anything_is_done(with_evidence, tmp_path, rgss, name, problem):
+    said = rgss("report", "--project", with_evidence, "--out", tmp_path / name)
+
+    assert said.status == 2
+    assert problem in said.complaint
+
+
+def test_a_result_of_tests_needs_tests(with_evidence, tmp_path, rgss):
+    junit = tmp_path / "junit.xml"
+    junit.write_text("<testsuites/>", encoding="utf-8")
+    said = rgss("report", "--project", with_evidence, "--out", tmp_path / "r.html", "--no-film", "--junit", junit)
+
+    assert said.status == 2
+    assert "--junit is given, but the project has no tests" in said.complaint
+
+
+def test_what_cannot_be_filmed_is_said(side):
+    project, measured, *_ = side
+    notable = [NotableTrial(key="0" * 64, record=measured[0].records[0], why="x")]
+    pictures, notice = report_pictures.trial_pictures(project.with_fidelity("kinematic"), notable, wanted=True)
+    assert pictures == ()
+    assert notice == "Trials of kinematic fidelity have nothing to film; those with contact have."
+    assert report_pictures.trial_pictures(project, [], wanted=True) == ((), "There are no trials to look at.")
+
+
+@pytest.mark.engine
+def test_a_notable_trial_is_run_again_and_filmed(side, monkeypatch):
+    project, *_ = side
+    monkeypatch.setattr(report_pictures, "WIDTH", 200)
+    monkeypatch.setattr(report_pictures, "HEIGHT", 150)
+    monkeypatch.setattr(report_pictures, "RATE_HZ", 1.0)
+    (spec,) = trial_specs(project, variants=[project.designs.variant(28)], seeds=[1])
+    one = NotableTrial(key="ab" * 32, record=run_trial(spec), why="the deciding trial")
+
+    (picture,), notice = report_pictures.trial_pictures(project, [one], wanted=True)
+
+    assert notice == ""
+    assert picture.title == "Variant 28, seed 1: the deciding trial"
+    assert picture.note == "It succeeded."
+    assert picture.replay == "rgss replay abababababab"
+    assert picture.filmstrip.startswith(b"\x89PNG")
+    assert picture.film.startswith(b"GIF89a")

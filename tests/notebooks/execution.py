@@ -1,0 +1,29 @@
+"""Runs a notebook and writes it with its outputs: ``python execution.py NOTEBOOK SOCKETS``.
+
+A process of its own, because the client of a kernel leaves sockets open; the kernel is reached through files.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+from traitlets.config import Config
+
+LONGEST_S = 300
+
+
+def main() -> None:
+    """Run the notebook in its folder."""
+    path, sockets = Path(sys.argv[1]), Path(sys.argv[2])
+    read = nbformat.read(path, as_version=4)
+    reached = Config({"KernelManager": {"transport": "ipc", "ip": str(sockets / "s")}})
+    resources = {"metadata": {"path": str(path.parent)}}
+    NotebookClient(read, config=reached, kernel_name="python3", timeout=LONGEST_S, resources=resources).execute()
+    nbformat.write(read, path)
+
+
+if __name__ == "__main__":
+    main()

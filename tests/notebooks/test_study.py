@@ -1,0 +1,245 @@
+"""What a study does beyond its numbers: it is frozen, says what is missing, and runs it."""
+
+from __future__ import annotations
+
+import dataclasses
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import rgss
+from rgss.errors import DefinitionError, DocumentError, EvidenceError, SimulationError
+from rgss.evidence import EvidenceStore, RunFailure, RunFailureKind
+from rgss.studies import analysis_sweep
+from rgss.studies.recorded_verdicts import read_record, study_key
+from rgss.studies.sweep import LostTrials, SweepResult
+from rgss.trials.versions import ENTRIES, source_of
+
+from .conftest import ASKED
+
+FEW = ["fingers=two", "velocity=fast"]
+
+
+def test_it_is_found_from_within_the_project(empty, monkeypatch):
+    monkeypatch.chdir(empty / "studies")
+
+    assert repr(rgss.load_study()) == "Study('pick_place', 8 variants × 3 seeds, contact fidelity)"
+    assert repr(rgss.load_study("..", "studies/pick_place.yaml", **ASKED)) == (
+        "Study('pick_place', 8 variants × 2 seeds, kinematic fidelity)"
+    )
+
+
+def test_it_is_frozen(study):
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        study.project = None
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        study.trade().scenario = None
+
+
+def test_a_changed_frame_changes_nothing_else(study):
+    frame = study.measures
+    frame["value"] = 0.0
+
+    assert (study.measures["value"] != 0.0).any()
+
+
+def test_without_evidence_there_are_designs_alone(empty):
+    study = rgss.load_study(empty, **ASKED)
+    hint = (
+        f"call sweep(), or run 'rgss sweep studies/pick_place.yaml --project {empty} --fidelity kinematic "
+        "--replicates 2'"
+    )
+
+    assert study.variants["feasible"].isna().all()
+    assert study.variants["trials"].eq(0).all()
+    assert study.variants["missing"].eq(2).all()
+    for ask in (
+        lambda: study.trials,
+        lambda: study.phases,
+        lambda: study.measures,
+        lambda: study.verdicts,
+        lambda: study.decision,
+        lambda: study.ranking,
+        lambda: study.pareto,
+        study.effects,
+        study.robustness,
+        study.trade,
+        lambda: study.trade({"weight.t_e": 0.3}),
+    ):
+        with pytest.raises(EvidenceError) as caught:
+            ask()
+        assert caught.value.message == f"there is no evidence in {empty / '.rgss/evidence.sqlite'}"
+        assert caught.value.hint == hint
+    assert not (empty / ".rgss").exists()
+
+
+def test_evidence_of_another_model_is_none(changeable):
+    scene = changeable / "scenes/restaurant.yaml"
+    text = scene.read_text(encoding="utf-8")
+    assert "gravity: 9.81 m/s^2" in text
+    scene.write_text(text.replace("gravity: 9.81 m/s^2", "gravity: 9.8 m/s^2"), encoding="utf-8")
+    study = rgss.load_study(changeable, **ASKED)
+
+    with pytest.raises(EvidenceError) as caught:
+        _ = study.trials
+    assert caught.value.message == (
+        "no trial of study 'pick_place' at kinematic fidelity has evidence for the project as it is now; "
+        "16 have evidence of an earlier model, code or engine"
+    )
+    assert caught.value.hint.startswith("call sweep(), or run 'rgss sweep ")
+    assert set(study.verdicts["verdict"]) == {"met", "stale"}
+
+
+def test_a_part_of_the_evidence_gives_no_decision(empty):
+    there = []
+    study = rgss.load_study(empty, **ASKED).sweep(FEW, jobs=0, on_trial=lambda done, all_: there.append((done, all_)))
+    variants = study.variants
+
+    assert there == [(number, 4) for number in range(1, 5)]
+    assert variants.index[variants["trials"] == 2].tolist() == [4, 8]
+    assert variants["missing"].sum() == 12
+    assert variants["feasible"].isna().all()
+    assert study.trials.index.tolist() == [(4, 1), (4, 2), (8, 1), (8, 2)]
+    assert study.measures.loc[(4, "t_e"), "n"] == 2
+    assert study.measures.loc[(1, "t_e"), "n"] == 0
+    assert set(read_record(empty).of_study(study_key("studies/pick_place.yaml", "kinematic"))["SYS-005"]) == {4, 8}
+    with pytest.raises(EvidenceError, match=r"12 of 16 trials have no evidence.*run 'rgss sweep' first"):
+        _ = study.decision
+
+
+def test_a_second_sweep_runs_nothing(changeable):
+    def trials():
+        with EvidenceStore.open(changeable / ".rgss/evidence.sqlite", create=False) as store:
+            return [(trial.key, trial.content_digest) for trial in store.iterate()]
+
+    before = trials()
+    study = rgss.load_study(changeable, **ASKED)
+    again = study.sweep(jobs=0)
+
+    assert trials() == before
+    assert again is not study
+    assert again.measures.equals(study.measures)
+
+
+@pytest.mark.parametrize(
+    ("only", "ids"),
+    [(3, [3]), (np.int64(3), [3]), ("1,5", [1, 5]), ([1], [1]), (["1-6", "fingers=two"], [3, 4])],
+)
+def test_which_variants_are_swept(empty, monkeypatch, only, ids):
+    asked = []
+
+    def sweep(specs, store, **options):
+        asked.extend(specs)
+        return SweepResult(made={}, reused={}, lost=())
+
+    monkeypatch.setattr(analysis_sweep, "sweep", sweep)
+    rgss.load_study(empty, **ASKED).sweep(only, jobs=0)
+
+    assert sorted({spec.variant for spec in asked}) == ids
+    assert len(asked) == 2 * len(ids)
+
+
+def test_a_study_with_screening_tries_the_survivors_alone(empty):
+    file = empty / "studies/pick_place.yaml"
+    text = file.read_text(encoding="utf-8")
+    wanted = "fidelity: [kinematic, dynamic]\npromotion: {keep: 2}"
+    file.write_text(text.replace("\nfidelity: contact\n", f"\n{wanted}\n", 1), encoding="utf-8")
+    study = rgss.load_study(empty, replicates=1).sweep(jobs=0)
+    variants, fates = study.variants, study.variants["screening"]
+    promoted = variants.index[fates == "promoted"]
+
+    assert set(fates) == {"promoted", "outranked"}
+    assert variants["missing"].eq(0).all()
+    assert set(study.trials.index.get_level_values("variant")) == set(promoted)
+    assert set(study.trials["fidelity"]) == {"dynamic"}
+    assert variants["feasible"].notna().sum() == len(promoted) < 8
+
+
+def test_lost_trials_are_an_error(empty, monkeypatch):
+    failure = RunFailure(
+        key="0" * 64, what="plan", kind=RunFailureKind.CRASHED, detail="killed by signal 9", attempts=2
+    )
+    lost = LostTrials(failure=failure, trials=((1, 1), (1, 2)))
+    monkeypatch.setattr(
+        analysis_sweep, "sweep", lambda *specs, **options: SweepResult(made={}, reused={}, lost=(lost,))
+    )
+
+    with pytest.raises(SimulationError) as caught:
+        rgss.load_study(empty, **ASKED).sweep(jobs=0)
+    assert str(caught.value) == (
+        f"2 trials could not be made; first, a plan: {failure.kind.value}: killed by signal 9 "
+        "(the others are kept; sweep again to try these once more)"
+    )
+
+
+@pytest.mark.parametrize(
+    ("guarded", "said"), [(False, "needs 'if __name__ == \"__main__\":'; or give jobs=0"), (True, "")]
+)
+def test_a_script_that_sweeps_with_processes(empty, guarded, said):
+    sweep = "rgss.load_study(fidelity='kinematic', replicates=1).sweep(4, jobs=1)"
+    guard = "if __name__ == '__main__': " if guarded else ""
+    (empty / "script.py").write_text(f"import rgss\n{guard}{sweep}\n", encoding="utf-8")
+    run = subprocess.run([sys.executable, "script.py"], cwd=empty, capture_output=True, text=True, check=False)
+
+    assert (run.returncode == 0) is guarded
+    assert said in run.stderr.splitlines()[-1] if said else run.stderr == ""
+    assert (len(rgss.load_study(empty, fidelity="kinematic", replicates=1).trials) if guarded else 1) == 1
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda study: study.columns("trial"), "there is no frame 'trial' (frames: variants, trials, phases,"),
+        (lambda study: study.sweep(jobs=-1), "-1 is no number of processes (0 works in this process)"),
+        (lambda study: study.sweep("d8=PRM", jobs=0), "only: "),
+        (lambda study: study.trade({"weight.x": 1}), "--what-if: there is no 'weight.x'"),
+        (lambda study: study.trade("weight.t_e"), "--what-if: 'weight.t_e' is no supposition"),
+        (lambda study: study.trial(99), "there is no variant 99"),
+        (lambda study: study.trial(1, -1), "seed -1 is out of range (give a seed from 0 to 2147483647)"),
+        (lambda study: study.trial(1.5), "variant 1.5 is no whole number (give an id and a seed)"),
+        (lambda study: study.trial(1, "2"), "seed '2' is no whole number"),
+        (lambda study: study.trial(1, fidelity="real"), "there is no fidelity 'real'"),
+        (lambda study: study.trial(1, rate_hz=1), "1 steps a second are out of range (give from 60 to 10000)"),
+        (lambda study: study.payload(1, friction=-0.1), "no coefficient of friction is -0.1 (give a number from 0 on)"),
+        (lambda study: study.payload(1, finger_force_n=-1.0), "the force of a finger"),
+    ],
+)
+def test_what_cannot_be(study, ask, message):
+    with pytest.raises(DefinitionError) as caught:
+        ask(study)
+    assert message in str(caught.value)
+
+
+def test_what_cannot_be_loaded(empty, tmp_path):
+    with pytest.raises(DefinitionError, match="is not a project"):
+        rgss.load_study(tmp_path)
+    with pytest.raises(DefinitionError, match="replicates must be from 1 to"):
+        rgss.load_study(empty, replicates=0)
+    with pytest.raises(DefinitionError, match="there is no fidelity 'real'"):
+        rgss.load_study(empty, fidelity="real")
+    with pytest.raises(DocumentError):
+        rgss.load_study(empty, "studies/none.yaml")
+    assert issubclass(DocumentError, rgss.RgssError)
+
+
+def test_what_is_public():
+    assert rgss.__all__ == ["RgssError", "load_study"]
+
+
+def test_the_interface_is_no_part_of_the_code_that_makes_trials():
+    for piece in ENTRIES:
+        modules = source_of(piece).modules
+        assert "rgss" not in modules
+        assert not any(name.startswith(("rgss.studies", "rgss.reports")) for name in modules)
+
+
+def test_loading_draws_nothing_and_starts_no_engine(swept):
+    script = (
+        f"import sys, rgss; rgss.load_study({str(swept)!r}, fidelity='kinematic', replicates=2).measures; "
+        "print(*sorted({'matplotlib', 'PIL', 'pybullet', 'ompl', 'cvxpy'} & set(sys.modules)))"
+    )
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+
+    assert (run.returncode, run.stdout.strip(), run.stderr) == (0, "", "")

@@ -1,0 +1,151 @@
+"""What is said of a metric, from its pairs."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from rgss.regression import paired
+from rgss.regression.comparing import Outcome, judge, pair
+from rgss.regression.looking import settle
+
+TIMES = [2.0, 2.5, 1.5, 3.0, 2.2, 1.9]
+
+
+def outcome_of(*candidates, level=0.05):
+    return [one.outcome for one in judge(candidates, level=level, look=1)]
+
+
+@pytest.mark.parametrize(
+    ("by", "higher", "expected"),
+    [
+        (0.0, False, Outcome.SAME),
+        (0.5, False, Outcome.SAME),
+        (1.5, False, Outcome.WORSE),
+        (-1.5, False, Outcome.BETTER),
+        (1.5, True, Outcome.BETTER),
+        (-1.5, True, Outcome.WORSE),
+        (1.0, False, Outcome.INCONCLUSIVE),
+    ],
+)
+def test_a_shift_against_its_margin(candidate, by, higher, expected):
+    new = [each + by + 0.001 * place for place, each in enumerate(TIMES)]
+    if by == 1.0:
+        new = [each + by + 0.1 * (-1) ** place for place, each in enumerate(TIMES)]
+    assert outcome_of(candidate(TIMES, new, higher=higher)) == [expected]
+
+
+def test_noise_beyond_the_margin_is_inconclusive(candidate):
+    assert outcome_of(candidate([0.0, 9.0, 3.0, 5.0], [9.0, 0.0, 5.0, 3.0])) == [Outcome.INCONCLUSIVE]
+
+
+def test_variants_of_a_seed_are_one_draw(candidate):
+    one = candidate({1: [1.0, 2.0], 2: [3.0, 4.0]}, {1: [2.0, 2.0], 2: [6.0, 4.5]})
+    pairs = pair(one.baseline, one.current, one.seeds, one.guard)
+    assert pairs.worsening.tolist() == [2.0, 0.25]
+    assert (pairs.count, pairs.lost) == (4, 0)
+    # Ten copies of a variant say no more than one.
+    noisy = np.random.default_rng(1).normal(0.8, 1.0, size=8).tolist()
+    zeros = [0.0] * 8
+    (single,) = judge([candidate(zeros, noisy)], level=0.05, look=1)
+    copies = dict.fromkeys(range(1, 11), noisy)
+    (many,) = judge([candidate(dict.fromkeys(copies, zeros), copies)], level=0.05, look=1)
+    assert many.p_values == pytest.approx(single.p_values)
+
+
+def test_what_no_trial_tells_any_more_is_missing(candidate):
+    (found,) = judge([candidate(TIMES, [None] * 6)], level=0.05, look=1)
+    assert (found.outcome, found.lost, found.worsening) == (Outcome.MISSING, 6, None)
+
+
+def test_what_some_trials_tell_no_more_is_counted(candidate):
+    (found,) = judge([candidate([*TIMES, None], [*TIMES[:4], None, None, 1.0])], level=0.05, look=1)
+    assert (found.outcome, found.pairs, found.lost) == (Outcome.SAME, 4, 2)
+
+
+def test_one_pair_is_inconclusive(candidate):
+    assert outcome_of(candidate([1.0], [9.0])) == [Outcome.INCONCLUSIVE]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ([1.0] * 12, [0.0] * 12, Outcome.WORSE),
+        ([0.0] * 12, [1.0] * 12, Outcome.BETTER),
+        ([1.0] * 12, [1.0] * 12, Outcome.SAME),
+        # Nothing changed in four seeds, which proves little of a probability.
+        ([1.0] * 4, [1.0] * 4, Outcome.INCONCLUSIVE),
+        ([1.0] * 4, [0.0] * 4, Outcome.INCONCLUSIVE),
+        # Six of thirty are worse and none is better: significant, but less than the margin.
+        ([1.0] * 30, [0.0] * 6 + [1.0] * 24, Outcome.INCONCLUSIVE),
+        ([1.0] * 30, [0.0] * 8 + [1.0] * 22, Outcome.WORSE),
+    ],
+)
+def test_success(candidate, old, new, expected):
+    assert outcome_of(candidate(old, new, success=True, higher=True, margin=0.25)) == [expected]
+
+
+def test_what_is_bit_for_bit_the_same_needs_no_statistics(candidate):
+    one = candidate([1.0] * 2, [1.0] * 2, success=True, higher=True, margin=0.1, identical=True)
+    assert outcome_of(one) == [Outcome.SAME]
+
+
+def test_many_comparisons_ask_for_more(candidate):
+    # A p-value of 2^-7: enough alone, not among ten.
+    worse = candidate([1.0] * 7, [0.0] * 7, success=True, higher=True, margin=0.2)
+    assert outcome_of(worse) == [Outcome.WORSE]
+    others = [candidate(TIMES, TIMES, metric=f"m{place}") for place in range(9)]
+    assert outcome_of(worse, *others)[0] is Outcome.INCONCLUSIVE
+    assert set(outcome_of(worse, *others)[1:]) == {Outcome.SAME}
+
+
+def test_looks_go_on_until_nothing_is_inconclusive(candidate):
+    asked, told = [], []
+
+    def at(look, runs):
+        asked.append((look, runs))
+        count = 4 * look
+        return [
+            candidate([1.0] * count, [0.0] * count, success=True, higher=True, margin=0.2, run="grasp"),
+            candidate(TIMES, TIMES, run="other"),
+        ]
+
+    found = settle(at, looks=5, error_rate=0.05, on_look=lambda *seen: told.append(seen))
+    assert asked == [(1, None), (2, {"grasp"}), (3, {"grasp"})][: found.looks]
+    assert told == [(1, 0), (2, 1), (3, 1)][: found.looks]
+    by_run = {subject.run: one for subject, one in found.comparisons.items()}
+    assert (by_run["grasp"].outcome, by_run["other"].outcome) == (Outcome.WORSE, Outcome.SAME)
+    # What was decided at the first look keeps what it was decided by.
+    assert by_run["other"].look == 1
+    assert by_run["grasp"].look == found.looks
+
+
+def test_the_last_look_may_leave_it_open(candidate):
+    found = settle(lambda look, runs: [candidate([0.0, 5.0] * look, [5.0, 0.0] * look)], looks=3, error_rate=0.05)
+    assert found.looks == 3
+    assert [one.outcome for one in found.comparisons.values()] == [Outcome.INCONCLUSIVE]
+
+
+@pytest.mark.slow
+def test_false_alarms_of_200_guards_over_all_looks(candidate, monkeypatch):
+    """Both sides from one distribution, and then worse by exactly the margin: few are called worse."""
+    monkeypatch.setattr(paired, "DRAWS", 4_000)
+    monkeypatch.setattr(paired, "_counts", lru_cache(paired._counts.__wrapped__))
+    generator = np.random.default_rng(11)
+    for shift, limit in ((0.0, 0.05), (1.0, 0.05 + 2.0 * (0.05 * 0.95 / 200) ** 0.5)):
+        alarms = 0
+        for _ in range(200):
+            draws = generator.exponential(size=(5, 2, 16))
+
+            def at(look, _runs, draws=draws, shift=shift):
+                count = 8 * look
+                return [
+                    candidate(old[:count].tolist(), (new[:count] + shift).tolist(), metric=f"m{place}")
+                    for place, (old, new) in enumerate(draws)
+                ]
+
+            found = settle(at, looks=2, error_rate=0.05)
+            alarms += any(one.outcome is Outcome.WORSE for one in found.comparisons.values())
+        assert alarms / 200 <= limit

@@ -1,0 +1,118 @@
+"""Completeness, behaviour and decision against the baseline."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rgss.evidence import Phase
+from rgss.regression.comparing_baselines import (
+    changed_trials,
+    decision_changes,
+    run_failings,
+    schema_failings,
+    unchanged_phases,
+)
+from rgss.regression.observing import first_difference
+
+UNITS = {"success": "1", "time_s": "s"}
+PHASES = tuple(phase.value for phase in Phase)
+
+
+def texts(failings):
+    return [f"{one.trouble.value}: {one.text}" for one in failings]
+
+
+def test_nothing_changed(baseline):
+    run = baseline.runs["planning"]
+    assert texts(schema_failings(baseline, UNITS, UNITS)) == []
+    assert texts(run_failings("planning", run, fidelity="kinematic", variants=(9, 10), seeds=(1, 2, 3))) == []
+
+
+@pytest.mark.parametrize(
+    ("units", "record", "said"),
+    [
+        ({"success": "1"}, UNITS, "missing metric: the baseline guards time_s, the study no longer does"),
+        ({**UNITS, "time_s": "ms"}, UNITS, "changed schema: time_s was in s and is in ms"),
+        ({**UNITS, "slip_m": "m"}, UNITS, "changed schema: the study guards slip_m, the baseline does not"),
+        (UNITS, {"success": "1"}, "changed schema: trials no longer have time_s"),
+        (UNITS, {**UNITS, "slip_m": "m"}, "changed schema: trials newly have slip_m"),
+        (UNITS, {**UNITS, "time_s": "5 × s"}, "changed schema: trials have another unit for time_s"),
+    ],
+)
+def test_a_changed_schema(baseline, units, record, said):
+    assert texts(schema_failings(baseline, units, record)) == [said]
+
+
+@pytest.mark.parametrize(
+    ("fidelity", "variants", "seeds", "said"),
+    [
+        ("contact", (9, 10), (1, 2, 3), "changed schema: run r was kinematic and is contact"),
+        ("kinematic", (9,), (1, 2, 3), "fewer replicates: run r no longer tries variant 10"),
+        ("kinematic", (), (1, 2, 3), "fewer replicates: run r no longer tries variants 9, 10"),
+        ("kinematic", (9, 10, 11), (1, 2, 3), "changed schema: run r newly tries variant 11"),
+        ("kinematic", (9, 10), (1, 2), "fewer replicates: run r takes up to 2 seeds; the baseline has 3"),
+        ("kinematic", (9, 10), (1, 2, 3, 4), "changed schema: run r takes other seeds than the baseline, which has 3"),
+        ("kinematic", (9, 10), (2, 3, 4), "changed schema: run r takes other seeds than the baseline, which has 3"),
+    ],
+)
+def test_a_run_that_is_another(baseline, fidelity, variants, seeds, said):
+    failings = run_failings("r", baseline.runs["planning"], fidelity=fidelity, variants=variants, seeds=seeds)
+    assert texts(failings) == [said]
+
+
+def test_a_run_that_is_new():
+    failings = run_failings("r", None, fidelity="contact", variants=(1,), seeds=(1, 2))
+    assert texts(failings) == ["changed schema: run r is not in the baseline"]
+
+
+def test_changed_trials_and_the_phases_that_are_as_they_were(baseline):
+    run = baseline.runs["planning"]
+    now = {variant: dict(zip(run.seeds, run.fingerprints[str(variant)], strict=True)) for variant in run.variants}
+    assert list(changed_trials("planning", run, now, (1, 2, 3))) == []
+    assert unchanged_phases(run, now, (1, 2), PHASES) == {"trial", *PHASES}
+    parts = now[9][2].split()
+    parts[0] = parts[2] = parts[5] = "ffff"
+    now[9][2] = " ".join(parts)
+    (changed,) = changed_trials("planning", run, now, (1, 2, 3))
+    assert (changed.variant, changed.seed, changed.phase) == (9, 2, "grasp")
+    assert unchanged_phases(run, now, (1, 2), PHASES) == set(PHASES) - {"grasp", "move_to_place_approach"}
+    # With the seeds that were not run, nothing is said of them.
+    assert unchanged_phases(run, now, (1,), PHASES) == {"trial", *PHASES}
+    # A trial without a record leaves nothing that is surely as it was.
+    del now[10][1]
+    assert unchanged_phases(run, now, (1,), PHASES) == frozenset()
+
+
+def test_only_the_whole_differs():
+    assert first_difference("a b b", "c b b") == "trial"
+
+
+def test_a_decision_that_moved(baseline):
+    before = baseline.decision
+    now = replace(before, chosen=10, pareto=(10,), verdicts={"9": {"SYS-1": "not_met"}, "10": {"SYS-1": "met"}})
+    failing, notes = decision_changes(before, now, explained={}, error_rate=0.05)
+    assert texts(failing) == [
+        "unstable: decision: variant 9 was chosen, now variant 10",
+        "unstable: decision: variant 9 left the Pareto front",
+        "unstable: decision: variant 10 joined the Pareto front",
+        "unstable: variant 9: the verdict on SYS-1 was met and is not_met",
+    ]
+    assert notes == ("variant 10: the verdict on SYS-1 was not_met and is met",)
+
+
+def test_noise_explains_a_move(baseline):
+    before = baseline.decision
+    now = replace(before, chosen=None, pareto=())
+    failing, notes = decision_changes(before, now, explained={"chosen": 0.3, "pareto 9": 0.05}, error_rate=0.05)
+    assert texts(failing) == ["unstable: decision: variant 9 left the Pareto front"]
+    assert notes == (
+        "variant 9 was chosen, now no variant; within the noise, which has it as it was in 30% of the resamples",
+    )
+
+
+def test_a_verdict_that_is_gone(baseline):
+    now = replace(baseline.decision, verdicts={"9": {}, "10": {"SYS-1": "not_met"}})
+    failing, _ = decision_changes(baseline.decision, now, explained={}, error_rate=0.05)
+    assert texts(failing) == ["unstable: variant 9: the verdict on SYS-1 was met and is none"]

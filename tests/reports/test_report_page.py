@@ -1,0 +1,73 @@
+"""What a report's page carries: data that no text can break out of, and a library that stays asleep."""
+
+from __future__ import annotations
+
+import base64
+import builtins
+import gzip
+import json
+
+import pytest
+
+from rgss.errors import DefinitionError
+from rgss.reports.page import render_page, script_hash
+from rgss.reports.report_page import embedded_json, packed_json, plotting_library
+
+HOSTILE = "</script><!--<script>alert(1)</script> & \u2028\u2029 \"'` =SUM(1) 🤖 ]]>"
+
+
+def test_embedded_json_ends_no_element_and_reads_back():
+    document = {HOSTILE: [HOSTILE, 1.5, None, {"deep": HOSTILE}]}
+    text = embedded_json(document)
+
+    assert text.isascii()
+    assert not set("<>&\u2028\u2029") & set(text)
+    assert json.loads(text) == document
+
+
+def test_embedded_json_refuses_what_is_no_json():
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        embedded_json({"value": float("nan")})
+
+
+def test_packed_json_is_the_same_text_and_the_same_bytes():
+    text = embedded_json({"text": HOSTILE, "numbers": list(range(1000))})
+    packed = packed_json(text)
+
+    assert gzip.decompress(base64.b64decode(packed)).decode("ascii") == text
+    assert packed_json(text) == packed
+    assert len(packed) < len(text)
+
+
+def test_the_plotting_library_cannot_end_its_element():
+    library = plotting_library()
+
+    assert "plotly.js v" in library[:200]
+    assert "</script" not in library.lower()
+    assert "<!--" not in library
+
+
+def test_a_missing_library_is_told_in_one_line(monkeypatch):
+    imported = builtins.__import__
+
+    def without_plotly(name, *arguments, **options):
+        if name.startswith("plotly"):
+            raise ImportError(name)
+        return imported(name, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "__import__", without_plotly)
+    with pytest.raises(DefinitionError, match="needs the package plotly, which is not installed") as error:
+        plotting_library()
+    assert error.value.hint == "pip install plotly"
+
+
+def test_a_held_script_is_carried_but_not_run():
+    page = render_page(
+        "impact.html.j2", title="T", groups=[], scripts=["one();"], held_scripts=["two();"], styles=["b { }"]
+    )
+
+    assert '<script type="text/plain" class="held">two();</script>' in page
+    assert "<script>one();</script>" in page
+    assert f"'{script_hash('one();')}' '{script_hash('two();')}'" in page
+    assert "b { }</style>" in page
+    assert "img-src" not in page

@@ -1,0 +1,47 @@
+"""What engine processes beside Dask workers are given to do in tests."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from pathlib import Path
+
+import worker_doubles
+
+from rgss.evidence import Piece, TrialRecord
+from rgss.trials.making import Task
+
+
+def act(name: str, mine: str = "") -> object:
+    """Do what a name says."""
+    if name == "meet":
+        return meet(mine)
+    if name == "rob":
+        return rob()
+    if name == "parent":
+        return os.getppid()
+    return worker_doubles.act(name)
+
+
+def meet(mine: str) -> int:
+    """Leave a mark and wait until there is another; returns the process."""
+    folder = Path(os.environ[worker_doubles.FOLDER]) / "meeting"
+    folder.mkdir(exist_ok=True)
+    (folder / mine).touch()
+    while len(list(folder.iterdir())) < 2:
+        time.sleep(0.01)
+    return os.getpid()
+
+
+def rob() -> None:
+    """Kill the Dask worker that this engine process belongs to."""
+    os.kill(os.getppid(), signal.SIGKILL)
+    worker_doubles.hang()
+
+
+def robbed(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
+    """Quick pieces, but the first one to be made costs a Dask worker."""
+    if worker_doubles.is_first_time("robbed"):
+        rob()
+    return worker_doubles.quick(task, needed)

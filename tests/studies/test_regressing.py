@@ -1,0 +1,394 @@
+"""Guarding a study against its baseline: with made records, and with regressions planted in real trials."""
+
+from __future__ import annotations
+
+import itertools
+import random
+import re
+from dataclasses import replace
+
+import pytest
+
+from rgss.errors import DefinitionError, EvidenceError
+from rgss.evidence import EvidenceStore, PieceKind, Provenance
+from rgss.regression.baseline import baseline_to_text
+from rgss.regression.comparing import Outcome
+from rgss.regression.report import Trouble
+from rgss.studies.choosing import choose
+from rgss.studies.project import load_project
+from rgss.studies.regressing import baseline_name, compare_with_baseline, make_baseline
+from rgss.studies.regressing_decision import decision_of, explained_by_noise, measured_of
+from rgss.studies.regressing_runs import guard_of, watched_trials
+from rgss.studies.study import read_study
+from rgss.studies.sweep import key_of, sweep, trials_of
+from rgss.trials import execution
+
+STUDY = "studies/pick_place.yaml"
+SECTION = """
+regression:
+  runs:
+    - {id: planning, fidelity: kinematic, variants: "57,60", replicates: 4, batch: 4, cap: 12}
+    - {id: grasp, fidelity: contact, variants: "57", replicates: 4, batch: 8, cap: 12}
+  decision: grasp
+  metrics:
+    - {metric: success, better: higher, margin: 25 %}
+    - {metric: success, phases: all, better: higher, margin: 25 %}
+    - {metric: planning_time_s, runs: [planning], phases: all, better: lower, margin: 0.2 s}
+    - {metric: motion_time_s, better: lower, margin: 0.5 s}
+"""
+REASON = "First baseline."
+
+
+def without_section(text):
+    """The text of a study without what it guards."""
+    return re.sub(r"(?ms)^(?:# What `rgss regress`[^\n]*\n(?:#[^\n]*\n)*)?regression:\n.*?(?=^\S|\Z)", "", text)
+
+
+@pytest.fixture
+def project_of(shipped, tmp_path):
+    """The shipped project with another section."""
+
+    def load(section=SECTION):
+        path = tmp_path / "study.yaml"
+        path.write_text(without_section((shipped.folder / STUDY).read_text(encoding="utf-8")) + section, "utf-8")
+        study = read_study(
+            path, shipped.measures, project=shipped.folder, label=STUDY, requirements=shipped.requirements
+        )
+        return replace(shipped, study=study)
+
+    return load
+
+
+@pytest.fixture
+def stores(tmp_path):
+    """Opens a new store each time."""
+    opened = []
+
+    def make():
+        opened.append(EvidenceStore.open(tmp_path / f"{len(opened)}.sqlite"))
+        return opened[-1]
+
+    yield make
+    for store in opened:
+        store.close()
+
+
+@pytest.fixture
+def runner(record_of):
+    """Runs trials without a simulation; each planning takes its time, and one may fail, or not be run at all."""
+
+    def make(store, *, slower_s=0.0, fails=lambda spec: False, lost=lambda spec: False):
+        def run(specs):
+            rows = []
+            for spec in specs:
+                chance = random.Random(f"{spec.planner} {spec.seed}")  # noqa: S311 - a sample, no secret
+                if lost(spec):
+                    continue
+                took_s = 0.5 + chance.random() + slower_s
+                record = record_of(spec, success=not fails(spec), planning_s=took_s)
+                rows.append((key_of(spec), record, Provenance(inputs={}, versions={})))
+            store.put_many(trials=rows)
+
+        return run
+
+    return make
+
+
+@pytest.fixture
+def compared(project_of, stores, runner):
+    """The report of a project whose trials changed since its baseline."""
+
+    def compare(section=SECTION, baseline_of=lambda baseline: baseline, on_look=None, **changes):
+        project = project_of()
+        before = stores()
+        baseline = make_baseline(project, before, runner(before), before=None, reason=REASON)
+        if section != SECTION:
+            project = project_of(section)
+        now = stores()
+        return compare_with_baseline(
+            project, now, runner(now, **changes), baseline_of(baseline), label="b", on_look=on_look
+        )
+
+    return compare
+
+
+def plans_of(store, project):
+    """The plans and timings of the watched trials, for another store."""
+    specs = [spec for trials in watched_trials(project, guard_of(project)) for spec in trials.specs(trials.run.cap)]
+    digests = {trial.pieces[kind] for trial in trials_of(specs) for kind in (PieceKind.PLAN, PieceKind.TIMING)}
+    return [piece for digest in sorted(digests) if (piece := store.piece(digest)) is not None]
+
+
+def troubles(report):
+    return [f"{one.trouble.value}: {one.text}" for one in report.failing]
+
+
+def named(report, *outcomes):
+    return {str(one.subject) for one in report.of(*outcomes)}
+
+
+def test_nothing_changed(compared):
+    looks = []
+    report = compared(on_look=lambda *seen: looks.append(seen))
+    assert (report.verdict, report.fails, report.failing, report.notes) == ("same", False, (), ())
+    assert looks == [(1, 0)]
+    assert report.trials == {"planning": 4, "grasp": 4}
+    assert (report.behaviour.compared, report.behaviour.changed) == (12, ())
+    assert all(one.identical for one in report.comparisons)
+
+
+def test_a_baseline_is_the_same_text_again(project_of, stores, runner):
+    project = project_of()
+    texts = []
+    for _ in range(2):
+        store = stores()
+        texts.append(baseline_to_text(make_baseline(project, store, runner(store), before=None, reason=REASON)))
+    assert texts[0] == texts[1]
+
+
+def test_reasons_are_kept(project_of, stores, runner):
+    project, store = project_of(), stores()
+    first = make_baseline(project, store, runner(store), before=None, reason=" First\n baseline. ")
+    second = make_baseline(project, store, runner(store), before=first, reason="Another engine.")
+    assert [change.reason for change in second.history] == [REASON, "Another engine."]
+    assert first.runs["planning"].seeds == tuple(range(1, 13))
+    assert first.runs["grasp"].variants == (57,)
+
+
+def test_a_slower_planner(compared):
+    report = compared(slower_s=1.0)
+    assert report.verdict == "worse"
+    assert "planning_time_s at move_to_grasp" in named(report, Outcome.WORSE)
+    assert len(named(report, Outcome.WORSE)) == 5
+    assert named(report, Outcome.WORSE) == {
+        f"planning_time_s at {one.subject.phase}" for one in report.of(Outcome.WORSE)
+    }
+    assert {one.phase for one in report.behaviour.changed} == {"move_to_grasp"}
+
+
+def test_more_seeds_where_it_is_inconclusive(compared):
+    report = compared(fails=lambda spec: spec.fidelity.value == "contact")
+    assert report.trials == {"planning": 4, "grasp": 12}
+    assert report.looks == 2
+    # Phases after the one that fails are not reached, and it is the one that is worse.
+    worse = {one for one in named(report, Outcome.WORSE) if one.startswith("success")}
+    assert worse == {"success of the trial", "success at move_to_grasp_departure"}
+    assert "success at place" in named(report, Outcome.MISSING)
+    assert any(text.startswith("unstable: decision: variant 57 was chosen, now") for text in troubles(report))
+
+
+def test_a_trial_that_could_not_be_run(compared):
+    report = compared(lost=lambda spec: spec.seed == 2 and spec.fidelity.value == "contact")
+    assert report.fails
+    assert [one for one in troubles(report) if one.startswith("not run")] == [
+        "not run: run grasp: the trial of variant 57 with seed 2 could not be run",
+        "not run: decision: trials that it needs could not be run",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("cap: 12", "cap: 8", "fewer replicates: run planning takes up to 8 seeds; the baseline has 12"),
+        ('"57,60"', '"57"', "fewer replicates: run planning no longer tries variant 60"),
+        (
+            "    - {metric: motion_time_s, better: lower, margin: 0.5 s}\n",
+            "",
+            "missing metric: the baseline guards motion_time_s, the study no longer does",
+        ),
+        (
+            "{metric: motion_time_s, b",
+            "{metric: motion_time_s, runs: [planning], b",
+            "missing metric: run grasp: the baseline guards motion_time_s at trial, the study no longer does",
+        ),
+        ("motion_time_s", "task_time_s", "changed schema: the study guards task_time_s, the baseline does not"),
+        (
+            "planning_time_s, runs: [planning], phases: all",
+            "planning_time_s, phases: [grasp, lift]",
+            "changed schema: run grasp: the study guards planning_time_s at grasp, the baseline does not",
+        ),
+        ("id: grasp", "id: hold", "fewer replicates: run grasp of the baseline is not in the study"),
+        (
+            "decision: grasp\n",
+            "decision: planning\n",
+            "changed schema: the guarded decision was that of run grasp and is that of run planning",
+        ),
+        (
+            "  decision: grasp\n",
+            "",
+            "changed schema: the guarded decision was that of run grasp and is that of run none",
+        ),
+    ],
+)
+def test_a_study_that_guards_less_or_other_things(compared, old, new, said):
+    section = SECTION.replace(old, new, 1)
+    if new == "id: hold":
+        section = section.replace("decision: grasp", "decision: hold")
+    report = compared(section)
+    assert report.fails
+    assert said in troubles(report)
+
+
+def test_another_platform_is_not_compared_bit_for_bit(compared):
+    report = compared(
+        baseline_of=lambda one: replace(one, origin=replace(one.origin, machine="Other", engines={"ompl": "0"}))
+    )
+    assert report.behaviour.compared == 0
+    assert report.behaviour.platform.startswith("the baseline is of another platform (Other; ompl 0), here ")
+    assert not any(one.identical for one in report.comparisons)
+    assert any(note.startswith("engines changed since the baseline: coal,") for note in report.notes)
+    assert named(report, Outcome.WORSE, Outcome.MISSING) == set()
+
+
+def test_what_changed_is_noted(compared):
+    report = compared(
+        baseline_of=lambda one: replace(
+            one,
+            origin=replace(one.origin, code={**one.origin.code, "plan": "x"}, inputs={**one.origin.inputs, "a": "b"}),
+        )
+    )
+    assert report.notes == (
+        "inputs changed since the baseline: a",
+        "code changed since the baseline: what makes plan",
+    )
+
+
+def test_a_baseline_of_another_study(compared):
+    with pytest.raises(DefinitionError, match=r"baseline b is of study 'other', not of 'pick_place' \(name another"):
+        compared(baseline_of=lambda one: replace(one, study="other"))
+
+
+def test_a_study_without_the_section(project_of, stores, runner):
+    project, store = project_of(""), stores()
+    with pytest.raises(DefinitionError, match=r"studies/pick_place.yaml has no section 'regression' \(say in it which"):
+        make_baseline(project, store, runner(store), before=None, reason=REASON)
+
+
+@pytest.mark.parametrize(
+    ("reason", "said"),
+    [(" \n ", "--update needs a reason"), ("x" * 501, "the reason has 501 characters (say it in 500)")],
+)
+def test_a_reason_that_is_none(project_of, stores, runner, reason, said):
+    project, store = project_of(), stores()
+    with pytest.raises(DefinitionError, match=re.escape(said)):
+        make_baseline(project, store, runner(store), before=None, reason=reason)
+
+
+def test_a_phase_that_observes_nothing(project_of, stores, runner):
+    section = SECTION + "    - {metric: slip_m, phases: [place], better: lower, margin: 1 mm}\n"
+    project, store = project_of(section), stores()
+    with pytest.raises(DefinitionError, match=r"run planning observes no slip_m at place \(guard it in another run"):
+        make_baseline(project, store, runner(store), before=None, reason=REASON)
+
+
+def test_variants_that_are_none(project_of, stores, runner):
+    project, store = project_of(SECTION.replace('"57,60"', '"99"')), stores()
+    with pytest.raises(DefinitionError, match=r"variants of run planning"):
+        make_baseline(project, store, runner(store), before=None, reason=REASON)
+
+
+def test_a_baseline_needs_all_trials(project_of, stores, runner):
+    project, store = project_of(), stores()
+    with pytest.raises(
+        EvidenceError, match=r"1 trials of run planning could not be run, the first of variant 60 with seed 3 \(a base"
+    ):
+        make_baseline(
+            project,
+            store,
+            runner(store, lost=lambda spec: (spec.variant, spec.seed) == (60, 3)),
+            before=None,
+            reason=REASON,
+        )
+
+
+def test_the_name_beside_the_study():
+    assert baseline_name("studies/pick_place.yaml") == "studies/pick_place.baseline.json"
+
+
+@pytest.mark.engine
+@pytest.mark.slow
+def test_planted_regressions_are_named(stores, edit, folder, monkeypatch):
+    """Less friction, a slower planner and a grasp detector that sees nothing, in real trials."""
+    section = """
+regression:
+  runs:
+    - {id: planning, fidelity: kinematic, variants: "57", replicates: 3, batch: 6, cap: 9}
+    - {id: grasp, fidelity: contact, variants: "57", replicates: 3, batch: 6, cap: 9}
+  metrics:
+    - {metric: success, runs: [grasp], phases: all, better: higher, margin: 25 %}
+    - {metric: planning_time_s, runs: [planning], phases: all, better: lower, margin: 0.5 s}
+    - {metric: grip_margin_min, runs: [grasp], phases: all, better: higher, margin: 0.3}
+"""
+    study = folder / STUDY
+    study.write_text(without_section(study.read_text(encoding="utf-8")) + section, encoding="utf-8")
+    project, store = load_project(folder), stores()
+
+    def run_in(evidence):
+        return lambda specs: sweep(specs, evidence, jobs=0, on_finished=lambda _: None)
+
+    baseline = make_baseline(project, store, run_in(store), before=None, reason=REASON)
+    same = compare_with_baseline(project, store, run_in(store), baseline, label="b")
+    assert (same.verdict, same.behaviour.changed) == ("same", ())
+
+    edit("designs/grasping_system.yaml", "d6: 0.7", "d6: 0.5")
+    report = compare_with_baseline(load_project(folder), store, run_in(store), baseline, label="b")
+    assert report.verdict == "worse"
+    assert {str(one.subject) for one in report.of(Outcome.WORSE)} >= {
+        "grip_margin_min at lift",
+        "grip_margin_min at move_to_place",
+    }
+    assert {one.subject.metric for one in report.of(Outcome.WORSE)} == {"grip_margin_min"}
+    assert {one.phase for one in report.behaviour.changed} == {"grasp"}
+    assert report.notes == ("inputs changed since the baseline: designs/grasping_system.yaml",)
+    edit("designs/grasping_system.yaml", "d6: 0.5", "d6: 0.7")
+
+    edit(STUDY, "charge_per_check: 0.25 ms", "charge_per_check: 0.5 ms")
+    report = compare_with_baseline(load_project(folder), store, run_in(store), baseline, label="b")
+    worse = {str(one.subject) for one in report.of(Outcome.WORSE)}
+    assert "planning_time_s at move_to_grasp_approach" in worse
+    assert {one.split(" at ")[0] for one in worse} == {"planning_time_s"}
+    edit(STUDY, "charge_per_check: 0.5 ms", "charge_per_check: 0.25 ms")
+
+    # The detector is code, whose digest would be another; the plans are the same ones.
+    monkeypatch.setattr(execution, "_is_firm", lambda *_: False)
+    broken = stores()
+    broken.put_many(pieces=list(plans_of(store, load_project(folder))))
+    report = compare_with_baseline(load_project(folder), broken, run_in(broken), baseline, label="b")
+    assert [str(one.subject) for one in report.of(Outcome.WORSE)] == ["success at grasp"]
+    assert {one.subject.phase for one in report.of(Outcome.MISSING)} >= {"lift", "place"}
+    assert {(one.run, one.phase) for one in report.behaviour.changed} == {("grasp", "grasp")}
+    assert all(failing.trouble is not Trouble.CHANGED_SCHEMA for failing in report.failing)
+
+
+def test_noise_is_every_draw_of_the_seeds(project_of, record_of):
+    """Against deciding anew for each of the 27 ordered draws of three seeds."""
+    section = SECTION.replace('"57", replicates: 4', '"57,60", replicates: 3')
+    project = project_of(section)
+    (trials,) = [one for one in watched_trials(project, guard_of(project)) if one.run.id == "grasp"]
+    times = {57: (1.0, 4.0, 2.5), 60: (2.0, 2.0, 2.2)}
+    records = {
+        variant: {seed: record_of(spec, planning_s=times[variant][seed - 1]) for seed, spec in specs.items()}
+        for variant, specs in {
+            variant: {spec.seed: spec for spec in trials.specs(3) if spec.variant == variant} for variant in times
+        }.items()
+    }
+    now = decision_of(trials, records)
+    before = replace(now, chosen=60 if now.chosen == 57 else 57, pareto=())
+    explained = explained_by_noise(trials, records, before, now)
+
+    margin = project.study.trade_off.practical_margin
+    chosen, on_front = 0, dict.fromkeys(now.pareto, 0)
+    for draw in itertools.product((1, 2, 3), repeat=3):
+        drawn = {
+            variant: {place: replace(row[seed], seed=place) for place, seed in enumerate(draw, start=1)}
+            for variant, row in records.items()
+        }
+        values = {one.variant: one.value for one in choose(trials.project, measured_of(trials, drawn)).ranking}
+        chosen += before.chosen in values and values[before.chosen] >= max(values.values()) - margin
+        for variant in on_front:
+            on_front[variant] += variant not in decision_of(trials, drawn).pareto
+    assert 0 < chosen < 27
+    assert explained["chosen"] == pytest.approx(chosen / 27)
+    assert {variant: explained[f"pareto {variant}"] for variant in on_front} == pytest.approx(
+        {variant: count / 27 for variant, count in on_front.items()}
+    )

@@ -1,0 +1,118 @@
+"""The section ``regression`` of a study: each finding at its place."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from rgss.errors import DocumentError
+from rgss.evidence import Fidelity
+from rgss.regression.comparing import Guard
+from rgss.studies.study import read_study
+
+STUDY = "studies/pick_place.yaml"
+SECTION = """\
+regression:
+  error_rate: 4 %
+  runs:
+    - {id: planning, fidelity: kinematic, variants: "57,60", replicates: 8, batch: 3, cap: 16}
+    - {id: contact, fidelity: contact, variants: d8=RRT, replicates: 4}
+  decision: contact
+  metrics:
+    - {metric: success, better: higher, margin: 2 percent}
+    - {metric: planning_time_s, runs: [planning], phases: all, better: lower, margin: 0.2 s}
+    - {metric: slip_m, runs: [contact], phases: [lift, place], better: lower, margin: 120 mm}
+"""
+
+FINDINGS = [
+    (
+        "error_rate: 4 %",
+        "error_rate: 50 %",
+        "2:15: error: an error rate of 0.5 is none (give a share between 0 and 0.5",
+    ),
+    ("error_rate: 4 %", "error_rate: 0", "2:15: error: an error rate of 0 is none"),
+    ("id: contact,", "id: planning,", "5:12: error: there are two runs 'planning' (give each its own name)"),
+    ("cap: 16", "cap: 7", "4:92: error: the cap of 7 seeds is below the 8 of the first look (raise it, or leave it"),
+    ("replicates: 4", "replicates: 1", "5:70: error: replicates: input should be greater than or equal to 2"),
+    ("decision: contact", "decision: other", "6:13: error: there is no run 'other' (runs: planning, contact)"),
+    ("runs: [planning]", "runs: [other]", "9:40: error: there is no run 'other' (runs: planning, contact)"),
+    ("[lift, place]", "[lift, fly]", "10:56: error: there is no phase 'fly' (phases: move_to_grasp, grasp, lift,"),
+    ("metric: slip_m", "metric: slip", "10:16: error: no phase observes a metric 'slip' (did you mean 'slip_m'?)"),
+    ("metric: success", "metric: sucess", "8:16: error: no trial observes a metric 'sucess' (did you mean 'success'?)"),
+    ("metric: success", "metric: zzz", "8:16: error: no trial observes a metric 'zzz' (such as success, duration_s"),
+    (
+        "metric: success",
+        "metric: path_length_m",
+        "8:16: error: path_length_m is a row of 5 numbers (write 'phases: all')",
+    ),
+    (
+        "metric: success",
+        "metric: joint_saturated_s",
+        "8:16: error: joint_saturated_s is a row of 6 numbers (guard one that is a single number)",
+    ),
+    ("margin: 0.2 s", "margin: 0.2 m", "9:87: error: unit 'm' does not measure what 's' measures (give it in s"),
+    ("margin: 0.2 s", "margin: 0.2", "9:87: error: '0.2' has no unit"),
+    (
+        "margin: 0.2 s",
+        "margin: 0 s",
+        "9:87: error: a margin of '0 s' can never be kept for certain (say how much worse",
+    ),
+    ("margin: 2 percent", "margin: 1", "8:49: error: a margin of '1' lets every trial fail (give a share below 1"),
+    (
+        "metric: slip_m, runs: [contact]",
+        "metric: planning_time_s, runs: [planning]",
+        "10:16: error: planning_time_s is g",
+    ),
+    ("better: higher", "better: more", "8:33: error: better: 'more' is not one of 'higher' or 'lower'"),
+]
+
+
+@pytest.fixture(scope="module")
+def read(shipped, tmp_path_factory):
+    text = (shipped.folder / STUDY).read_text(encoding="utf-8")
+    rest = re.sub(r"(?ms)^regression:\n.*?(?=^\S|\Z)", "", text)
+    path = tmp_path_factory.mktemp("study") / "study.yaml"
+
+    def make(section):
+        path.write_text(section + rest, encoding="utf-8")
+        return read_study(path, shipped.measures, project=shipped.folder, label="s", requirements=shipped.requirements)
+
+    return make
+
+
+def test_what_it_says(read):
+    guard = read(SECTION).regression
+    assert guard.error_rate == 0.04
+    planning, contact = guard.runs
+    assert (planning.fidelity, planning.variants, planning.looks) == (Fidelity.KINEMATIC, "57,60", 4)
+    assert [planning.seeds_at(look) for look in range(1, 6)] == [8, 11, 14, 16, 16]
+    assert (contact.batch, contact.cap, contact.looks) == (4, 4, 1)
+    assert guard.decision == "contact"
+    success, planning_time, slip = guard.metrics
+    assert success.guard == Guard(unit="1", higher_is_better=True, margin=0.02, is_success=True)
+    assert (success.runs, success.phases, success.wherever) == (("planning", "contact"), ("trial",), False)
+    assert planning_time.guard.margin == 0.2
+    assert (len(planning_time.phases), planning_time.wherever) == (8, True)
+    assert slip.guard == Guard(unit="m", higher_is_better=False, margin=0.12, is_success=False)
+    assert (slip.phases, slip.wherever) == (("lift", "place"), False)
+
+
+def test_it_may_be_left_out(read):
+    assert read("").regression is None
+
+
+@pytest.mark.parametrize(("old", "new", "said"), FINDINGS)
+def test_a_finding_at_its_place(read, old, new, said):
+    assert old in SECTION
+    with pytest.raises(DocumentError) as caught:
+        read(SECTION.replace(old, new, 1))
+    assert any(str(finding).startswith(f"s:{said}") for finding in caught.value.findings), [
+        str(finding) for finding in caught.value.findings
+    ]
+
+
+def test_the_shipped_study_guards_itself(shipped):
+    guard = shipped.study.regression
+    assert {run.fidelity for run in guard.runs} == {Fidelity.KINEMATIC, Fidelity.CONTACT}
+    assert any(metric.metric == "success" and metric.wherever for metric in guard.metrics)
