@@ -24,7 +24,7 @@ from rgss.scenes.assembly import assembled_urdf, finger_joint
 _ARM_POSITION_GAIN = 0.2
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
-_RENEWAL_COSINE = math.cos(math.radians(30.0) / 2)
+_RENEWAL_COSINE = math.cos(math.radians(15.0) / 2)
 _RENEWAL_CHECK_STEPS = 8
 _HOLDING_POINTS = 3
 _LONGEST_RENEWAL_S = 2.0
