@@ -33,8 +33,8 @@ class ControlSettings:
         acceleration_window_s: Time over which the tool's acceleration is averaged, as an
             accelerometer's filter does; from one step to the next it shows the solver's noise.
         grasp_rate_hz: Rate at which the grasp of a carried object is analysed; also at the end of
-            every phase. What the grasp resists (Q_SMW and the load), which takes ten times as long, is
-            said when it is firm and when the carry ends.
+            every phase, and there with what the grasp resists (Q_SMW and the load), which takes ten
+            times as long.
     """
 
     firm_grasp_s: float = 0.05

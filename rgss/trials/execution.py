@@ -86,8 +86,7 @@ class Execution:
                 break
         world.solve_freely(free=False)
         self._configuration = tuple(positions[-1])
-        # What the grasp resists is said where the carry ends.
-        watch.finish(strength=phase is CARRYING[-1])
+        watch.finish()
         metrics = watch.metrics()
         metrics["commanded_tool_speed_m_s"] = reference.peak_tool_speed_m_s
         metrics["commanded_tool_acceleration_m_s2"] = reference.peak_tool_acceleration_m_s2

@@ -55,11 +55,8 @@ class GraspWatch:
             self._sample(strength=False)
         return slip
 
-    def finish(self, *, strength: bool = True) -> float:
+    def finish(self) -> float:
         """Look and analyse at the end of the phase, whatever the time.
-
-        Args:
-            strength: Whether to say what the grasp resists, too.
 
         Returns:
             How far the object is from where it was grasped (m).
@@ -67,7 +64,7 @@ class GraspWatch:
         slip = self._look()
         if self._sampled_at == self._steps and self._samples:
             self._samples.pop()
-        self._sample(strength=strength)
+        self._sample(strength=True)
         return slip
 
     def metrics(self) -> dict[str, Metric]:

@@ -74,14 +74,10 @@ class Watch:
             self._watch_slip(self._grasp.after_step())
         return contacts
 
-    def finish(self, *, strength: bool = True) -> None:
-        """Observe a carried object at the end of the phase.
-
-        Args:
-            strength: Whether to say what its grasp resists, too, which takes ten times as long as the rest.
-        """
+    def finish(self) -> None:
+        """Observe a carried object at the end of the phase."""
         if self._grasp is not None:
-            self._watch_slip(self._grasp.finish(strength=strength))
+            self._watch_slip(self._grasp.finish())
 
     def fail(self, failure: Failure, detail: str) -> None:
         """Note what went wrong, unless something did before."""

@@ -30,6 +30,7 @@ regression:
 @pytest.fixture
 def guarded(folder):
     """A copy of the shipped project that guards a little, with evidence of all that it watches."""
+    (folder / BASELINE).unlink()
     path = folder / STUDY
     text = path.read_text(encoding="utf-8")
     path.write_text(re.sub(r"(?ms)^regression:\n.*?(?=^\S|\Z)", "", text) + SECTION, encoding="utf-8")
@@ -140,7 +141,6 @@ def test_a_damaged_baseline_is_not_replaced_unseen(rgss, with_baseline):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        ((), f"rgss: there is no baseline {BASELINE} (make it with 'rgss regress --update --reason TEXT')"),
         (("--jobs", "0"), "rgss: --jobs must be at least 1 (leave it away for one process a core)"),
         (("--reason", "x"), "rgss: --reason needs --update (without it nothing is changed)"),
         (("--update",), "rgss: --update needs a reason (say with --reason why the numbers may move)"),
@@ -161,6 +161,12 @@ def test_a_damaged_baseline_is_not_replaced_unseen(rgss, with_baseline):
 )
 def test_bad_input(rgss, untouched, words, complaint):
     told = rgss("regress", "--project", untouched, *words)
+    assert (told.status, told.output, told.complaint) == (2, "", complaint)
+
+
+def test_there_is_no_baseline_yet(rgss, guarded):
+    told = rgss("regress", "--project", guarded)
+    complaint = f"rgss: there is no baseline {BASELINE} (make it with 'rgss regress --update --reason TEXT')"
     assert (told.status, told.output, told.complaint) == (2, "", complaint)
 
 

@@ -65,7 +65,7 @@ FINDINGS = [
         "catalogue: /catalogue.yaml",
         "5:12: error: '/catalogue.yaml' lies outside the project (name a file in it) [study.outside]",
     ),
-    ("measure: t_p,", "measure: t_q,", "28:17: error: no measure 't_q' is defined (measures: P_max, C_total, t_e,"),
+    ("measure: t_p,", "measure: t_q,", "28:17: error: no measure 't_q' is defined (did you mean 't_p'?)"),
     ("measure: t_p,", "measure: t_e,", "28:17: error: measure 't_e' is valued twice (keep one) [study.repeated]"),
     ("worst: 0.8 kg", "worst: 0.8", "25:45: error: '0.8' has no unit (write \"0.8 kg\") [study.quantity]"),
     ("best: 1.4 kg", "best: 1.4 s", "25:59: error: unit 's' does not measure what 'kg' measures (give it in kg"),
