@@ -154,6 +154,7 @@ class DaskWorkers:
             raise self._lost() from error
         except SimulationError:
             raise
+        # Whatever a worker's environment breaks on comes back as it was raised there.
         except Exception as error:
             line = f"{type(error).__name__}: {' '.join(str(error).split())}"
             raise SimulationError(

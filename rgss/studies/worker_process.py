@@ -75,6 +75,7 @@ def serve(function: bytes, asked: connection.Connection, memory_limit_bytes: int
     # From here on engines may be loaded. What is read here was written by the process that started this one.
     try:
         make = pickle.loads(function)  # noqa: S301
+    # Importing the function's module can break on anything; the parent is told instead of left waiting.
     except Exception as error:
         asked.send(Ready(error=_line(error)))
         return
@@ -111,6 +112,7 @@ def answer_to(make: Callable[..., Any], arguments: Sequence[Any]) -> Answer:
         error, out_of_memory = "MemoryError", True
     except RgssError as caught:
         error, ours = str(caught), True
+    # A task that breaks costs itself and not the worker.
     except Exception as caught:
         error = _line(caught)
     return Answer(result=result, error=error, ours=ours, out_of_memory=out_of_memory, took_s=perf_counter() - begun)

@@ -72,6 +72,7 @@ def _parsed(content: bytes, file: str) -> Any:
         ) from error
     try:
         bundle = library.ReqIFParser.parse_from_string(_without_comments(content.decode("utf-8-sig")))
+    # A file that is no ReqIF breaks the library in many ways, none of which it documents.
     except Exception as error:
         raise _unreadable(file, error) from None
     if bundle.exceptions:
