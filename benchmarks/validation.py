@@ -184,12 +184,12 @@ def _cost_of(spec: TrialSpec) -> tuple[int, float]:
     for _ in range(REPETITIONS):
         with World(spec.scene, spec.gripper, physics) as world:
             begin = time.process_time()
-            results = Execution(world, references, settings.control).run()
+            results = Execution(world, references, settings.control, cell.arm).run()
             full_s = time.process_time() - begin
         steps = round(sum(result.duration_s for result in results) / physics.step_s)
         grasping = {phase: references[phase] for phase in (Phase.MOVE_TO_GRASP, Phase.LIFT)}
         with World(spec.scene, spec.gripper, physics) as world:
-            Execution(world, grasping, settings.control).run()
+            Execution(world, grasping, settings.control, cell.arm).run()
             begin = time.process_time()
             for _ in range(steps):
                 world.step()

@@ -30,8 +30,9 @@ def maximise(
     from scipy.optimize import linprog
 
     rows, limits = at_most if at_most is not None else (None, None)
-    # Where coefficients of very different size make the simplex give up, the interior-point method may not.
-    for method in ("highs-ds", "highs-ipm"):
+    # Such programs are small, and presolving takes as long as solving. Where coefficients of very different size make
+    # the simplex give up, the interior-point method may not.
+    for method, presolve in (("highs-ds", False), ("highs-ipm", True)):
         result = linprog(
             -objective,
             A_ub=rows,
@@ -40,7 +41,11 @@ def maximise(
             b_eq=equal[1],
             bounds=(0.0, None),
             method=method,
-            options={"primal_feasibility_tolerance": _TOLERANCE, "dual_feasibility_tolerance": _TOLERANCE},
+            options={
+                "presolve": presolve,
+                "primal_feasibility_tolerance": _TOLERANCE,
+                "dual_feasibility_tolerance": _TOLERANCE,
+            },
         )
         if result.status == _OPTIMAL:
             solution: Matrix = np.asarray(result.x)

@@ -63,6 +63,11 @@ class Arm:
         """
         return pose_of(self._placement(q))
 
+    @property
+    def reach_m(self) -> float:
+        """Length of the arm from its first axis to the tool along the links: no axis is ever farther from the tool."""
+        return float(np.linalg.norm(self._axes[1][1:], axis=1).sum())
+
     def tool_position(self, qs: ArrayLike) -> Vector:
         """Positions of the tool centre in the world.
 
@@ -72,19 +77,36 @@ class Arm:
         Returns:
             Positions in m, shape (n, 3).
         """
-        rows = np.atleast_2d(np.asarray(qs, dtype=float))
+        return self._tool_motion(np.atleast_2d(np.asarray(qs, dtype=float)), None)[0]
+
+    def tool_motion(self, qs: ArrayLike, dqs: ArrayLike) -> tuple[Vector, Vector]:
+        """Positions and velocities of the tool centre in the world.
+
+        Args:
+            qs: Joint angles in rad, shape (n, 6).
+            dqs: Joint speeds in rad/s, shape (n, 6).
+
+        Returns:
+            Positions in m and velocities in m/s, each of shape (n, 3).
+        """
+        rows, rates = (np.atleast_2d(np.asarray(values, dtype=float)) for values in (qs, dqs))
+        return self._tool_motion(rows, rates)
+
+    def _tool_motion(self, rows: Vector, rates: Vector | None) -> tuple[Vector, Vector]:
         directions, steps = self._axes
         points = np.cumsum(steps, axis=0)
         # The tool is turned about one axis after another as these stand at the zero configuration, the last
         # first (product of exponentials), by Rodrigues' formula: all configurations at once.
         positions = np.broadcast_to(points[-1], (len(rows), 3))
+        velocities = np.zeros((len(rows), 3))
         for joint in reversed(range(len(directions))):
             axis, cosine, sine = directions[joint], np.cos(rows[:, joint, None]), np.sin(rows[:, joint, None])
-            arms = positions - points[joint]
-            along = np.outer(arms @ axis, axis)
-            across = arms @ _cross_matrix(axis).T
-            positions = points[joint] + along + cosine * (arms - along) + sine * across
-        return positions
+            cross = _cross_matrix(axis).T
+            arms = _turned(positions - points[joint], axis, cross, cosine, sine)
+            positions = points[joint] + arms
+            if rates is not None:
+                velocities = _turned(velocities, axis, cross, cosine, sine) + rates[:, joint, None] * (arms @ cross)
+        return positions, velocities
 
     def tool_jacobian(self, q: Sequence[float] | Vector) -> Vector:
         """Jacobian at the tool centre along the axes of the world: ``(v, ω) = J(q) q̇``.
@@ -151,6 +173,12 @@ class Arm:
     def _placement(self, q: Sequence[float] | Vector) -> Any:
         self._engine.forwardKinematics(self._model, self._data, np.asarray(q, dtype=float))
         return self._engine.updateFramePlacement(self._model, self._data, self._tool)
+
+
+def _turned(vectors: Vector, axis: Vector, cross: Vector, cosine: Vector, sine: Vector) -> Vector:
+    """Vectors (n, 3), each turned about the axis by its own angle, by Rodrigues' formula."""
+    along = np.outer(vectors @ axis, axis)
+    return along + cosine * (vectors - along) + sine * (vectors @ cross)
 
 
 def _cross_matrix(axis: Vector) -> Vector:

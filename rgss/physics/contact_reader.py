@@ -54,34 +54,35 @@ class ContactReader:
         robot_bodies: tuple[tuple[str, str], ...] = ()
         workpiece_bodies: tuple[str, ...] = ()
         robot, workpiece = self._robot, self._workpiece
+        names, finger_of_link = self._scene_names, self._finger_of_link
         # All are asked for: asked for one body's, the engine names it A, yet does not turn the friction round.
         for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
-            _, body_a, body_b, link_a, link_b, _, _, _, gap, force, first, along_first, second, along_second = point
-            if force <= 0.0 and gap > 0.0:
+            force = point[9]
+            if force <= 0.0 and point[8] > 0.0:
                 continue
+            body_a, body_b = point[1], point[2]
             if body_a == robot:
-                link, partner, sign = link_a, body_b, -1.0
+                link, partner, sign = point[3], body_b, -1.0
             elif body_b == robot:
-                link, partner, sign = link_b, body_a, 1.0
+                link, partner, sign = point[4], body_a, 1.0
             else:
                 if body_a == workpiece or body_b == workpiece:
-                    body = self._scene_names[body_b if body_a == workpiece else body_a]
+                    body = names[body_b if body_a == workpiece else body_a]
                     if body not in workpiece_bodies:
                         workpiece_bodies = (*workpiece_bodies, body)
                 continue
             if partner != workpiece:
-                pair = (self._link_names[link], self._scene_names[partner])
+                pair = (self._link_names[link], names[partner])
                 if pair not in robot_bodies:
                     robot_bodies = (*robot_bodies, pair)
                 continue
-            finger = self._finger_of_link.get(link)
+            finger = finger_of_link.get(link)
             if finger is None:
                 other += force
                 continue
             forces[finger] += force
             # The engine gives friction as it acts on body A.
-            ax, ay, az = along_first
-            bx, by, bz = along_second
+            first, (ax, ay, az), second, (bx, by, bz) = point[10:14]
             fx += sign * (first * ax + second * bx)
             fy += sign * (first * ay + second * by)
             fz += sign * (first * az + second * bz)
@@ -119,15 +120,6 @@ class ContactReader:
                 )
             )
         return tuple(found)
-
-    def points_by_finger(self) -> dict[int, int]:
-        """Number of points that the engine has between each finger, by its link, and the workpiece."""
-        counts = dict.fromkeys(self._finger_joints, 0)
-        for point in self._engine.getContactPoints(self._workpiece, self._robot, -2, -2, self._client):
-            link = point[4] if point[1] == self._workpiece else point[3]
-            if link in counts:
-                counts[link] += 1
-        return counts
 
     def _workpiece_pose_before(self, step_s: float) -> Pose:
         """Where the workpiece was before a step: the engine moves a body with the velocity that it has afterwards."""

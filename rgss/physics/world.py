@@ -20,14 +20,13 @@ from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Box, Gripper, Pose, Scene, Shape
 from rgss.scenes.assembly import assembled_urdf, finger_joint
+from rgss.scenes.pad_ribs import pad_ribs
 
 _ARM_POSITION_GAIN = 0.2
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
 _RENEWAL_COSINE = math.cos(math.radians(15.0) / 2)
 _RENEWAL_CHECK_STEPS = 8
-_HOLDING_POINTS = 3
-_LONGEST_RENEWAL_S = 2.0
 
 
 class World:
@@ -55,7 +54,6 @@ class World:
         self.settings = settings
         self._steps = 0
         self._to_renew: list[int] = []
-        self._renew_by = 0
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
             self._set_parameters()
@@ -166,14 +164,13 @@ class World:
         self._rediscover(self._workpiece, -1)
 
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
-        """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm."""
-        states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
-        return tuple(s[0] for s in states), tuple(s[1] for s in states), tuple(s[3] for s in states)
+        """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
 
-    def motor_torques_n_m(self) -> tuple[float, ...]:
-        """Torque that each joint of the arm was driven with in the last step; its limit where that did not suffice."""
+        A torque is the joint's limit itself where that did not suffice.
+        """
         states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
-        return tuple([state[3] for state in states])
+        positions, velocities, _, torques = zip(*states, strict=True)
+        return positions, velocities, torques
 
     def finger_travel_m(self) -> tuple[float, ...]:
         """How far each finger has closed from its open end."""
@@ -189,24 +186,6 @@ class World:
         """Linear (m/s) and angular (rad/s) speed of the workpiece."""
         linear, angular = self._engine.getBaseVelocity(self._workpiece, physicsClientId=self._client)
         return sum(v * v for v in linear) ** 0.5, sum(w * w for w in angular) ** 0.5
-
-    def tool_velocity(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Where the grasp centre is (m) and how fast it moves (m/s) in the world.
-
-        The velocity is the engine's own: positions have too few digits for differences from step to step.
-        """
-        (cx, cy, cz), _, _, _, (fx, fy, fz), (qx, qy, qz, qw), (vx, vy, vz), (wx, wy, wz) = self._engine.getLinkState(
-            self._robot, self._flange, 1, 1, self._client
-        )
-        # Pose.rotate, written out, since this is done at every step of every move.
-        dx, dy, dz = self._grasp_centre_m
-        tx, ty, tz = 2 * (qy * dz - qz * dy), 2 * (qz * dx - qx * dz), 2 * (qx * dy - qy * dx)
-        x = fx + (dx + qw * tx + qy * tz - qz * ty)
-        y = fy + (dy + qw * ty + qz * tx - qx * tz)
-        z = fz + (dz + qw * tz + qx * ty - qy * tx)
-        # The engine's velocity is that of the link's centre of mass.
-        dx, dy, dz = x - cx, y - cy, z - cz
-        return (x, y, z), (vx + wy * dz - wz * dy, vy + wz * dx - wx * dz, vz + wx * dy - wy * dx)
 
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world as the arm really stands."""
@@ -235,16 +214,8 @@ class World:
                 return
             self._renewed_at = turned
             self._to_renew = list(self._finger_joints)
-            self._renew_by = self._steps
-        # One finger at a time, so that the others hold the object meanwhile: a renewed contact is one point, about
-        # which the object may turn, until the engine has found more. It is waited for, but not for ever.
-        renewed = self._to_renew[0]
-        held = all(
-            count >= _HOLDING_POINTS for link, count in self._reader.points_by_finger().items() if link != renewed
-        )
-        if held or self._steps >= self._renew_by:
-            self._rediscover(self._robot, self._to_renew.pop(0))
-            self._renew_by = self._steps + round(_LONGEST_RENEWAL_S * self.settings.rate_hz)
+        # One finger at a time, so that the friction of the others keeps the object where it is.
+        self._rediscover(self._robot, self._to_renew.pop())
 
     def _rediscover(self, body: int, link: int) -> None:
         # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
@@ -329,7 +300,11 @@ class World:
         base, engine = self.scene.robot.base, self._engine
         return load_urdf_text(
             self._client,
-            assembled_urdf(self.scene.robot, self.gripper),
+            assembled_urdf(
+                self.scene.robot,
+                self.gripper,
+                ribs=pad_ribs(self.gripper.geometry, self.scene.workpiece.shape),
+            ),
             position=base.position_m,
             orientation=base.quaternion_xyzw,
             flags=engine.URDF_USE_INERTIA_FROM_FILE
@@ -355,7 +330,6 @@ class World:
         fingers = range(self.gripper.geometry.fingers)
         self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
         self._flange = links[self.scene.robot.flange]
-        self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
         self._reader = ContactReader(
             engine,
             client,

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 
 from rgss.scenes.gripper import Gripper
+from rgss.scenes.pad_ribs import PadRibs
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
+from rgss.scenes.shapes import Box
 
 GRIPPER_BASE_LINK = "gripper_base"
+
+# Where a solid lies in its link, how it is rolled, its kind and its sizes.
+_Part = tuple[Pose, float, str, dict[str, str]]
 
 
 def finger_link(finger: int) -> str:
@@ -22,7 +28,7 @@ def finger_joint(finger: int) -> str:
     return f"finger_{finger + 1}_joint"
 
 
-def assembled_urdf(robot: Robot, gripper: Gripper) -> str:
+def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = None) -> str:
     """The arm's URDF with the gripper on its flange.
 
     The base is a solid cylinder and each finger a solid box of the design's masses; each finger
@@ -31,6 +37,7 @@ def assembled_urdf(robot: Robot, gripper: Gripper) -> str:
     Args:
         robot: The arm; its URDF was checked when it was read.
         gripper: The gripper as the design has it.
+        ribs: What the pads consist of for an engine of contact, flat if not given; what is seen stays flat.
     """
     root = ET.fromstring(robot.urdf)  # noqa: S314 - entities and document types are refused on reading
     geometry = gripper.geometry
@@ -41,8 +48,7 @@ def assembled_urdf(robot: Robot, gripper: Gripper) -> str:
         name=GRIPPER_BASE_LINK,
         mass_kg=gripper.base_mass_kg,
         inertia=(across, across, gripper.base_mass_kg * radius**2 / 2),
-        centre=geometry.base_pose,
-        shape=("cylinder", {"radius": _number(radius), "length": _number(height)}),
+        seen=(geometry.base_pose, 0.0, "cylinder", {"radius": _number(radius), "length": _number(height)}),
     )
     _add_joint(root, name="gripper_joint", kind="fixed", parent=robot.flange, child=GRIPPER_BASE_LINK, origin=Pose())
     x, y, z = geometry.finger.size_m
@@ -53,8 +59,8 @@ def assembled_urdf(robot: Robot, gripper: Gripper) -> str:
             name=finger_link(finger),
             mass_kg=mass,
             inertia=(mass * (y**2 + z**2) / 12, mass * (x**2 + z**2) / 12, mass * (x**2 + y**2) / 12),
-            centre=Pose(),
-            shape=("box", {"size": f"{_number(x)} {_number(y)} {_number(z)}"}),
+            seen=_box(0.0, x, y, z),
+            touched=_ribbed(geometry.finger, ribs) if ribs else (),
         )
         joint = _add_joint(
             root,
@@ -79,40 +85,63 @@ def assembled_urdf(robot: Robot, gripper: Gripper) -> str:
     return ET.tostring(root, encoding="unicode")
 
 
+def _box(along_m: float, x: float, y: float, z: float) -> _Part:
+    return Pose(position_m=(along_m, 0.0, 0.0)), 0.0, "box", {"size": f"{_number(x)} {_number(y)} {_number(z)}"}
+
+
+def _ribbed(finger: Box, ribs: PadRibs) -> tuple[_Part, ...]:
+    x, y, z = finger.size_m
+    return (
+        _box(ribs.proud_m / 2, x - ribs.proud_m, y, z),
+        *(
+            (
+                Pose(position_m=(ribs.radius_m - x / 2, 0.0, height)),
+                math.pi / 2,
+                "capsule",
+                {"radius": _number(ribs.radius_m), "length": _number(y - 2 * ribs.radius_m)},
+            )
+            for height in ribs.heights_m
+        ),
+    )
+
+
 def _add_link(
     root: ET.Element,
     *,
     name: str,
     mass_kg: float,
     inertia: tuple[float, float, float],
-    centre: Pose,
-    shape: tuple[str, dict[str, str]],
+    seen: _Part,
+    touched: Sequence[_Part] = (),
 ) -> None:
+    """Add a solid; what it looks like is what is touched, too, if nothing else is given."""
     link = ET.SubElement(root, "link", {"name": name})
     inertial = ET.SubElement(link, "inertial")
-    _add_origin(inertial, centre, 0.0)
+    _add_origin(inertial, seen[0], 0.0, 0.0)
     ET.SubElement(inertial, "mass", {"value": _number(mass_kg)})
     xx, yy, zz = (_number(value) for value in inertia)
     ET.SubElement(inertial, "inertia", {"ixx": xx, "iyy": yy, "izz": zz, "ixy": "0", "ixz": "0", "iyz": "0"})
-    for element in ("collision", "visual"):
-        part = ET.SubElement(link, element)
-        _add_origin(part, centre, 0.0)
-        ET.SubElement(ET.SubElement(part, "geometry"), shape[0], shape[1])
+    for element, parts in (("collision", touched or (seen,)), ("visual", (seen,))):
+        for pose, roll, shape, sizes in parts:
+            part = ET.SubElement(link, element)
+            _add_origin(part, pose, roll, 0.0)
+            ET.SubElement(ET.SubElement(part, "geometry"), shape, sizes)
 
 
 def _add_joint(
     root: ET.Element, *, name: str, kind: str, parent: str, child: str, origin: Pose, yaw_rad: float = 0.0
 ) -> ET.Element:
     joint = ET.SubElement(root, "joint", {"name": name, "type": kind})
-    _add_origin(joint, origin, yaw_rad)
+    _add_origin(joint, origin, 0.0, yaw_rad)
     ET.SubElement(joint, "parent", {"link": parent})
     ET.SubElement(joint, "child", {"link": child})
     return joint
 
 
-def _add_origin(element: ET.Element, pose: Pose, yaw_rad: float) -> None:
+def _add_origin(element: ET.Element, pose: Pose, roll_rad: float, yaw_rad: float) -> None:
     xyz = " ".join(_number(value) for value in pose.position_m)
-    ET.SubElement(element, "origin", {"xyz": xyz, "rpy": f"0 0 {_number(math.remainder(yaw_rad, math.tau))}"})
+    yaw = _number(math.remainder(yaw_rad, math.tau))
+    ET.SubElement(element, "origin", {"xyz": xyz, "rpy": f"{_number(roll_rad)} 0 {yaw}"})
 
 
 def _number(value: float) -> str:

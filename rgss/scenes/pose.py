@@ -67,6 +67,27 @@ class Pose:
         px, py, pz = turned.rotate(self.position_m)
         return Pose(position_m=(-px, -py, -pz), quaternion_xyzw=turned.quaternion_xyzw)
 
+    def seen_from(self, frame: Pose) -> Pose:
+        """``frame.inverse() @ self``, in one go: this pose in another frame that is given in the same outer frame."""
+        x, y, z, w = frame.quaternion_xyzw
+        (ax, ay, az), (bx, by, bz) = self.position_m, frame.position_m
+        vx, vy, vz = ax - bx, ay - by, az - bz
+        tx, ty, tz = 2 * (z * vy - y * vz), 2 * (x * vz - z * vx), 2 * (y * vx - x * vy)
+        qx, qy, qz, qw = self.quaternion_xyzw
+        return Pose(
+            position_m=(
+                vx + w * tx - y * tz + z * ty,
+                vy + w * ty - z * tx + x * tz,
+                vz + w * tz - x * ty + y * tx,
+            ),
+            quaternion_xyzw=(
+                w * qx - x * qw - y * qz + z * qy,
+                w * qy + x * qz - y * qw - z * qx,
+                w * qz - x * qy + y * qx - z * qw,
+                w * qw + x * qx + y * qy + z * qz,
+            ),
+        )
+
     def raised(self, height_m: float) -> Pose:
         """The same pose, higher along the outer frame's z."""
         x, y, z = self.position_m

@@ -55,4 +55,4 @@ def execute(
             plant = DynamicPlant(machine, cell.arm, scene, gripper, physics, control, checkpoint=checkpoint)
             return run_program(plant, references)
     with World(scene, gripper, physics) as world:
-        return Execution(world, references, control, observer=observer, checkpoint=checkpoint).run()
+        return Execution(world, references, control, cell.arm, observer=observer, checkpoint=checkpoint).run()

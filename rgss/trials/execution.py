@@ -9,6 +9,7 @@ from rgss.evidence import Failure, Metric, Phase
 from rgss.grasping import configuration_distance_m
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
+from rgss.trials.arm_watch import ToolKinematics
 from rgss.trials.control import ControlSettings
 from rgss.trials.grasp_record import grasp_metrics
 from rgss.trials.hand_motion import HandWatch
@@ -31,6 +32,7 @@ class Execution:
         world: World,
         references: Mapping[Phase, Reference],
         control: ControlSettings,
+        kinematics: ToolKinematics,
         *,
         observer: StepObserver | None = None,
         checkpoint: Callable[[], None] | None = None,
@@ -41,12 +43,14 @@ class Execution:
             world: A fresh world.
             references: Targets of the moves; the program ends before the first move that has none.
             control: Thresholds.
+            kinematics: The arm's, with the tool at the grasp centre.
             observer: Looks on after every step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
         """
         self._world = world
         self._references = references
         self._control = control
+        self._kinematics = kinematics
         self._observer = observer
         self._checkpoint = checkpoint
         self._step_s = world.settings.step_s
@@ -70,7 +74,7 @@ class Execution:
         world = self._world
         carried_at = self._held_at if phase in CARRYING else None
         self._tightenings = 0
-        watch = Watch(world, self._control, carried_at=carried_at, resting_on=self._resting_on(phase))
+        watch = self._watch(carried_at, self._resting_on(phase))
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
         loads, tool = reference.load_m_s2.tolist(), reference.tool_m.tolist()
         steps = 0
@@ -79,7 +83,7 @@ class Execution:
             world.command_arm(positions[index], velocities[index])
             world.step()
             steps += 1
-            self._observe(phase, watch, loads[index], tool[index + 1])
+            self._observe(phase, watch, loads[index], (positions[index + 1], tool[index + 1]))
             if carried_at is not None:
                 self._keep_grip(watch)
             if watch.failure is not None:
@@ -119,7 +123,7 @@ class Execution:
         """Close until every finger holds above the force that Coulomb friction needs."""
         world, gripper, control = self._world, self._world.gripper, self._control
         scene = world.scene
-        watch = Watch(world, control, carried_at=None, resting_on=scene.support)
+        watch = self._watch(None, scene.support)
         fingers = gripper.geometry.fingers
         friction = gripper.friction * scene.workpiece.friction
         needed_n = scene.workpiece.mass_kg * scene.gravity_m_s2 / (friction * fingers)
@@ -157,7 +161,7 @@ class Execution:
     def place(self) -> PhaseResult:
         """Open to the initial position and wait until the object stands."""
         world, gripper, control = self._world, self._world.gripper, self._control
-        watch = Watch(world, control, carried_at=None, resting_on=world.scene.place_support)
+        watch = self._watch(None, world.scene.place_support)
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
         steps = 0
@@ -240,10 +244,17 @@ class Execution:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
         self._world.step()
 
+    def _watch(self, carried_at: Pose | None, resting_on: str) -> Watch:
+        return Watch(self._world, self._kinematics, self._control, carried_at=carried_at, resting_on=resting_on)
+
     def _observe(
-        self, phase: Phase, watch: Watch, load_m_s2: float, tool_m: tuple[float, float, float] | None
+        self,
+        phase: Phase,
+        watch: Watch,
+        load_m_s2: float,
+        target: tuple[tuple[float, ...], tuple[float, float, float]] | None,
     ) -> Contacts:
-        contacts = watch.after_step(load_m_s2, tool_m)
+        contacts = watch.after_step(load_m_s2, target)
         if self._observer is not None:
             force_n = self._grip_n if phase is Phase.GRASP or phase in CARRYING else None
             self._observer.after_step(self._world, phase, contacts, watch.grip_margin, force_n)

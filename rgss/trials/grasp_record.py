@@ -72,9 +72,9 @@ _ANALYSED = (
 )
 # A pyramid of six edges underrates friction by at most 1 - cos(30°); more edges cost more than the physics.
 _CONE_EDGES = 6
-# Contacts of the engine penetrate by hundredths of a millimetre; when it renews them while the object is turned, the
-# object moves by as much from one look to the next (2.1 mm/s was seen; an object that slips is ten times as fast).
-_TOLERANCES = ContactTolerances(gap_m=5.0e-5, speed_m_s=3.0e-3)
+# Contacts of the engine penetrate by hundredths of a millimetre; a held object turns and yields in its fingers by less
+# than as much from one look to the next (0.35 mm/s was seen; an object that slips is ten times as fast).
+_TOLERANCES = ContactTolerances(gap_m=5.0e-5, speed_m_s=1.0e-3)
 # A point this far inside is not on the wall.
 _WALL_M = 1.0e-3
 # What is known of a grasp that has come apart: it holds nothing, and nothing else can be said of it.

@@ -15,8 +15,8 @@ from rgss.trials.hand_motion import HandWatch
 class GraspWatch:
     """Looks at the object in the hand often, and analyses the grasp now and then.
 
-    Which points of a pad touch changes from step to step in the engine, so one instant says little:
-    beside the worst it keeps in how many of the samples the grasp was force-closed.
+    One instant says little of a carry: beside the worst it keeps in how many of the samples the grasp
+    was force-closed.
 
     Attributes:
         slip_m: Greatest distance of the object from where it was grasped.

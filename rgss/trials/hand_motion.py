@@ -95,4 +95,4 @@ class HandWatch:
 
     def _look(self) -> tuple[Pose, tuple[float, ...]]:
         world = self._world
-        return world.tool_pose().inverse() @ world.workpiece_pose(), world.finger_travel_m()
+        return world.workpiece_pose().seen_from(world.tool_pose()), world.finger_travel_m()

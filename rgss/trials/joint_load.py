@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rgss.evidence import Metric
 from rgss.scenes import Joint
 
@@ -27,9 +30,10 @@ class JointLoad:
         self.saturated: list[int] = []
         self._names = [joint.name for joint in joints]
         self._limits = [joint.torque_n_m for joint in joints]
-        self._reached = [_AT_THE_LIMIT * limit for limit in self._limits]
-        self._peak = [0.0] * len(joints)
-        self._saturated_s = [0.0] * len(joints)
+        self._reached = _AT_THE_LIMIT * np.array(self._limits)
+        self._peak = np.zeros(len(joints))
+        self._saturated_steps = np.zeros(len(joints), dtype=np.int64)
+        self._step_s = 0.0
 
     def note(self, torques_n_m: Sequence[float], step_s: float) -> None:
         """Add one step.
@@ -38,14 +42,23 @@ class JointLoad:
             torques_n_m: Torque of each joint: what its motor gave, or what its controller asked for.
             step_s: Length of the step.
         """
-        for index, torque in enumerate(torques_n_m):
-            size = -torque if torque < 0.0 else torque
-            if size > self._peak[index]:
-                self._peak[index] = size
-            if size >= self._reached[index]:
-                self._saturated_s[index] += step_s
-                if index not in self.saturated:
-                    self.saturated.append(index)
+        self.note_all(np.array([torques_n_m]), step_s)
+
+    def note_all(self, torques_n_m: NDArray[np.float64], step_s: float) -> None:
+        """Add steps.
+
+        Args:
+            torques_n_m: Torque of each joint in each step, shape (steps, joints).
+            step_s: Length of a step.
+        """
+        sizes = np.abs(torques_n_m)
+        reached = sizes >= self._reached
+        self._peak = np.maximum(self._peak, sizes.max(axis=0))
+        self._saturated_steps += reached.sum(axis=0)
+        self._step_s = step_s
+        first = reached.argmax(axis=0)
+        new = [joint for joint in np.flatnonzero(reached.any(axis=0)).tolist() if joint not in self.saturated]
+        self.saturated.extend(sorted(new, key=lambda joint: int(first[joint])))
 
     def words(self) -> str:
         """Which joints reached their limit, to follow what went wrong; empty if none did."""
@@ -55,11 +68,11 @@ class JointLoad:
 
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit; a joint's torque is never above its limit, and joints count from 1."""
-        given = tuple(min(peak, limit) for peak, limit in zip(self._peak, self._limits, strict=True))
+        given = tuple(min(peak, limit) for peak, limit in zip(self._peak.tolist(), self._limits, strict=True))
         ratios = [peak / limit for peak, limit in zip(given, self._limits, strict=True)]
         return {
             "peak_joint_torque_n_m": given,
             "peak_joint_torque_ratio": max(ratios),
             "most_loaded_joint": 1 + ratios.index(max(ratios)),
-            "joint_saturated_s": tuple(self._saturated_s),
+            "joint_saturated_s": tuple(steps * self._step_s for steps in self._saturated_steps.tolist()),
         }

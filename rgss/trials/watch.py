@@ -8,11 +8,9 @@ from collections import deque
 from rgss.evidence import Failure, Metric
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
+from rgss.trials.arm_watch import ArmWatch, ToolKinematics
 from rgss.trials.control import ControlSettings
 from rgss.trials.grasp_watch import GraspWatch
-from rgss.trials.joint_load import JointLoad
-
-_AT_REST = (0.0, 0.0, 0.0)
 
 
 class Watch:
@@ -24,11 +22,20 @@ class Watch:
         grip_margin: Friction available over friction needed as last observed; None so far.
     """
 
-    def __init__(self, world: World, control: ControlSettings, *, carried_at: Pose | None, resting_on: str) -> None:
+    def __init__(
+        self,
+        world: World,
+        kinematics: ToolKinematics,
+        control: ControlSettings,
+        *,
+        carried_at: Pose | None,
+        resting_on: str,
+    ) -> None:
         """Begin to watch.
 
         Args:
             world: The world that is stepped.
+            kinematics: The arm's, with the tool at the grasp centre.
             control: Thresholds.
             carried_at: Transform of the object to the grasp centre when it was grasped; None
                 when it is not carried.
@@ -48,27 +55,25 @@ class Watch:
         self._touches = 0
         self._peak_force_n = 0.0
         self._margin = math.inf
-        self._tracking_m = 0.0
-        self._load = JointLoad(world.scene.robot.joints)
-        # Every move starts from rest.
-        steps = max(1, round(control.acceleration_window_s * world.settings.rate_hz))
-        self._velocities_m_s = deque([_AT_REST] * steps, maxlen=steps)
-        self._tool_speed_m_s: float | None = None
-        self._tool_acceleration_m_s2: float | None = None
+        self._arm = ArmWatch(kinematics, world.scene.robot, control, world.settings)
         self._grasp = None if carried_at is None else GraspWatch(world, control, carried_at)
 
-    def after_step(self, load_m_s2: float, commanded_tool_m: tuple[float, float, float] | None) -> Contacts:
+    def after_step(
+        self, load_m_s2: float, target: tuple[tuple[float, ...], tuple[float, float, float]] | None
+    ) -> Contacts:
         """Observe the world after a step.
 
         Args:
             load_m_s2: Tool acceleration minus gravity, in magnitude.
-            commanded_tool_m: Where the tool should be; None where it is not followed.
+            target: Where the joints (rad) and the tool (m, in the world) should be; None where the arm is held.
         """
         contacts = self._world.contacts()
-        self._load.note(self._world.motor_torques_n_m(), self._step_s)
         self._watch_touching(contacts)
-        if commanded_tool_m is not None:
-            self._watch_tool(commanded_tool_m)
+        state = self._world.arm_state()
+        if target is None:
+            self._arm.note(state)
+        elif (stray := self._arm.follow(state, *target)) is not None:
+            self.fail(Failure.TRACKING_ERROR, stray)
         if self._grasp is not None:
             self._watch_grip(contacts, load_m_s2)
             self._watch_slip(self._grasp.after_step())
@@ -90,10 +95,7 @@ class Watch:
         return {
             "arm_scene_contacts": self._touches,
             "peak_finger_force_n": self._peak_force_n,
-            **self._load.metrics(),
-            "tracking_error_m": self._tracking_m,
-            "peak_tool_speed_m_s": self._tool_speed_m_s,
-            "peak_tool_acceleration_m_s2": self._tool_acceleration_m_s2,
+            **self._arm.metrics(),
             "slip_m": grasp.slip_m if grasp is not None else None,
             "grip_margin_min": self._margin if math.isfinite(self._margin) else None,
             **(grasp.metrics() if grasp is not None else {}),
@@ -132,19 +134,6 @@ class Watch:
                 Failure.OBJECT_DROPPED,
                 f"{contacts.fingers_touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms",
             )
-
-    def _watch_tool(self, commanded_tool_m: tuple[float, float, float]) -> None:
-        position, velocity = self._world.tool_velocity()
-        error = math.dist(position, commanded_tool_m)
-        self._tracking_m = max(self._tracking_m, error)
-        if error > self._control.largest_tracking_error_m:
-            words = f"the tool was {error * 1e3:.2f} mm from where it should be{self._load.words()}"
-            self.fail(Failure.TRACKING_ERROR, words)
-        before = self._velocities_m_s
-        acceleration = math.dist(velocity, before[0]) / (len(before) * self._step_s)
-        before.append(velocity)
-        self._tool_speed_m_s = max(self._tool_speed_m_s or 0.0, math.hypot(*velocity))
-        self._tool_acceleration_m_s2 = max(self._tool_acceleration_m_s2 or 0.0, acceleration)
 
     def _watch_slip(self, slip_m: float | None) -> None:
         if slip_m is not None and slip_m > self._control.largest_slip_m:

@@ -68,6 +68,24 @@ def test_positions_of_many_configurations_are_those_of_each(arm, configurations)
         assert arm.tool_position(q)[0] == pytest.approx(position, abs=1e-12)
 
 
+def test_the_tools_motion_is_its_place_and_the_jacobian_times_the_joints_speeds(arm, configurations):
+    qs, dqs = configurations(50), configurations(50, seed=2)
+    positions, velocities = arm.tool_motion(qs, dqs)
+    assert positions == pytest.approx(arm.tool_position(qs), abs=1e-15)
+    for q, dq, velocity in zip(qs, dqs, velocities, strict=True):
+        assert velocity == pytest.approx(arm.tool_jacobian(q)[:3] @ dq, abs=1e-12)
+
+
+def test_no_axis_is_farther_from_the_tool_than_the_reach(arm, configurations):
+    """So that a joint that is off by an angle moves the tool by at most the angle times the reach."""
+    qs = configurations(500)
+    turned = [
+        np.linalg.norm(arm.tool_position(qs + 1e-4 * row) - arm.tool_position(qs), axis=1).max() for row in np.eye(6)
+    ]
+    assert max(turned) <= 1e-4 * arm.reach_m
+    assert max(turned) > 0.6e-4 * arm.reach_m
+
+
 def test_jacobian_equals_finite_differences(arm, configurations):
     step = 1e-6
     for q in configurations(30, seed=3):

@@ -7,6 +7,7 @@ import pytest
 
 from rgss.physics.engine import pybullet
 from rgss.scenes.assembly import assembled_urdf, finger_link
+from rgss.scenes.pad_ribs import pad_ribs
 
 pytestmark = pytest.mark.engine
 
@@ -45,9 +46,11 @@ def test_the_cup_has_the_inertia_of_a_solid_cylinder(three_fingers):
 
 def test_links_are_the_primitive_solids_of_the_description(cell):
     """Without its flag the engine makes a hull of facets of a cylinder."""
-    root = ET.fromstring(assembled_urdf(cell.scene.robot, cell.gripper))  # noqa: S314 - our own text
+    ribs = pad_ribs(cell.gripper.geometry, cell.scene.workpiece.shape)
+    root = ET.fromstring(assembled_urdf(cell.scene.robot, cell.gripper, ribs=ribs))  # noqa: S314 - our own text
     with cell.world() as world:
-        kinds = {world._engine.GEOM_CYLINDER: "cylinder", world._engine.GEOM_BOX: "box"}
+        engine = world._engine
+        kinds = {engine.GEOM_CYLINDER: "cylinder", engine.GEOM_BOX: "box", engine.GEOM_CAPSULE: "capsule"}
         for number, name in world._reader._link_names.items():
             (link,) = (each for each in root.findall("link") if each.get("name") == name)
             shapes = world._engine.getCollisionShapeData(world._robot, number, physicsClientId=world._client)

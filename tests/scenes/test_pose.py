@@ -90,3 +90,10 @@ def test_tilt_does_not_depend_on_turns_about_the_two_z_axes(before, tilt, after)
 def test_a_rounded_quaternion_does_not_break_the_tilt():
     assert Pose(quaternion_xyzw=(0.0, 0.0, 0.0, 1.0 + 1e-9)).tilt_rad == 0.0
     assert Pose(quaternion_xyzw=(1.0 + 1e-9, 0.0, 0.0, 0.0)).tilt_rad == pytest.approx(math.pi)
+
+
+@given(poses, poses)
+def test_a_pose_seen_from_another_is_in_that_ones_frame(pose, frame):
+    expected = np.linalg.inv(matrix(frame)) @ matrix(pose)
+    assert np.allclose(matrix(pose.seen_from(frame)), expected, atol=1e-10)
+    assert pose.seen_from(frame).quaternion_xyzw == pytest.approx((frame.inverse() @ pose).quaternion_xyzw, abs=1e-12)

@@ -142,7 +142,7 @@ def test_a_cup_that_slips_is_seen_to_slip(spec_of):
     assert lift["contacts_slipping"] == lift["grasp_contact_count"] > 0
     assert lift["contacts_rolling"] == 0
     # It slides down in the hand: a contact's slip is the object's speed in the hand, give or take its turning.
-    assert lift["contact_slip_speed_m_s"] == pytest.approx(lift["held_speed_m_s"], rel=0.2)
+    assert lift["contact_slip_speed_m_s"] == pytest.approx(lift["held_speed_m_s"], rel=0.3)
     assert lift["held_distance_m"] == pytest.approx(lift["slip_m"], rel=0.05)
     assert lift["held_distance_m"] > 0.02
 

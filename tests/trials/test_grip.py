@@ -101,7 +101,7 @@ class Lift:
         notes = Notes()
         settings = replace(ControlSettings(), **control)
         with World(self.scene, gripper, PhysicsSettings(rate_hz=RATE_HZ)) as world:
-            results = Execution(world, references, settings, observer=notes).run()
+            results = Execution(world, references, settings, self.arm, observer=notes).run()
         return {result.phase: result for result in results}, notes
 
     def margin(self, force_n, acceleration_m_s2, friction=0.7):

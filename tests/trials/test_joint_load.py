@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from rgss.scenes import Joint
@@ -57,3 +58,19 @@ def test_just_below_the_limit_is_not_at_it():
 
 def test_no_step_is_no_load():
     assert load_of().metrics()["peak_joint_torque_n_m"] == (0.0, 0.0)
+
+
+def test_steps_may_be_added_one_by_one_or_all_at_once():
+    rng = np.random.default_rng(5)
+    steps = rng.normal(0.0, 0.6, (200, 2)) * LIMITS
+    apart, together = load_of(), load_of()
+    for torques in steps.tolist():
+        apart.note(torques, 0.25)
+    for part in np.split(steps, [3, 90]):
+        together.note_all(part, 0.25)
+
+    assert len(apart.saturated) == 2
+    assert (apart.metrics(), apart.saturated) == (together.metrics(), together.saturated)
+    assert apart.metrics()["joint_saturated_s"] == tuple(
+        0.25 * count for count in (np.abs(steps) >= LIMITS).sum(axis=0).tolist()
+    )

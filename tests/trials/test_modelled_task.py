@@ -194,7 +194,7 @@ def physical_failures(spec):
     for phase in Phase:
         for wrong in WRONG:
             world = ScriptedWorld(spec)
-            execution = Execution(world, REFERENCES, ControlSettings())
+            execution = Execution(world, REFERENCES, ControlSettings(), world)
             execution.start((0.0,) * 6)
             if phase in CARRYING:
                 assert execution.grasp().failure is None
@@ -266,9 +266,14 @@ class ScriptedWorld:
     def tool_pose(self):
         return self.scene.grasp
 
-    def tool_velocity(self):
-        here = NOWHERE if self.wrong == "the tool is off its path" else self.scene.grasp
-        return here.position_m, (0.0, 0.0, 0.0)
+    @property
+    def reach_m(self):
+        return 1.0
+
+    def tool_motion(self, qs, dqs):
+        """Also stands in for the kinematics: only where the joints are astray is the tool somewhere else."""
+        here = NOWHERE if qs[0][0] else self.scene.grasp
+        return np.tile(here.position_m, (len(qs), 1)), np.zeros((len(qs), 3))
 
     def workpiece_speed(self):
         return 0.0, 0.0
@@ -277,8 +282,9 @@ class ScriptedWorld:
         travel_m = 0.01 if self.wrong == "the fingers are stuck" else 0.0
         return (travel_m,) * self.gripper.geometry.fingers
 
-    def motor_torques_n_m(self):
-        return (0.0,) * 6
+    def arm_state(self):
+        astray_rad = 1.0 if self.wrong == "the tool is off its path" else 0.0
+        return (astray_rad,) * 6, (0.0,) * 6, (0.0,) * 6
 
     def reset_arm(self, configuration_rad):
         pass

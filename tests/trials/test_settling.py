@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from rgss.kinematics import Arm
 from rgss.physics import World
 from rgss.scenes import Pose
 from rgss.trials.control import ControlSettings
@@ -49,7 +50,7 @@ def place(spec_of):
         with Shaking(scene, spec.gripper, spec.settings.physics) as world:
             for name, value in shaking.items():
                 setattr(world, name, value)
-            execution = Execution(world, {}, CONTROL)
+            execution = Execution(world, {}, CONTROL, Arm(scene.robot, spec.gripper.geometry.grasp_centre))
             execution.start(scene.robot.home_rad)
             return execution.place()
 

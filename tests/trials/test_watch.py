@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 
+import numpy as np
 import pytest
 
 from rgss.evidence import Failure
@@ -33,6 +34,7 @@ class ScriptedWorld:
         self.workpiece = TOOL @ HELD
         self.torques = (0.0,) * 6
         self.velocity = (0.0, 0.0, 0.0)
+        self.reach_m = 1.0
 
     def contacts(self):
         return self.now
@@ -49,11 +51,12 @@ class ScriptedWorld:
     def workpiece_pose(self):
         return self.workpiece
 
-    def tool_velocity(self):
-        return self.tool.position_m, self.velocity
+    def arm_state(self):
+        """The joints of a robot that slides along three axes, so that they are the tool's coordinates."""
+        return (*self.tool.position_m, 0.0, 0.0, 0.0), (*self.velocity, 0.0, 0.0, 0.0), self.torques
 
-    def motor_torques_n_m(self):
-        return self.torques
+    def tool_motion(self, qs, dqs):
+        return np.array(qs)[:, :3], np.array(dqs)[:, :3]
 
 
 @pytest.fixture
@@ -62,7 +65,7 @@ def world(spec_of):
 
 
 def watch_of(world, *, carried=False, resting_on=""):
-    return Watch(world, CONTROL, carried_at=HELD if carried else None, resting_on=resting_on)
+    return Watch(world, world, CONTROL, carried_at=HELD if carried else None, resting_on=resting_on)
 
 
 def contacts(*forces, other=0.0, robot=(), workpiece=()):
@@ -230,7 +233,7 @@ def test_a_sample_at_the_end_is_not_counted_twice(world):
 
 def follow(world, watch, commanded, steps=1):
     for _ in range(steps):
-        watch.after_step(9.81, commanded)
+        watch.after_step(9.81, ((*commanded, 0.0, 0.0, 0.0), commanded))
 
 
 def test_a_tool_that_strays_is_a_failure(world):

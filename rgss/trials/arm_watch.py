@@ -1,0 +1,116 @@
+"""What the arm does over a phase: the torques of its joints, and how its tool follows its path."""
+
+from __future__ import annotations
+
+import math
+from operator import sub
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rgss.evidence import Metric
+from rgss.physics import PhysicsSettings
+from rgss.scenes import Robot
+from rgss.trials.control import ControlSettings
+from rgss.trials.joint_load import JointLoad
+
+Array = NDArray[np.float64]
+JointState = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+
+
+class ToolKinematics(Protocol):
+    """What turns the motion of the joints into that of the tool."""
+
+    @property
+    def reach_m(self) -> float:
+        """No axis of a joint is farther from the tool."""
+
+    def tool_motion(self, qs: ArrayLike, dqs: ArrayLike) -> tuple[Array, Array]:
+        """Positions (m) and velocities (m/s) of the tool, each (n, 3), for joint angles and speeds, each (n, 6)."""
+
+
+class ArmWatch:
+    """Notes the joints step by step; what follows from them is worked out when it is asked for, all steps at once."""
+
+    def __init__(
+        self, kinematics: ToolKinematics, robot: Robot, control: ControlSettings, settings: PhysicsSettings
+    ) -> None:
+        """Begin at rest.
+
+        Args:
+            kinematics: The arm's, with the tool at the grasp centre.
+            robot: The arm.
+            control: How far the tool may stray, and how its acceleration is averaged.
+            settings: Length of a step.
+        """
+        self._kinematics = kinematics
+        self._limit_m = control.largest_tracking_error_m
+        self._limit_rad = self._limit_m / kinematics.reach_m
+        self._step_s = settings.step_s
+        self._window = max(1, round(control.acceleration_window_s * settings.rate_hz))
+        self._load = JointLoad(robot.joints)
+        self._torques: list[tuple[float, ...]] = []
+        self._followed: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
+        self._tool_m: list[tuple[float, float, float]] = []
+
+    def note(self, state: JointState) -> None:
+        """Add a step in which the arm is held where it is.
+
+        Args:
+            state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
+        """
+        self._torques.append(state[2])
+
+    def follow(
+        self, state: JointState, target_rad: tuple[float, ...], target_m: tuple[float, float, float]
+    ) -> str | None:
+        """Add a step of a move.
+
+        Args:
+            state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
+            target_rad: Where the joints should be.
+            target_m: Where the tool should be, in the world.
+
+        Returns:
+            What is wrong, if the tool is farther from there than it may be.
+        """
+        positions, velocities, torques = state
+        self._torques.append(torques)
+        self._followed.append((positions, velocities))
+        self._tool_m.append(target_m)
+        # A joint that is off by an angle moves the tool by at most the angle times the reach.
+        if sum(map(abs, map(sub, positions, target_rad))) <= self._limit_rad:
+            return None
+        error = math.dist(self._kinematics.tool_motion([positions], [velocities])[0][0], target_m)
+        if error <= self._limit_m:
+            return None
+        self._settle_torques()
+        return f"the tool was {error * 1e3:.2f} mm from where it should be{self._load.words()}"
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit; those of the tool are missing where it did not follow a path."""
+        self._settle_torques()
+        if not self._followed:
+            off = 0.0
+            speed = acceleration = None
+        else:
+            states = np.array(self._followed)
+            positions, velocities = self._kinematics.tool_motion(states[:, 0], states[:, 1])
+            off = float(np.linalg.norm(positions - np.array(self._tool_m), axis=1).max())
+            speed = float(np.linalg.norm(velocities, axis=1).max())
+            # Every move starts from rest.
+            padded = np.vstack([np.zeros((self._window, 3)), velocities])
+            changes = np.linalg.norm(padded[self._window :] - padded[: -self._window], axis=1)
+            acceleration = float(changes.max()) / (self._window * self._step_s)
+        return {
+            **self._load.metrics(),
+            "tracking_error_m": off,
+            "peak_tool_speed_m_s": speed,
+            "peak_tool_acceleration_m_s2": acceleration,
+        }
+
+    def _settle_torques(self) -> None:
+        if self._torques:
+            self._load.note_all(np.array(self._torques), self._step_s)
+            self._torques.clear()
