@@ -2,6 +2,7 @@
 
 from rgss.grasping.closure import ClosureVerdict, equilibrium, force_closure, form_closure, wrench_resistance
 from rgss.grasping.contact import ContactKind, ContactPoint
+from rgss.grasping.geometry import GraspMemory
 from rgss.grasping.grasp import Grasp
 from rgss.grasping.grasp_map import (
     PrimitiveWrenches,
@@ -54,6 +55,7 @@ __all__ = [
     "ContactTolerances",
     "Curvature",
     "Grasp",
+    "GraspMemory",
     "GraspPolygon",
     "GraspQuality",
     "PrimitiveWrenches",

@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import NamedTuple
 
 from rgss.evidence.records import Metric
-from rgss.grasping.closure import balance, positive_span, require_force_limit, resistance
+from rgss.grasping.closure import require_force_limit, resistance
 from rgss.grasping.contact import ContactPoint, Vector3
-from rgss.grasping.feasibility import can_balance, positively_span
+from rgss.grasping.geometry import GraspMemory
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import PrimitiveWrenches, grasp_matrix, net_wrench, primitive_wrenches
+from rgss.grasping.grasp_map import net_wrench
 from rgss.grasping.polygon import grasp_polygon
-from rgss.grasping.quality import ball_radius, q_diff_m, q_gii, q_gpri, q_msv, q_voe
+from rgss.grasping.quality import q_diff_m, q_gpri
 from rgss.grasping.rigid_body import wrench_norm_n
 from rgss.grasping.screws import Wrench
 
@@ -81,6 +80,7 @@ def analyse_grasp(
     cone_edges: int = 8,
     with_margins: bool = True,
     with_strength: bool = True,
+    memory: GraspMemory | None = None,
 ) -> GraspQuality:
     """Analyse the grasp that contacts make.
 
@@ -97,17 +97,18 @@ def analyse_grasp(
         with_margins: Whether to say how well the verdicts hold, by linear programs; the verdicts are the same without.
         with_strength: Whether to say what the grasp resists: the smallest maximum wrench, by a hull, and the load, by
             a linear program. Without margins and strength an analysis takes a few times less than with either.
+        memory: What remembers the grasp that was analysed before this one, if the same grasp is looked at again and
+            again: what depends on the geometry alone is then worked out anew only where a contact has moved.
 
     Raises:
         DefinitionError: The contacts, the limit, the axis, the length or the load make no sense, or a solver failed.
     """
     grasp = Grasp.of(contacts, centre_of_mass_m, characteristic_length_m)
     require_force_limit(finger_force_limit_n)
-    matrix, polygon = grasp_matrix(grasp), grasp_polygon(grasp, grasp_axis)
-    edges = primitive_wrenches(grasp, cone_edges=cone_edges)
-    squeeze, force, form = _verdicts(grasp, edges, with_margins=with_margins)
+    geometry = (memory or GraspMemory()).geometry(grasp, cone_edges=cone_edges, with_margins=with_margins)
+    polygon = grasp_polygon(grasp, grasp_axis)
     load = (
-        resistance(grasp, edges, external_wrench, finger_force_limit_n=finger_force_limit_n)
+        resistance(grasp, geometry.edges, external_wrench, finger_force_limit_n=finger_force_limit_n)
         if external_wrench is not None and with_strength
         else None
     )
@@ -116,41 +117,19 @@ def analyse_grasp(
         contact_count=len(grasp.contacts),
         finger_count=len(grasp.fingers()),
         characteristic_length_m=grasp.characteristic_length_m,
-        equilibrium=squeeze.holds,
-        equilibrium_margin_1=squeeze.margin,
-        force_closure=force.holds,
-        force_closure_margin_1=force.margin,
-        form_closure=form.holds,
-        form_closure_margin_1=form.margin,
-        q_msv_1=q_msv(matrix),
-        q_voe_1=q_voe(matrix),
-        q_gii_1=q_gii(matrix),
+        equilibrium=geometry.squeeze.holds,
+        equilibrium_margin_1=geometry.squeeze.margin,
+        force_closure=geometry.force.holds,
+        force_closure_margin_1=geometry.force.margin,
+        form_closure=geometry.form.holds,
+        form_closure_margin_1=geometry.form.margin,
+        q_msv_1=geometry.q_msv_1,
+        q_voe_1=geometry.q_voe_1,
+        q_gii_1=geometry.q_gii_1,
         q_gpri_1=q_gpri(polygon),
         q_diff_m=q_diff_m(polygon),
-        q_smw_n=_smallest_maximum(edges, finger_force_limit_n, is_closed=force.holds) if with_strength else None,
+        q_smw_n=finger_force_limit_n * geometry.smallest_maximum_1 if with_strength else None,
         net_wrench_n=wrench_norm_n(net_wrench(grasp), grasp.characteristic_length_m),
         wrench_resistance=None if load is None else load.holds,
         load_factor_1=load.margin + 1.0 if load is not None and is_loaded else None,
     )
-
-
-def _smallest_maximum(edges: PrimitiveWrenches, finger_force_limit_n: float, *, is_closed: bool) -> float:
-    return finger_force_limit_n * ball_radius(edges.matrix) if is_closed else 0.0
-
-
-class _Verdict(NamedTuple):
-    holds: bool
-    margin: float | None
-
-
-def _verdicts(grasp: Grasp, edges: PrimitiveWrenches, *, with_margins: bool) -> tuple[_Verdict, _Verdict, _Verdict]:
-    """Equilibrium, force closure and form closure."""
-    normals = primitive_wrenches(grasp, frictionless=True).matrix
-    if with_margins:
-        found = balance(edges, len(grasp.contacts)), positive_span(edges.matrix), positive_span(normals)
-        first, second, third = (_Verdict(verdict.holds, verdict.margin) for verdict in found)
-        return first, second, third
-    closed = positively_span(edges.matrix)
-    # Wrenches that span their space balance; only the others need to be asked.
-    squeezed = closed or can_balance(edges.matrix)
-    return _Verdict(squeezed, None), _Verdict(closed, None), _Verdict(positively_span(normals), None)

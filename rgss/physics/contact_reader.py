@@ -89,7 +89,7 @@ class ContactReader:
         return Contacts(tuple(forces), other, (fx, fy, fz), robot_bodies, workpiece_bodies)
 
     def finger_contacts(self, step_s: float) -> tuple[FingerContact, ...]:
-        """The points at which fingers press on the workpiece after the last step.
+        """The points at which fingers press on the workpiece after the last step, by finger and from low to high.
 
         Args:
             step_s: Length of that step, at whose start the engine found them.
@@ -119,7 +119,7 @@ class ContactReader:
                     turn.rotate((first * ax + second * bx, first * ay + second * by, first * az + second * bz)),
                 )
             )
-        return tuple(found)
+        return tuple(sorted(found, key=lambda point: (point.finger, point.position_m[2])))
 
     def _workpiece_pose_before(self, step_s: float) -> Pose:
         """Where the workpiece was before a step: the engine moves a body with the velocity that it has afterwards."""

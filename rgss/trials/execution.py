@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from rgss.evidence import Failure, Metric, Phase
-from rgss.grasping import configuration_distance_m
+from rgss.grasping import GraspMemory, configuration_distance_m
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
 from rgss.trials.arm_watch import ToolKinematics
@@ -55,6 +55,7 @@ class Execution:
         self._checkpoint = checkpoint
         self._step_s = world.settings.step_s
         self._held_at: Pose | None = None
+        self._memory = GraspMemory()
         self._grip_n = control.holding_share * world.gripper.finger_force_n
         self._since_tightening_s = 0.0
         self._tightenings = 0
@@ -155,7 +156,7 @@ class Execution:
         metrics["tightenings"] = self._tightenings
         metrics["finger_travel_m"] = world.finger_travel_m()
         if watch.failure is None:
-            metrics.update(grasp_metrics(world, hand.motion, self._held_at))
+            metrics.update(grasp_metrics(world, hand.motion, self._held_at, self._memory))
         return self._result(Phase.GRASP, watch, steps, metrics)
 
     def place(self) -> PhaseResult:
@@ -245,7 +246,14 @@ class Execution:
         self._world.step()
 
     def _watch(self, carried_at: Pose | None, resting_on: str) -> Watch:
-        return Watch(self._world, self._kinematics, self._control, carried_at=carried_at, resting_on=resting_on)
+        return Watch(
+            self._world,
+            self._kinematics,
+            self._control,
+            carried_at=carried_at,
+            resting_on=resting_on,
+            memory=self._memory,
+        )
 
     def _observe(
         self,

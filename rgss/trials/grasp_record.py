@@ -11,6 +11,7 @@ from rgss.grasping import (
     ContactPoint,
     ContactState,
     ContactTolerances,
+    GraspMemory,
     Sliding,
     Tendency,
     Twist,
@@ -85,7 +86,9 @@ _APART: Mapping[str, Metric] = {
 }
 
 
-def grasp_metrics(world: World, motion: HandMotion, held_at: Pose, *, strength: bool = True) -> dict[str, Metric]:
+def grasp_metrics(
+    world: World, motion: HandMotion, held_at: Pose, memory: GraspMemory, *, strength: bool = True
+) -> dict[str, Metric]:
     """Analyse the contacts between fingers and workpiece, and the workpiece in the hand, as they are now.
 
     The contacts are hard points with friction, in the workpiece's frame; torques are divided by
@@ -95,6 +98,7 @@ def grasp_metrics(world: World, motion: HandMotion, held_at: Pose, *, strength: 
         world: The world after a step.
         motion: What happened in the hand until now.
         held_at: Transform of the workpiece to the grasp centre when it was grasped.
+        memory: Remembers the analysis of this grasp from one look to the next.
         strength: Whether to say what the grasp resists, which takes most of the time.
 
     Returns:
@@ -123,6 +127,7 @@ def grasp_metrics(world: World, motion: HandMotion, held_at: Pose, *, strength: 
         cone_edges=_CONE_EDGES,
         with_margins=False,
         with_strength=strength,
+        memory=memory,
     ).metrics()
     return {
         **{f"grasp_{name}": found[name] for name in _ANALYSED},

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from rgss.evidence import Metric
+from rgss.grasping import GraspMemory
 from rgss.physics import World
 from rgss.scenes import Pose
 from rgss.trials.control import ControlSettings
@@ -22,17 +23,19 @@ class GraspWatch:
         slip_m: Greatest distance of the object from where it was grasped.
     """
 
-    def __init__(self, world: World, control: ControlSettings, held_at: Pose) -> None:
+    def __init__(self, world: World, control: ControlSettings, held_at: Pose, memory: GraspMemory) -> None:
         """Take the first look.
 
         Args:
             world: The world that is stepped.
             control: How often to look, and to analyse.
             held_at: Transform of the object to the grasp centre when it was grasped.
+            memory: Remembers the analysis of this grasp from one look to the next.
         """
         self.slip_m = 0.0
         self._world = world
         self._held_at = held_at
+        self._memory = memory
         self._hand = HandWatch(world)
         rate_hz = world.settings.rate_hz
         self._look_every = max(1, round(rate_hz / control.observation_rate_hz))
@@ -83,4 +86,6 @@ class GraspWatch:
 
     def _sample(self, *, strength: bool) -> None:
         self._sampled_at = self._steps
-        self._samples.append(grasp_metrics(self._world, self._hand.motion, self._held_at, strength=strength))
+        self._samples.append(
+            grasp_metrics(self._world, self._hand.motion, self._held_at, self._memory, strength=strength)
+        )

@@ -6,6 +6,7 @@ import math
 from collections import deque
 
 from rgss.evidence import Failure, Metric
+from rgss.grasping import GraspMemory
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
 from rgss.trials.arm_watch import ArmWatch, ToolKinematics
@@ -30,6 +31,7 @@ class Watch:
         *,
         carried_at: Pose | None,
         resting_on: str,
+        memory: GraspMemory | None = None,
     ) -> None:
         """Begin to watch.
 
@@ -40,6 +42,7 @@ class Watch:
             carried_at: Transform of the object to the grasp centre when it was grasped; None
                 when it is not carried.
             resting_on: The body that the object may touch in this phase; empty for none.
+            memory: Remembers the analysis of a carried object's grasp from one phase to the next.
         """
         self.failure: Failure | None = None
         self.detail = ""
@@ -56,7 +59,7 @@ class Watch:
         self._peak_force_n = 0.0
         self._margin = math.inf
         self._arm = ArmWatch(kinematics, world.scene.robot, control, world.settings)
-        self._grasp = None if carried_at is None else GraspWatch(world, control, carried_at)
+        self._grasp = None if carried_at is None else GraspWatch(world, control, carried_at, memory or GraspMemory())
 
     def after_step(
         self, load_m_s2: float, target: tuple[tuple[float, ...], tuple[float, float, float]] | None

@@ -1,0 +1,123 @@
+"""What a grasp is worth by where its contacts are, whatever forces they have just now."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import NamedTuple
+
+from rgss.grasping.closure import balance, positive_span
+from rgss.grasping.contact import ContactPoint
+from rgss.grasping.feasibility import can_balance, positively_span
+from rgss.grasping.grasp import Grasp
+from rgss.grasping.grasp_map import PrimitiveWrenches, grasp_matrix, primitive_wrenches
+from rgss.grasping.quality import ball_radius, q_gii, q_msv, q_voe
+
+_SAME = 1e-9
+
+
+class Verdict(NamedTuple):
+    """Whether something holds, and how well if that was asked for."""
+
+    holds: bool
+    margin: float | None
+
+
+class GraspGeometry:
+    """The measures of a grasp that depend on its geometry and its friction alone.
+
+    Attributes:
+        edges: Edges of the friction pyramids.
+        squeeze: Equilibrium: whether a squeeze can balance itself.
+        force: Force closure.
+        form: Form closure.
+        q_msv_1: Smallest singular value of the grasp matrix.
+        q_voe_1: Volume of the ellipsoid of wrenches.
+        q_gii_1: Isotropy of the ellipsoid of wrenches.
+    """
+
+    def __init__(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> None:
+        """Work out all but what takes a hull.
+
+        Args:
+            grasp: The grasp.
+            cone_edges: Edges of each friction pyramid.
+            with_margins: Whether to say how well the verdicts hold, by linear programs.
+
+        Raises:
+            DefinitionError: A solver failed.
+        """
+        self._grasp, self._asked = grasp, (cone_edges, with_margins)
+        matrix = grasp_matrix(grasp)
+        self.edges: PrimitiveWrenches = primitive_wrenches(grasp, cone_edges=cone_edges)
+        self.squeeze, self.force, self.form = _verdicts(grasp, self.edges, with_margins=with_margins)
+        self.q_msv_1, self.q_voe_1, self.q_gii_1 = q_msv(matrix), q_voe(matrix), q_gii(matrix)
+
+    @cached_property
+    def smallest_maximum_1(self) -> float:
+        """Smallest maximum wrench for a force limit of 1 N, by a hull; 0 without force closure."""
+        return ball_radius(self.edges.matrix) if self.force.holds else 0.0
+
+    def is_of(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> bool:
+        """Whether another grasp has the same geometry, to a nanometre, and the same is asked of it."""
+        mine = self._grasp
+        return (
+            self._asked == (cone_edges, with_margins)
+            and (mine.centre_of_mass_m, mine.characteristic_length_m)
+            == (grasp.centre_of_mass_m, grasp.characteristic_length_m)
+            and len(mine.contacts) == len(grasp.contacts)
+            and all(map(_is_same_place, mine.contacts, grasp.contacts))
+        )
+
+
+class GraspMemory:
+    """Remembers the geometry of the grasp that was analysed last.
+
+    An object that is held does not move in the hand for most of the time: its contacts stay where they
+    are while their forces change, and only what depends on the forces needs to be worked out again.
+    """
+
+    def __init__(self) -> None:
+        """Remember nothing yet."""
+        self._last: GraspGeometry | None = None
+
+    def geometry(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> GraspGeometry:
+        """The geometry of a grasp, worked out unless it is that of the last one.
+
+        Args:
+            grasp: The grasp.
+            cone_edges: As for `GraspGeometry`.
+            with_margins: As for `GraspGeometry`.
+
+        Raises:
+            DefinitionError: As for `GraspGeometry`.
+        """
+        known = self._last
+        if known is None or not known.is_of(grasp, cone_edges=cone_edges, with_margins=with_margins):
+            known = self._last = GraspGeometry(grasp, cone_edges=cone_edges, with_margins=with_margins)
+        return known
+
+
+def _is_same_place(one: ContactPoint, other: ContactPoint) -> bool:
+    if (one.finger, one.kind, one.friction, one.torsional_friction_m, one.tangent) != (
+        other.finger,
+        other.kind,
+        other.friction,
+        other.torsional_friction_m,
+        other.tangent,
+    ):
+        return False
+    pairs = zip((*one.position_m, *one.normal), (*other.position_m, *other.normal), strict=True)
+    return all(abs(mine - theirs) <= _SAME for mine, theirs in pairs)
+
+
+def _verdicts(grasp: Grasp, edges: PrimitiveWrenches, *, with_margins: bool) -> tuple[Verdict, Verdict, Verdict]:
+    """Equilibrium, force closure and form closure."""
+    normals = primitive_wrenches(grasp, frictionless=True).matrix
+    if with_margins:
+        found = balance(edges, len(grasp.contacts)), positive_span(edges.matrix), positive_span(normals)
+        first, second, third = (Verdict(verdict.holds, verdict.margin) for verdict in found)
+        return first, second, third
+    closed = positively_span(edges.matrix)
+    # Wrenches that span their space balance; only the others need to be asked.
+    squeezed = closed or can_balance(edges.matrix)
+    return Verdict(squeezed, None), Verdict(closed, None), Verdict(positively_span(normals), None)
