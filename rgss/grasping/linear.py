@@ -1,6 +1,8 @@
-"""Linear programs over non-negative numbers, solved by HiGHS's simplex."""
+"""Linear programs over non-negative numbers, solved by HiGHS."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
@@ -8,7 +10,6 @@ from rgss.errors import DefinitionError
 from rgss.grasping.contact import Matrix
 
 _TOLERANCE = 1e-10
-_OPTIMAL, _INFEASIBLE = 0, 2
 
 
 def maximise(
@@ -27,32 +28,54 @@ def maximise(
     Raises:
         DefinitionError: The solver reached no verdict.
     """
-    from scipy.optimize import linprog
+    # HiGHS itself: on the way through SciPy such a small program takes several times as long.
+    import highspy
 
-    rows, limits = at_most if at_most is not None else (None, None)
-    # Such programs are small, and presolving takes as long as solving. Where coefficients of very different size make
-    # the simplex give up, the interior-point method may not.
-    for method, presolve in (("highs-ds", False), ("highs-ipm", True)):
-        result = linprog(
-            -objective,
-            A_ub=rows,
-            b_ub=limits,
-            A_eq=equal[0],
-            b_eq=equal[1],
-            bounds=(0.0, None),
-            method=method,
-            options={
-                "presolve": presolve,
-                "primal_feasibility_tolerance": _TOLERANCE,
-                "dual_feasibility_tolerance": _TOLERANCE,
-            },
-        )
-        if result.status == _OPTIMAL:
-            solution: Matrix = np.asarray(result.x)
+    program = _program(highspy, objective, equal, at_most)
+    # Presolving takes as long as solving. Where coefficients of very different size make the simplex give up, the
+    # interior-point method may not.
+    for method, presolve in (("simplex", "off"), ("ipm", "on")):
+        solver = highspy.Highs()
+        for name, value in (
+            ("output_flag", False),
+            ("threads", 1),
+            ("solver", method),
+            ("presolve", presolve),
+            ("primal_feasibility_tolerance", _TOLERANCE),
+            ("dual_feasibility_tolerance", _TOLERANCE),
+        ):
+            solver.setOptionValue(name, value)
+        solver.passModel(program)
+        solver.run()
+        status = solver.getModelStatus()
+        if status == highspy.HighsModelStatus.kOptimal:
+            solution: Matrix = np.array(solver.getSolution().col_value)
             return solution
-        if result.status == _INFEASIBLE:
+        if status == highspy.HighsModelStatus.kInfeasible:
             return None
     raise DefinitionError(
-        f"the linear program of a grasp was not solved: {' '.join(str(result.message).split())}",
+        f"the linear program of a grasp was not solved: {solver.modelStatusToString(status)}",
         hint="check that the contacts' coefficients and the limits are of a sensible size",
     )
+
+
+def _program(
+    highspy: Any, objective: Matrix, equal: tuple[Matrix, Matrix], at_most: tuple[Matrix, Matrix] | None
+) -> Any:
+    rows, upper = equal
+    lower = upper
+    if at_most is not None:
+        rows, upper = np.vstack([rows, at_most[0]]), np.concatenate([upper, at_most[1]])
+        lower = np.concatenate([lower, np.full(len(at_most[1]), -np.inf)])
+    count, width = rows.shape
+    program = highspy.HighsLp()
+    program.sense_ = highspy.ObjSense.kMaximize
+    program.num_col_, program.num_row_ = width, count
+    program.col_cost_ = objective
+    program.col_lower_, program.col_upper_ = np.zeros(width), np.full(width, np.inf)
+    program.row_lower_, program.row_upper_ = lower, upper
+    program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+    program.a_matrix_.start_ = np.arange(count + 1) * width
+    program.a_matrix_.index_ = np.tile(np.arange(width), count)
+    program.a_matrix_.value_ = rows.ravel()
+    return program
