@@ -1,10 +1,10 @@
 """The digests of exactly the inputs of each piece of a trial.
 
-A trial is cut where its inputs are. The *plan* needs the scene, the gripper's shape, the
-planner and the seed; the *timing* needs the plan and the tool speed; the *execution* needs the
-timing and the gripper's masses, forces and friction; the *bench* needs the gripper and the object
-alone; only the *record* needs the planning limit. Variants that share a piece's digest share the
-piece.
+A trial is cut where its inputs are. The *plan* needs the scene, the gripper's shape, the planner and
+the seed; the *timing* needs the plan, the tool speed and how fast the joints may move; the *execution*
+needs the timing, the joints' torques and the gripper's masses, forces and friction; the *bench* needs
+the gripper and the object alone; only the *record* needs the planning limit. Variants that share a
+piece's digest share the piece.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 
 from rgss.documents.digests import digest
 from rgss.evidence import Fidelity
-from rgss.scenes import Scene, Shape
+from rgss.scenes import Robot, Scene, Shape
 from rgss.trials.bench_spec import BenchSpec, bench_spec
 from rgss.trials.plain import plain
 from rgss.trials.trial_spec import TrialSpec
@@ -26,6 +26,7 @@ __all__ = ["TrialDigests", "TrialSpec", "bench_digest", "bench_of", "digests_of"
 
 # Trials of a study share most of what they are made of, and a digest of it need be made but once.
 _KEPT = 512
+_RATES = ("speed_rad_s", "acceleration_rad_s2")
 _JOINED_KEPT = 8192
 
 
@@ -72,7 +73,7 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         _digest_of(spec.settings.planning),
         used["plan"],
     )
-    timing = _joined(plan, spec.tool_speed_m_s, used["timing"])
+    timing = _joined(plan, spec.tool_speed_m_s, _rates_digest(spec.scene.robot), used["timing"])
     execution = _joined(
         timing,
         _digest_of(spec.gripper),
@@ -121,6 +122,7 @@ def matter_of(scene: Scene) -> dict[str, Any]:
         "frictions": [body.friction for body in scene.bodies],
         "workpiece": [workpiece.mass_kg, workpiece.friction, workpiece.force_limit_n],
         "place": [scene.place.radius_m, scene.place.largest_tilt_rad],
+        "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
     }
 
 
@@ -153,10 +155,24 @@ def _matter_digest(scene: Scene) -> str:
 
 
 @lru_cache(maxsize=_KEPT)
+def _rates_digest(robot: Robot) -> str:
+    """Digest of what timing needs of an arm besides: how fast it may move."""
+    joints = [[getattr(joint, name) for name in _RATES] for joint in robot.joints]
+    return digest([joints, robot.tool_acceleration_m_s2])
+
+
+@lru_cache(maxsize=_KEPT)
 def _geometry_digest(scene: Scene) -> str:
-    """Digest of what planning and timing need of a scene: where everything is, and how the arm may move."""
+    """Digest of what planning needs of a scene: where everything is, and where the arm may move."""
+    robot = plain(scene.robot)
+    for name in ("payload_kg", "tool_acceleration_m_s2"):
+        del robot[name]
+    for joint in robot["joints"]:
+        for name in _RATES:
+            del joint[name]
+        del joint["torque_n_m"]
     geometry = {
-        "robot": plain(scene.robot),
+        "robot": robot,
         "bodies": [{"id": body.id, "shape": _shape(body.shape), "pose": plain(body.pose)} for body in scene.bodies],
         "workpiece": {
             "id": scene.workpiece.id,

@@ -19,6 +19,7 @@ ENGINES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "toppra": ("toppra",),
         "numpy": ("numpy",),
         "scipy": ("scipy",),
+        "highspy": ("highspy",),
     }
 )
 """The distributions behind each foreign module that a piece's making may import."""

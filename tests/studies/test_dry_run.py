@@ -18,6 +18,7 @@ from rgss.trials.versions import versions
 
 DOUBLES = Path(__file__).parent / "doubles"
 SPACE, SCENE, STUDY = "designs/grasping_system.yaml", "scenes/restaurant.yaml", "studies/pick_place.yaml"
+CATALOGUE, GRIPPER, ROBOT = "designs/catalogue.yaml", "scenes/grippers/kg-2.yaml", "scenes/robots/ur10.yaml"
 
 
 @pytest.fixture
@@ -97,6 +98,7 @@ def cause(name, then, now):
     return Cause(reason=Reason.INPUT, name=name, then=then, now=now)
 
 
+ON_CONTACT = {"execution": 24, "bench": 4}
 EDITS = {
     "mass": (SCENE, "mass: 0.25 kg", "mass: 0.4 kg", "scene.workpiece.mass_kg", "0.25", "0.4", {"execution": 24}, 72),
     "pads": (SPACE, "d6: 0.7", "d6: 0.6", "gripper.friction", "0.7", "0.6", {"execution": 24, "bench": 4}, 72),
@@ -110,6 +112,47 @@ EDITS = {
         "0.00025",
         "0.0005",
         {"plan": 6, "timing": 12, "execution": 24},
+        72,
+    ),
+    "rate": (STUDY, "rate: 240 Hz", "rate: 480 Hz", "settings.physics.rate_hz", "240.0", "480.0", ON_CONTACT, 72),
+    "opening": (
+        GRIPPER,
+        "largest_opening: 70 mm",
+        "largest_opening: 72 mm",
+        "gripper.geometry.largest_opening_m",
+        "0.07",
+        "0.072",
+        {"plan": 3, "timing": 6, "execution": 12, "bench": 2},
+        36,
+    ),
+    "range": (
+        ROBOT,
+        "range: [0 deg, 160 deg]",
+        "range: [0.1 rad, 160 deg]",
+        "scene.robot.joints[elbow_joint].lower_rad",
+        "0.0",
+        "0.1",
+        {"plan": 6, "timing": 12, "execution": 24},
+        72,
+    ),
+    "acceleration": (
+        ROBOT,
+        "tool_acceleration: 1.2",
+        "tool_acceleration: 1.3",
+        "scene.robot.tool_acceleration_m_s2",
+        "1.2",
+        "1.3",
+        {"timing": 12, "execution": 24, "bench": 4},
+        72,
+    ),
+    "torque": (
+        ROBOT,
+        "torque: 150 N*m",
+        "torque: 140 N*m",
+        "scene.robot.joints[elbow_joint].torque_n_m",
+        "150.0",
+        "140.0",
+        {"execution": 24},
         72,
     ),
 }
@@ -126,6 +169,38 @@ def test_a_changed_input_is_told_by_its_name_and_reaches_what_depends_on_it(fold
     assert made(found) == pieces
     assert [kind.value for kind in due.pieces] == list(pieces)
     assert len(due.trials) == found.run == trials
+
+
+NO_TRIAL_DEPENDS_ON = {
+    "requirement": ("requirements/system/2-gripper.yaml", 'threshold: "0.8 kg"', 'threshold: "0.9 kg"'),
+    "stakeholder": ("requirements/stakeholder.yaml", "priority: high", "priority: medium"),
+    "measure": ("requirements/measures.yaml", "value: 145 mm", "value: 150 mm"),
+    "cost": (CATALOGUE, "value: 34000 USD", "value: 33000 USD"),
+    "value": (STUDY, "worst: 25 s", "worst: 24 s"),
+    "margin": (STUDY, "practical_margin: 0.01", "practical_margin: 0.02"),
+    "until": (STUDY, "planning:\n", "until_decided: {cap: 60}\nplanning:\n"),
+    "colour": (SCENE, 'colour: "#d9d4cc"', 'colour: "#000000"'),
+    "level": (SPACE, "id: medium", "id: middling"),
+}
+
+
+@pytest.mark.parametrize("name", NO_TRIAL_DEPENDS_ON)
+def test_what_no_trial_depends_on_asks_for_none(folder, edit, swept, name):
+    edit(*NO_TRIAL_DEPENDS_ON[name])
+    found = dry_run(trial_specs(load_project(folder), seeds=[1]), swept)
+
+    assert (found.run, found.kept, found.due) == (0, 72, ())
+
+
+def test_a_mass_of_the_catalogue_is_told_by_what_becomes_of_it_in_each_gripper(folder, edit, swept):
+    edit(CATALOGUE, "value: 0.05 kg", "value: 0.075 kg")
+    found = dry_run(trial_specs(load_project(folder), seeds=[1]), swept)
+
+    assert made(found) == ON_CONTACT
+    told = {(each.name, each.then, each.now) for due in found.due for each in due.causes}
+    # Three or two actuators more, each of 25 g.
+    assert {name for name, _, _ in told} == {"gripper.base_mass_kg"}
+    assert {round(float(now) - float(then), 9) for _, then, now in told} == {0.075, 0.05}
 
 
 def test_a_body_is_told_by_its_id(shipped, folder, edit, swept):

@@ -45,6 +45,11 @@ def with_body(spec, **changes):
     return with_scene(spec, bodies=(replace(first, **changes), *others))
 
 
+def with_joint(spec, **changes):
+    first, *others = spec.scene.robot.joints
+    return with_scene(spec, robot=replace(spec.scene.robot, joints=(replace(first, **changes), *others)))
+
+
 def with_gripper(spec, **changes):
     return replace(spec, gripper=replace(spec.gripper, **changes))
 
@@ -82,9 +87,17 @@ CHANGES = {
     "place": (PLANNED, lambda spec: with_scene(spec, place=replace(spec.scene.place, centre_m=(-0.25, 0.71, 0.9)))),
     "task": (PLANNED, lambda spec: with_scene(spec, task=replace(spec.scene.task, lift_height_m=0.07))),
     "rated payload": (
-        ALL,
+        {"bench", "trial"},
         lambda spec: with_scene(spec, robot=replace(spec.scene.robot, payload_kg=9.0)),
     ),
+    "acceleration of the tool": (
+        LATER | {"bench"},
+        lambda spec: with_scene(spec, robot=replace(spec.scene.robot, tool_acceleration_m_s2=1.3)),
+    ),
+    "range of a joint": (PLANNED, lambda spec: with_joint(spec, lower_rad=-2.0)),
+    "speed of a joint": (LATER, lambda spec: with_joint(spec, speed_rad_s=2.0)),
+    "acceleration of a joint": (LATER, lambda spec: with_joint(spec, acceleration_rad_s2=2.0)),
+    "torque of a joint": (LAST, lambda spec: with_joint(spec, torque_n_m=300.0)),
     "clearance": (PLANNED, lambda spec: with_settings(spec, "planning", clearance_m=0.009)),
     "search limit": (PLANNED, lambda spec: with_settings(spec, "planning", search_limit_s=9.0)),
     "planning clock": (
