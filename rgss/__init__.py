@@ -30,7 +30,8 @@ def load_study(
     Nothing is simulated and no evidence is read until it is asked for.
 
     Args:
-        folder: The project's folder; the nearest at or above the current one by default.
+        folder: The project's folder, or a study file (``.yaml``) in one; the nearest folder at or
+            above the current one by default.
         study: The study file, relative to the project; ``studies/pick_place.yaml`` by default.
         fidelity: ``kinematic``, ``dynamic`` or ``contact`` in place of what the study says.
         replicates: Trials of each variant in place of what the study says.

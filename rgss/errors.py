@@ -71,5 +71,9 @@ class EvidenceError(RgssError):
     """The evidence store is missing, damaged, or lacks what a decision needs."""
 
 
+class StorageError(EvidenceError):
+    """The disk is full or fails, or another process keeps the store locked; what was put in and asked for is sound."""
+
+
 class TradeoffError(RgssError):
     """A trade-off is ill posed, or its solver did not prove an optimum."""

@@ -42,7 +42,12 @@ class Finding:
     def __str__(self) -> str:
         hint = f" ({self.hint})" if self.hint else ""
         where = f"{self.file}:{self.line}:{self.column}"
-        return f"{where}: {self.severity.value}: {self.message}{hint} [{self.rule}]"
+        return printable(f"{where}: {self.severity.value}: {self.message}{hint} [{self.rule}]")
+
+
+def printable(text: str) -> str:
+    """Text as a terminal may show it: what comes from a file, or names one, must not steer it."""
+    return "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in text)
 
 
 def shown(value: object) -> str:

@@ -17,6 +17,7 @@ PLAIN = [
     errors.SimulationError,
     errors.MotionError,
     errors.EvidenceError,
+    errors.StorageError,
     errors.TradeoffError,
 ]
 

@@ -68,3 +68,12 @@ def test_has_errors(severities, expected):
 )
 def test_shown(value, text):
     assert shown(value) == text
+
+
+def test_a_file_name_does_not_steer_the_terminal():
+    hostile = "\x1b[2Ja\u202eb"
+    found = Finding(file=hostile, line=1, column=2, rule="r.r", severity=Severity.ERROR, message=hostile, hint=hostile)
+
+    assert str(found).isprintable()
+    assert str(found) == "�[2Ja�b:1:2: error: �[2Ja�b (�[2Ja�b) [r.r]"
+    assert found.file == hostile

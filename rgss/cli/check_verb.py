@@ -58,12 +58,13 @@ def _check(options: argparse.Namespace) -> int:
     from rgss.errors import DocumentError
     from rgss.findings import Severity
     from rgss.studies.project import find_project, load_project
+    from rgss.studies.regressing_designs import guard_findings
 
     folder = find_project(options.project)
     project: Project | None = None
     try:
         project = load_project(folder, options.study)
-        findings: Sequence[Finding] = _findings(project, options)
+        findings: Sequence[Finding] = (*guard_findings(project), *_findings(project, options))
     except DocumentError as error:
         findings = error.findings
     grave = [finding for finding in findings if finding.severity is not Severity.INFO]
@@ -183,7 +184,8 @@ def _summary(project: Project, grave: int, notes: int) -> str:
     return (
         f"{len(project.requirements.stakeholder)} stakeholder and {len(project.requirements.system)} system "
         f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants: "
-        f"{grave} findings" + (f", {notes} notes (--all shows them)" if notes else "")
+        f"{grave} finding{'' if grave == 1 else 's'}"
+        + (f", {notes} note{'' if notes == 1 else 's'} (--all shows {'it' if notes == 1 else 'them'})" if notes else "")
     )
 
 

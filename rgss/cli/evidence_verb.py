@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -83,9 +83,9 @@ def _summarise(options: argparse.Namespace, store: _Store) -> int:
     contents, studies = _contents(store)
     current, stale = _divided(contents.trials, _named_trials(studies, strict=False))
     there = {trial.key for trial in contents.trials}
+    asked = _asked(store, studies)
     rows = []
-    for study in studies:
-        own = study.own.trials
+    for study, own in zip(studies, asked, strict=True):
         failed = [one for one in contents.failures if one.key in own | study.own.pieces]
         rows.append(
             {
@@ -269,6 +269,17 @@ def _garbage_lines(garbage: Garbage) -> Iterable[str]:
         of = {"set": " of inputs", "failure": " of the run"}.get(name, "")
         if keys:
             yield f"{len(keys)} {_plural(name, len(keys))}{of}"
+
+
+def _asked(store: _Store, studies: Sequence[NamingStudy]) -> list[frozenset[str]]:
+    """The trials that each study asks for, as far as its screening is known."""
+    from rgss.evidence import EvidenceStore
+    from rgss.studies.named_trials import asked_trials
+
+    if not store.path.exists():
+        return [asked_trials(study, None) for study in studies]
+    with EvidenceStore.open(store.path, create=False, label=store.label) as evidence:
+        return [asked_trials(study, evidence) for study in studies]
 
 
 def _contents(store: _Store) -> tuple[Contents, tuple[NamingStudy, ...]]:

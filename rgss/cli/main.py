@@ -12,7 +12,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import NoReturn
 
-from rgss.errors import DocumentError, MotionError, RgssError, SimulationError
+from rgss.errors import DocumentError, MotionError, RgssError, SimulationError, StorageError
+from rgss.findings import printable
 
 VERBS = (
     "init",
@@ -59,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for finding in error.findings:
             _complain(str(finding))
         return BAD_INPUT
-    except (SimulationError, MotionError) as error:
+    except (SimulationError, MotionError, StorageError) as error:
         _complain(f"rgss: {error}")
         return RUN_FAILED
     except RgssError as error:
@@ -144,7 +145,7 @@ def _discard_output() -> None:
 
 
 def _complain(text: str) -> None:
-    print(text, file=sys.stderr)
+    print(printable(text), file=sys.stderr)
 
 
 if __name__ == "__main__":

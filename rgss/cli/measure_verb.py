@@ -17,7 +17,7 @@ HELP = "estimate the measures of every variant from evidence, and judge the requ
 EXAMPLE = "rgss measure --json > measures.json"
 MORE_EXAMPLES = (
     ("rgss measure", "the measures of effectiveness and the verdicts of every variant"),
-    ("rgss measure --variant 28", "every measure and verdict of one"),
+    ("rgss measure --variant 2", "every measure and verdict of one"),
 )
 
 
@@ -38,6 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Show the measures; what has no evidence is shown as not known."""
     from rgss.cli.output import print_json
+    from rgss.cli.screening_output import screening_lines
     from rgss.cli.sweep_verb import shown_path
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
@@ -52,8 +53,14 @@ def run(options: argparse.Namespace) -> int:
             raise DefinitionError("--record is of all variants", hint="leave --variant away")
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         recorded = record_verdicts(project, store) if options.record else read_record(project.folder)
-        measured, _ = measure_survivors(project, store, recorded=recorded)
+        measured, screened = measure_survivors(project, store, recorded=recorded)
     if options.variant is not None:
+        for one in () if screened is None else screened.screened_out:
+            if one.variant == options.variant:
+                raise DefinitionError(
+                    f"variant {one.variant} was screened out: {one.reason}",
+                    hint=f"'--fidelity {screened.screening.fidelity.value}' shows what is known of it",  # type: ignore[union-attr]
+                )
         measured = tuple(entry for entry in measured if entry.variant.id == options.variant)
     if options.json:
         print_json(list(_verdict_rows(measured) if options.verdicts else _measure_rows(measured)))
@@ -63,6 +70,8 @@ def run(options: argparse.Namespace) -> int:
         _print_variant(project, measured[0])
     else:
         _print_all(project, measured)
+    if screened is not None and options.variant is None and not options.json:
+        print("\n" + "\n".join(screening_lines(screened)))
     return 0
 
 

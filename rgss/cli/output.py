@@ -6,6 +6,8 @@ import json
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from rgss.findings import printable
+
 
 def print_json(value: Any) -> None:
     """Print one JSON document."""
@@ -20,7 +22,7 @@ def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: 
         rows: The cells.
         right: Columns that are aligned to the right.
     """
-    cells = [[_safe(text) for text in row] for row in (titles, *rows)]
+    cells = [[printable(text) for text in row] for row in (titles, *rows)]
     widths = [max(len(row[column]) for row in cells) for column in range(len(titles))]
     to_right = set(right)
     for number, row in enumerate(cells):
@@ -40,8 +42,3 @@ def number(value: float | None, digits: int = 4) -> str:
     if abs(value) >= 10.0**digits:
         return f"{value:,.0f}"
     return f"{value:.{digits}g}"
-
-
-def _safe(text: str) -> str:
-    """Text that comes from a file must not steer the terminal."""
-    return "".join(character if character.isprintable() else "�" for character in text)

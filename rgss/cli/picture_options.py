@@ -83,7 +83,7 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
         return None
     _require_packages()
     _check_files(files)
-    width, height = _size(options.size or _SIZE)
+    width, height = picture_size(options.size or _SIZE)
     main, plus, inset = (options.camera or _CAMERA).partition("+")
     return PictureOrder(
         files=files,
@@ -91,7 +91,7 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
         inset=_view(inset) if plus else None,
         width=width,
         height=height,
-        rate_hz=_rate(_RATE_HZ if options.fps is None else options.fps),
+        rate_hz=film_rate(_RATE_HZ if options.fps is None else options.fps),
     )
 
 
@@ -225,23 +225,33 @@ def _view(text: str) -> View:
     return View(azimuth_rad=math.radians(azimuth), elevation_rad=math.radians(elevation), distance_m=distance)
 
 
-def _size(text: str) -> tuple[int, int]:
+def picture_size(text: str, option: str = "--size") -> tuple[int, int]:
+    """Width and height of a text such as ``640x480``.
+
+    Raises:
+        DefinitionError: It is no size, or one out of range.
+    """
     match = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text, re.ASCII)
     if match is None:
-        raise DefinitionError(f"--size: {text!r} is no size", hint=f"write width and height, such as {_SIZE}")
+        raise DefinitionError(f"{option}: {text!r} is no size", hint=f"write width and height, such as {_SIZE}")
     width, height = int(match[1]), int(match[2])
     if not (_SMALLEST <= width <= _LARGEST and _SMALLEST <= height <= _LARGEST):
         raise DefinitionError(
-            f"--size: {text} is out of range", hint=f"give from {_SMALLEST} to {_LARGEST} pixels each way"
+            f"{option}: {text} is out of range", hint=f"give from {_SMALLEST} to {_LARGEST} pixels each way"
         )
     return width, height
 
 
-def _rate(rate_hz: float) -> float:
+def film_rate(rate_hz: float, option: str = "--fps") -> float:
+    """Frames a second, if a film can have so many.
+
+    Raises:
+        DefinitionError: It cannot.
+    """
     from rgss.reports.film import HIGHEST_RATE_HZ
 
     if not 1.0 <= rate_hz <= HIGHEST_RATE_HZ:
-        raise DefinitionError(f"--fps: {rate_hz:g} is out of range", hint=f"give from 1 to {HIGHEST_RATE_HZ:g}")
+        raise DefinitionError(f"{option}: {rate_hz:g} is out of range", hint=f"give from 1 to {HIGHEST_RATE_HZ:g}")
     return rate_hz
 
 

@@ -23,6 +23,7 @@ HELP = "hold guarded metrics and the decision against a baseline; what is missin
 EXAMPLE = "rgss regress --junit regress.xml --markdown summary.md"
 MORE_EXAMPLES = (
     ("rgss regress", "compare with the baseline beside the study"),
+    ("rgss regress --strict --all", "the same; what is inconclusive fails, what is the same is shown"),
     ('rgss regress --update --reason "a new gripper model"', "write the baseline anew"),
 )
 
@@ -35,13 +36,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--reason", metavar="TEXT", help="with --update: why the numbers may move; kept in the file")
     parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
     parser.add_argument("--all", action="store_true", help="show the metrics that are the same, too")
-    parser.add_argument("--strict", action="store_true", help="fail on what is still inconclusive at the cap")
+    parser.add_argument(
+        "--strict", action="store_true", help="end with 1, not 0, if something is still inconclusive at the cap"
+    )
     parser.add_argument("--junit", type=Path, metavar="FILE", help="write the findings as JUnit XML")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="write a summary for a pull request")
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compare, or write the baseline; 1 if anything is worse, unstable or missing."""
+    """Compare, or write the baseline; 1 if anything is worse, unstable or missing, 3 if a trial could not be run."""
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.regression.baseline import read_baseline
@@ -92,6 +95,7 @@ def _update(
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
     from rgss.exchange.files import write_bytes
+    from rgss.findings import printable
     from rgss.regression.baseline import baseline_to_text
     from rgss.studies.regressing import make_baseline
 
@@ -101,7 +105,7 @@ def _update(
     if options.json:
         print_json({"baseline": label, "trials": trials, "changes": len(baseline.history)})
     else:
-        print(f"{label} written: {trials} trials, change {len(baseline.history)} of its history.")
+        print(printable(label), f"written: {trials} trials, change {len(baseline.history)} of its history.")
     return CLEAN
 
 
@@ -113,7 +117,7 @@ def _compare(
     label: str,
     baseline: Baseline,
 ) -> int:
-    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.main import CLEAN, FINDINGS, RUN_FAILED
     from rgss.cli.output import print_json
     from rgss.exchange.files import write_bytes
     from rgss.regression.comparing import Outcome
@@ -130,6 +134,8 @@ def _compare(
         print_json(report_to_json(report))
     else:
         print(*report_lines(report, everything=options.all), sep="\n")
+    if report.incomplete:
+        return RUN_FAILED
     undecided = options.strict and bool(report.of(Outcome.INCONCLUSIVE))
     return FINDINGS if report.fails or undecided else CLEAN
 

@@ -8,8 +8,8 @@ from typing import Any
 from rgss.cli.options import add_fidelity, chosen_project
 
 HELP = "run a stored trial again and compare it bit for bit"
-EXAMPLE = "rgss replay 28/1"
-MORE_EXAMPLES = (("rgss replay 28/1 --json", "the differences, if any, as JSON"),)
+EXAMPLE = "rgss replay 2/1"
+MORE_EXAMPLES = (("rgss replay 2/1 --json", "the differences, if any, as JSON"),)
 _SHOWN = 12
 
 

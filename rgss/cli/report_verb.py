@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,12 @@ if TYPE_CHECKING:
 
 HELP = "write the decision and everything that it stands on as one HTML page"
 EXAMPLE = "rgss report --out report.html"
-MORE_EXAMPLES = (("rgss report --no-film", "without films, for which a few trials are run again"),)
+MORE_EXAMPLES = (
+    ("rgss report --no-film", "without films, for which a few trials are run again"),
+    ("rgss report --film-size 640x480 --film-rate 12", "with larger and smoother films"),
+)
+LARGEST_PAGE = 15_000_000
+"""A larger page is a nuisance to open and to send, and the reader of the terminal is told."""
 DEFAULT_FILE = Path("report.html")
 
 
@@ -34,6 +40,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--no-film", action="store_true", help="leave out filmstrips and films, for which a few trials are run again"
     )
     parser.add_argument(
+        "--film-size",
+        metavar="SIZE",
+        help="width and height of films in pixels (default: 480x360, or 400x300 if there are many)",
+    )
+    parser.add_argument(
+        "--film-rate", type=float, metavar="N", help="frames a second of films (default: 8, or 5 if there are many)"
+    )
+    parser.add_argument(
         "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
     )
 
@@ -41,13 +55,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write the page; 1 if no variant meets every requirement."""
     from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.report_pictures import trial_pictures
+    from rgss.cli.report_pictures import ordered_look, trial_pictures
     from rgss.cli.sweep_verb import shown_path
     from rgss.cli.trade_verb import fleet_of
+    from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
     from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
     from rgss.reports.report_page import study_report_to_html
     from rgss.studies.choosing import choose
+    from rgss.studies.measuring import require_complete
     from rgss.studies.recorded_verdicts import read_record
     from rgss.studies.report_document import report_document
     from rgss.studies.report_trials import notable_trials
@@ -55,11 +71,18 @@ def run(options: argparse.Namespace) -> int:
     from rgss.studies.screening import measure_survivors
 
     _check_file(options.out)
+    _check_films(options)
     project = chosen_project(options)
     label = shown_path(project.evidence)
     recorded = read_record(project.folder)
+    if not project.evidence.exists():
+        raise EvidenceError(f"there is no evidence in {label}", hint=f"run '{_sweep_command(options)}' first")
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store, recorded=recorded)
+        try:
+            require_complete(measured)
+        except EvidenceError as error:
+            raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
         decision = choose(project, measured)
         trace = _trace(project, measured, recorded, options.junit)
         found = analyse_robustness(project, measured, decision)
@@ -74,7 +97,8 @@ def run(options: argparse.Namespace) -> int:
             fleet=fleet_of(project, store),
         )
     notable = notable_trials(measured, decision.chosen)
-    pictures, notice = trial_pictures(project, notable, wanted=not options.no_film)
+    look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
+    pictures, notice = trial_pictures(project, notable, look=look)
     page = study_report_to_html(
         document,
         trace,
@@ -86,6 +110,27 @@ def run(options: argparse.Namespace) -> int:
     _write(options.out, page)
     _tell(options, document, len(page))
     return CLEAN if decision.chosen is not None else FINDINGS
+
+
+def _check_films(options: argparse.Namespace) -> None:
+    """Films are made last, and what is wrong with them is told first."""
+    from rgss.cli.report_pictures import ordered_look
+    from rgss.errors import DefinitionError
+
+    given = [name for name in ("film_size", "film_rate") if getattr(options, name) is not None]
+    if options.no_film and given:
+        raise DefinitionError(f"--{given[0].replace('_', '-')} is given with --no-film", hint="leave one of them away")
+    ordered_look(options.film_size, options.film_rate, films=0)
+
+
+def _sweep_command(options: argparse.Namespace) -> str:
+    """The command that makes the evidence that this report stands on."""
+    words = ["rgss", "sweep", *([options.study] if options.study else [])]
+    for name in ("project", "fidelity", "replicates"):
+        value = getattr(options, name)
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    return shlex.join(words)
 
 
 def _trace(
@@ -135,4 +180,5 @@ def _tell(options: argparse.Namespace, document: dict[str, Any], size: int) -> N
         print_json({"file": str(options.out), "bytes": size, "report": document})
         return
     print(decision["headline"])
-    print(f"Wrote {options.out} ({size / 1e6:.1f} MB)")
+    large = "; --film-size and --film-rate make it smaller" if size > LARGEST_PAGE and not options.no_film else ""
+    print(f"Wrote {options.out} ({size / 1e6:.1f} MB{large})")

@@ -9,10 +9,10 @@ from rgss.cli.options import add_fidelity, chosen_project
 from rgss.cli.picture_options import add_pictures, made_pictures, ordered_pictures, traced_trial
 
 HELP = "run one trial and show it phase by phase"
-EXAMPLE = "rgss run 65 --seed 3"
+EXAMPLE = "rgss run 2 --seed 3"
 MORE_EXAMPLES = (
-    ("rgss run 65 --gif trial.gif", "and film it"),
-    ("rgss run 65 --fidelity kinematic", "motion alone, quickly"),
+    ("rgss run 2 --gif trial.gif", "and film it"),
+    ("rgss run 2 --fidelity kinematic", "motion alone, quickly"),
 )
 
 

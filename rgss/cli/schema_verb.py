@@ -81,5 +81,9 @@ def _write(options: argparse.Namespace) -> int:
         return CLEAN
     print(f"{len(files)} {'schema' if len(files) == 1 else 'schemas'} in {shown_path(options.out)}")
     if project is not None:
-        print(f"{len(headed)} documents have a new first line that names their schema")
+        if not headed:
+            print("every document of the project names its schema already")
+        else:
+            said = "1 document has" if len(headed) == 1 else f"{len(headed)} documents have"
+            print(f"{said} a new first line that names the schema")
     return CLEAN

@@ -22,6 +22,15 @@ def screening_lines(result: ScreeningResult) -> list[str]:
     return lines
 
 
+def reopened_lines(variants: Sequence[int]) -> list[str]:
+    """That suppositions would let designs go on which were screened out; nothing if they would not."""
+    if not variants:
+        return []
+    ids = ", ".join(map(str, variants))
+    told = f"  would go on under these suppositions, and is in no comparison above: {ids}"
+    return [f"{told} (change the study's file so, and run 'rgss sweep')"]
+
+
 def screening_as_json(result: ScreeningResult) -> dict[str, Any]:
     """The rule, and every design with what became of it and why."""
     return {

@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -41,7 +42,6 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     from rgss.evidence import EvidenceStore
     from rgss.studies.sweep import sweep
     from rgss.studies.until_decided import replicate_until_decided, summary
-    from rgss.tradeoff.sequential import SequentialRule
 
     for given, option in (
         (options.only, "--only"),
@@ -54,7 +54,9 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
         raise DefinitionError(
             "--until decided and screening exclude each other", hint="name one fidelity with --fidelity"
         )
-    rule = SequentialRule() if options.cap is None else SequentialRule(cap=options.cap)
+    rule = project.study.until_decided
+    if options.cap is not None:
+        rule = replace(rule, cap=options.cap)
     lost: list[LostTrials] = []
 
     label = shown_path(project.evidence)
@@ -83,10 +85,14 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
 
         try:
             found = replicate_until_decided(project, store, run, rule=rule, on_look=_told)
-        except EvidenceError:
+        except EvidenceError as error:
+            if not lost:
+                raise
+            # What could not be run is why its evidence is missing.
             for trials in lost:
                 print(f"rgss: {lost_line(trials)}", file=sys.stderr)
-            raise
+            print(f"rgss: {error}", file=sys.stderr)
+            return RUN_FAILED
     if options.json:
         print_json(_as_json(found))
     else:
@@ -107,9 +113,7 @@ def _as_json(found: UntilDecided) -> dict[str, object]:
         "variant": found.variant,
         "contenders": list(found.contenders),
         "probability": found.probability,
-        "error_rate": found.rule.error_rate,
-        "margin": found.rule.margin,
-        "cap": found.rule.cap,
+        **asdict(found.rule),
         "looks": found.looks,
         "trials": found.total,
         "variants": [

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rgss.designs import DesignVariant
     from rgss.evidence import EvidenceStore
     from rgss.studies.project import Project
-    from rgss.studies.sweep import FinishedTrial, LostTrials, SweepResult, WorkerLimits
+    from rgss.studies.sweep import FinishedTrial, SweepResult, WorkerLimits
     from rgss.trials.spec import TrialSpec
 
 HELP = "run every trial of a study that has no evidence yet"
@@ -45,7 +45,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         choices=("decided",),
         help="add trials only to variants that can still change the decision or a verdict",
     )
-    parser.add_argument("--cap", type=int, metavar="N", help="with --until: most trials of a variant (default: 200)")
+    parser.add_argument(
+        "--cap", type=int, metavar="N", help="with --until: most trials of a variant (default: the study's)"
+    )
     parser.add_argument("--dry-run", action="store_true", help="say what would be made and why, and make nothing")
     parser.add_argument(
         "--no-share", action="store_true", help="run every trial by itself: the same records, at many times the cost"
@@ -69,9 +71,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.designs import picked
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
-    from rgss.studies.expansion import trial_specs
-    from rgss.studies.recording import record_after_sweep
-    from rgss.studies.screening import screen, screening_specs, surviving_specs
+    from rgss.studies.staged_sweep import sweep_in_stages
 
     project = chosen_project(options)
     jobs_of(options)
@@ -84,29 +84,25 @@ def run(options: argparse.Namespace) -> int:
     if options.dry_run:
         return _dry_run(options, project, variants)
     label = shown_path(project.evidence)
-    screened = None
-    lost: tuple[LostTrials, ...] = ()
+    stages: list[_Swept] = []
     with crew_of(options, limits) as crew, EvidenceStore.open(project.evidence, label=label) as store:
-        specs = trial_specs(project, variants=variants)
-        first = screening_specs(project, variants=variants)
-        if first:
-            lost = _swept(options, project, store, first, crew).result.lost
-            screened = screen(project, store)
-        if screened is not None:
-            specs = surviving_specs(project, screened, variants=variants)
-        swept = _swept(options, project, store, specs, crew)
-        if swept.run_now:
-            record_after_sweep(project, store, swept.run_now)
-    tally, failures, result = swept.tally, swept.failures, swept.result
+
+        def stage(specs: Sequence[TrialSpec]) -> set[int]:
+            stages.append(_swept(options, project, store, specs, crew))
+            return stages[-1].run_now
+
+        screened = sweep_in_stages(project, variants, store, stage)
+    swept = stages[-1]
+    trials, tally, failures, result = swept.trials, swept.tally, swept.failures, swept.result
     if options.json:
-        document = result_as_json(len(specs), tally, failures, result, label)
+        document = result_as_json(trials, tally, failures, result, label)
         print_json(document if screened is None else {**document, "screening": screening_as_json(screened)})
     else:
         told = [] if screened is None else screening_lines(screened)
-        print(*told, *result_lines(len(specs), tally, failures, result, label), sep="\n")
-    lost += result.lost
-    for trials in lost:
-        print(f"rgss: {lost_line(trials)}", file=sys.stderr)
+        print(*told, *result_lines(trials, tally, failures, result, label), sep="\n")
+    lost = [each for one in stages for each in one.result.lost]
+    for each in lost:
+        print(f"rgss: {lost_line(each)}", file=sys.stderr)
     return RUN_FAILED if lost else CLEAN
 
 
@@ -114,6 +110,7 @@ def run(options: argparse.Namespace) -> int:
 class _Swept:
     """What came of the trials of one stage."""
 
+    trials: int
     tally: Counter[str]
     failures: Counter[str]
     run_now: set[int]
@@ -155,7 +152,7 @@ def _swept(
             origin=lambda: crew.origin(project.folder),
             workers_for=crew.workers,
         )
-    return _Swept(tally=tally, failures=failures, run_now=run_now, result=result)
+    return _Swept(trials=len(specs), tally=tally, failures=failures, run_now=run_now, result=result)
 
 
 def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[DesignVariant]) -> int:

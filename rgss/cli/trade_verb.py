@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
 
 if TYPE_CHECKING:
+    from rgss.evidence import EvidenceStore
     from rgss.studies.measuring import VariantMeasures
     from rgss.studies.project import Project
     from rgss.studies.robustness import Robustness
+    from rgss.studies.screening import ScreeningResult
     from rgss.studies.what_if import Scenario
     from rgss.tradeoff import Decision, FleetDecision
 
@@ -50,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement."""
     from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.screening_output import screening_lines
+    from rgss.cli.screening_output import reopened_lines, screening_lines
     from rgss.cli.sweep_verb import shown_path
     from rgss.cli.trade_section import decision_section, text_with_place, with_section
     from rgss.errors import DefinitionError
@@ -69,6 +71,7 @@ def run(options: argparse.Namespace) -> int:
     label = shown_path(project.evidence)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store)
+        more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
         fleet = fleet_of(project, store)
     before = (project, measured, choose(project, measured))
     now = before
@@ -84,12 +87,28 @@ def run(options: argparse.Namespace) -> int:
             options.into.write_text(with_section(place, section), encoding="utf-8")
             print(f"Wrote the decision into {options.into}.")
     elif options.json:
-        _print_document(now, found, scenario, before[2], fleet, label)
+        _print_document(now, found, scenario, before[2], fleet, label, _screening(screened, more))
     else:
         _print_page(options, before, now, scenario, found, fleet, label)
         if screened is not None:
-            print("\n" + "\n".join(screening_lines(screened)))
+            print("\n" + "\n".join([*screening_lines(screened), *reopened_lines(more)]))
     return CLEAN if now[2].chosen is not None else FINDINGS
+
+
+def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, store: EvidenceStore) -> tuple[int, ...]:
+    """The designs that were screened out and would not have been under the suppositions."""
+    from rgss.studies.measuring import measure_variants
+    from rgss.studies.screening import reopened
+    from rgss.studies.what_if import measured_in
+
+    first = measure_variants(project.with_fidelity(screened.screening.fidelity.value), store)
+    return reopened(screened, scenario.project, measured_in(scenario, first))
+
+
+def _screening(screened: ScreeningResult | None, more: Sequence[int]) -> dict[str, Any] | None:
+    from rgss.cli.screening_output import screening_as_json
+
+    return None if screened is None else {**screening_as_json(screened), "would_go_on": list(more)}
 
 
 def _robustness(side: tuple[Project, Sequence[VariantMeasures], Decision]) -> Robustness:
@@ -148,8 +167,9 @@ def _print_document(
     before: Decision,
     fleet: FleetDecision | None,
     label: str,
+    screening: dict[str, Any] | None,
 ) -> None:
     from rgss.cli.output import print_json
     from rgss.cli.trade_document import trade_document
 
-    print_json(trade_document(now[0], now[2], found, scenario, before, fleet, label))
+    print_json({**trade_document(now[0], now[2], found, scenario, before, fleet, label), "screening": screening})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 
 LONGEST_IDS = 12
@@ -33,11 +32,9 @@ def variants_text(variants: Sequence[int]) -> str:
 
 def percent(share: float) -> str:
     """A share as people read it: ``46 %``, ``0.3 %``, ``< 0.1 %``; only what is certain is ``100 %``."""
-    if 0.0 < share < 0.001:
-        return "< 0.1 %"
-    if 0.995 <= share < 1.0 - 1e-9:
-        return f"{100.0 * share:.1f} %" if share < 0.9995 else "> 99.9 %"
-    return f"{100.0 * share:.1f} %" if 0.0 < share < 0.1 else f"{100.0 * share:.0f} %"
+    from rgss.trace.figures import share_in_words
+
+    return share_in_words(share)
 
 
 def amount(value: float, unit: str, digits: int = 4) -> str:
@@ -51,16 +48,9 @@ def amount(value: float, unit: str, digits: int = 4) -> str:
 
 def moved_limit(limit: float, needed: float, unit: str, digits: int = 4) -> str:
     """What a limit has to become, rounded away from what it is, so that the number as written is enough."""
-    from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+    from rgss.trace.figures import rounded_away
 
-    if needed == 0.0:
-        return amount(needed, unit, digits)
-    last = 0 if unit == "USD" else min(0, math.floor(math.log10(abs(needed))) - digits + 1)
-    nearest = round(needed, -last)
-    if math.isclose(nearest, needed, rel_tol=1e-9):
-        return amount(nearest, unit, digits)
-    away = ROUND_CEILING if needed > limit else ROUND_FLOOR
-    return amount(float(Decimal(repr(needed)).quantize(Decimal(1).scaleb(last), rounding=away)), unit, digits)
+    return amount(rounded_away(limit, needed, unit, digits), unit, digits)
 
 
 def moves_text(before: Mapping[str, float], after: Mapping[str, float]) -> str:

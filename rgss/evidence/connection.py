@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import sqlite3
 import sys
 from collections.abc import Iterable, Iterator, Mapping
@@ -9,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.packing import LARGEST_TEXT
 
 BUSY_TIMEOUT_S = 30.0
@@ -34,6 +35,11 @@ _HINTS: Mapping[str, str] = {
     "closed": "open the store again",
     "thread": "open the store in the thread that uses it",
 }
+
+_OUTSIDE = ("locked", "full", "disk I/O")
+"""What is nobody's mistake, by the words in which SQLite says so."""
+
+_NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 class Database:
@@ -147,7 +153,8 @@ def in_our_words(name: str) -> Iterator[None]:
     """Turn errors of SQLite into ours.
 
     Raises:
-        EvidenceError: For any error of SQLite.
+        StorageError: The disk is full or fails, or another process keeps the file locked.
+        EvidenceError: For any other error of SQLite.
     """
     try:
         yield
@@ -155,4 +162,10 @@ def in_our_words(name: str) -> Iterator[None]:
         problem = problem_of(error)
         hints = (hint for words, hint in _HINTS.items() if words in problem)
         hint = next(hints, "'rgss evidence verify' looks for damage")
-        raise EvidenceError(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error
+        kind = StorageError if any(words in problem for words in _OUTSIDE) else EvidenceError
+        raise kind(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error
+
+
+def error_of(error: OSError) -> type[EvidenceError]:
+    """The kind of error that a file's is: `StorageError` if the disk is full or fails."""
+    return StorageError if error.errno in _NO_SPACE else EvidenceError

@@ -12,6 +12,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 from rgss.documents.spreadsheet_cells import neutralised
 from rgss.errors import EvidenceError
+from rgss.evidence.connection import error_of
 from rgss.evidence.trial_rows import StoredTrial
 from rgss.evidence.trial_table import trial_frame
 
@@ -48,7 +49,7 @@ def export_trials(trials: Iterable[StoredTrial], path: Path) -> int:
 
     Raises:
         EvidenceError: As `require_exportable` and `rgss.evidence.trial_table.trial_frame`; or the
-            file cannot be written.
+            file cannot be written: `StorageError` if the disk is full.
     """
     require_exportable(path)
     frame = trial_frame(trials)
@@ -68,7 +69,7 @@ def export_trials(trials: Iterable[StoredTrial], path: Path) -> int:
             part.unlink(missing_ok=True)
     except OSError as error:
         problem = os.strerror(error.errno) if error.errno else str(error)
-        raise EvidenceError(f"{path} cannot be written: {problem}") from error
+        raise error_of(error)(f"{path} cannot be written: {problem}") from error
     return len(frame)
 
 

@@ -114,15 +114,15 @@ def decision_changes(
 ) -> tuple[tuple[Failing, ...], tuple[str, ...]]:
     """How the decision moved.
 
-    A choice or a place on the Pareto front that is gone is unstable, unless the present evidence's
-    own noise puts it back in more than the error rate's share of its resamples. A verdict may
-    become met; any other change of a verdict is unstable.
+    A choice, a place on the Pareto front or a verdict that is gone is unstable, unless the present
+    evidence's own noise puts it back in more than the error rate's share of its resamples. A
+    verdict may become met.
 
     Args:
         before: The decision of the baseline.
         now: The decision now.
         explained: How probable, over the noise of the present evidence, ``chosen`` as it was is,
-            and of each ``pareto N`` that changed that it is as it was.
+            and of each ``pareto N`` and ``verdict N REQUIREMENT`` that changed that it is as it was.
         error_rate: The share below which noise explains nothing.
 
     Returns:
@@ -139,14 +139,10 @@ def decision_changes(
     moves += [
         (f"pareto {one}", f"variant {one} joined the Pareto front") for one in now.pareto if one not in before.pareto
     ]
-    for what, text in moves:
-        share = explained.get(what, 0.0)
-        if share > error_rate:
-            notes.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
-        else:
-            failing.append(Failing(trouble=Trouble.UNSTABLE, text=f"decision: {text}"))
-    for variant in sorted(before.verdicts.keys() | now.verdicts.keys(), key=int):
-        was, is_now = before.verdicts.get(variant, {}), now.verdicts.get(variant, {})
+    moves = [(what, f"decision: {text}") for what, text in moves]
+    # That a design is tried no longer, or is new, is told of the run.
+    for variant in sorted(before.verdicts.keys() & now.verdicts.keys(), key=int):
+        was, is_now = before.verdicts[variant], now.verdicts[variant]
         for requirement in sorted(was.keys() | is_now.keys()):
             old, new = was.get(requirement, "none"), is_now.get(requirement, "none")
             if old == new:
@@ -155,7 +151,13 @@ def decision_changes(
             if new == "met":
                 notes.append(text)
             else:
-                failing.append(Failing(trouble=Trouble.UNSTABLE, text=text))
+                moves.append((f"verdict {variant} {requirement}", text))
+    for what, text in moves:
+        share = explained.get(what, 0.0)
+        if share > error_rate:
+            notes.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
+        else:
+            failing.append(Failing(trouble=Trouble.UNSTABLE, text=text))
     return tuple(failing), tuple(notes)
 
 

@@ -100,6 +100,11 @@ class RegressionReport:
         return bool(self.failing or self.of(Outcome.WORSE, Outcome.MISSING))
 
     @property
+    def incomplete(self) -> bool:
+        """Whether a trial could not be run, so that something was not compared at all."""
+        return any(one.trouble is Trouble.NOT_RUN for one in self.failing)
+
+    @property
     def verdict(self) -> str:
         """One word: ``failed``, ``worse``, ``inconclusive``, ``better`` or ``same``."""
         if self.failing or self.of(Outcome.MISSING):

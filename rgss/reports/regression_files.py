@@ -7,7 +7,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 from rgss.regression.comparing import Comparison, Outcome
-from rgss.regression.report import RegressionReport
+from rgss.regression.report import RegressionReport, Trouble
 from rgss.reports.regression_words import behaviour_of, counts_of, detail_of, listed, quantity
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -48,7 +48,8 @@ def report_to_json(report: RegressionReport) -> dict[str, Any]:
 def report_to_junit(report: RegressionReport) -> bytes:
     """The report as JUnit XML: a case for each comparison, for each other failure and for behaviour.
 
-    What fails the guard fails its case; what is inconclusive is skipped, with the reason.
+    What fails the guard fails its case; a trial that could not be run is an error; what is
+    inconclusive is skipped, with the reason.
     """
     cases: list[tuple[str, str, str, str, str]] = [
         (
@@ -61,7 +62,13 @@ def report_to_junit(report: RegressionReport) -> bytes:
         for one in report.comparisons
     ]
     cases += [
-        ("rgss.regress", f"{one.trouble.value}: {one.text}", "failure", one.trouble.value, one.text)
+        (
+            "rgss.regress",
+            f"{one.trouble.value}: {one.text}",
+            _element_of_trouble(one.trouble),
+            one.trouble.value,
+            one.text,
+        )
         for one in report.failing
     ]
     cases.append(("rgss.regress", "behaviour", "system-out", "", behaviour_of(report)))
@@ -70,12 +77,12 @@ def report_to_junit(report: RegressionReport) -> bytes:
         name=_xml(f"rgss regress {report.study}"),
         tests=str(len(cases)),
         failures=str(sum(case[2] == "failure" for case in cases)),
-        errors="0",
+        errors=str(sum(case[2] == "error" for case in cases)),
         skipped=str(sum(case[2] == "skipped" for case in cases)),
     )
     for owner, name, element, word, text in cases:
         case = ET.SubElement(suite, "testcase", classname=_xml(owner), name=_xml(name), time="0")
-        if element in ("failure", "skipped"):
+        if element in ("failure", "error", "skipped"):
             ET.SubElement(case, element, message=_xml(f"{word}: {text}"))
         else:
             ET.SubElement(case, "system-out").text = _xml(text)
@@ -128,6 +135,10 @@ def _element_of(outcome: Outcome) -> str:
     if outcome in (Outcome.WORSE, Outcome.MISSING):
         return "failure"
     return "skipped" if outcome is Outcome.INCONCLUSIVE else "system-out"
+
+
+def _element_of_trouble(trouble: Trouble) -> str:
+    return "error" if trouble is Trouble.NOT_RUN else "failure"
 
 
 def _row(one: Comparison) -> str:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
+from urllib.parse import quote
 
 from rgss.errors import DefinitionError
 from rgss.reports.page import render_page, template_text
 from rgss.reports.trace_html import trace_context
 from rgss.reports.trace_report import TraceReport
-from rgss.trace.figures import value_in_words
+from rgss.trace.figures import share_in_words, value_in_words
 
 SCRIPTS = (
     "report_core.js",
@@ -30,6 +32,8 @@ SCRIPTS = (
 
 LARGEST_PLAIN = 2_000_000
 """A longer document is packed."""
+
+_MOST_REPLAYS = 5
 
 _SECTIONS = (
     ("decision", "Decision"),
@@ -105,12 +109,15 @@ def study_report_to_html(
         title=f"Report of the study {document['study']}",
         report=document,
         comparison=_comparison(document),
+        compared_trials=_compared_trials(document),
         report_sections=_SECTIONS,
         pictures=[_picture(one) for one in pictures],
         pictures_notice=pictures_notice,
         data=_markup(packed_json(plain) if packed else plain),
         packed=packed,
+        refused=_refused(document["decision"]["refused"]),
         words=value_in_words,
+        share=share_in_words,
         **trace_context(trace, drawings=drawings, drawings_notice=drawings_notice),
     )
 
@@ -167,7 +174,10 @@ def _comparison(document: Mapping[str, Any]) -> list[dict[str, Any]]:
         {
             "name": parameter["name"],
             "weight": None,
-            "cells": [_value(at(parameter["values"], place), parameter["unit"]) for place in shown],
+            "cells": [
+                _figure(document, place, parameter["id"], _value(at(parameter["values"], place), parameter["unit"]))
+                for place in shown
+            ],
         }
         for parameter in document["parameters"]
         if parameter["varies"]
@@ -179,12 +189,49 @@ def _comparison(document: Mapping[str, Any]) -> list[dict[str, Any]]:
             {
                 "name": f"{measure['id']}: {measure['name']}",
                 "weight": weighted["weight"],
-                "cells": [_estimate(measure, place) for place in shown],
+                "cells": [_figure(document, place, measure["id"], _estimate(measure, place)) for place in shown],
             }
         )
-    values = [at(variants["value"], place) for place in shown]
-    rows.append({"name": "weighted value", "weight": None, "cells": [_value(value, "1") for value in values]})
+    values = [_figure(document, place, "value", _value(at(variants["value"], place))) for place in shown]
+    rows.append({"name": "weighted value", "weight": None, "cells": values})
     return rows
+
+
+def _figure(document: Mapping[str, Any], place: int, name: str, text: str) -> dict[str, str]:
+    return {"text": text, "to": f"#variant-{document['variants']['id'][place]}/{quote(name, safe='')}"}
+
+
+def _refused(reasons: Mapping[str, str]) -> dict[str, list[str]]:
+    """What was not analysed, by the reason, each of which is told once."""
+    names: dict[str, list[str]] = {}
+    for name, reason in reasons.items():
+        names.setdefault(reason, []).append(name)
+    return names
+
+
+def _compared_trials(document: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The trials of the chosen variant and of the runner-up, each with the command that runs it again."""
+    decision, variants, trials = document["decision"], document["variants"], document["trials"]
+    shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
+    rows: dict[int, list[int]] = {place: [] for place in shown}
+    for row, place in enumerate(trials["variant"]):
+        if place in rows:
+            rows[place].append(row)
+    named = (
+        "" if document["study_file"] == document["default_study"] else f" --study {shlex.quote(document['study_file'])}"
+    )
+    return [
+        {
+            "trials": [
+                _figure(document, place, trials["key"][row], "")
+                | {"replay": f"rgss replay {trials['key'][row]}{named}"}
+                for row in rows[place][:_MOST_REPLAYS]
+            ],
+            "more": max(0, len(rows[place]) - _MOST_REPLAYS),
+            "to": _figure(document, place, "trials", "")["to"],
+        }
+        for place in shown
+    ]
 
 
 def _estimate(measure: Mapping[str, Any], place: int) -> str:

@@ -16,6 +16,7 @@ from rgss.studies.analysis_sweep import sweep_study
 from rgss.studies.analysis_trade import Trade
 from rgss.studies.analysis_trial import Drawing, Trial, payload_of, run_one
 from rgss.studies.document import MOST_REPLICATES
+from rgss.studies.fleets import choose_fleet, fleet_projects
 from rgss.studies.frame_column import Column, Kind
 from rgss.studies.frame_columns import FRAMES
 from rgss.studies.frames import (
@@ -27,8 +28,9 @@ from rgss.studies.frames import (
     variant_columns,
     verdicts_frame,
 )
+from rgss.studies.frames_trade import fleet_frame
 from rgss.studies.measuring import VariantMeasures
-from rgss.studies.project import Project, find_project, load_project
+from rgss.studies.project import Project, find_project, load_project, project_of_study
 from rgss.studies.recorded_verdicts import read_record
 from rgss.studies.robustness import Robustness
 from rgss.studies.screening import ScreeningResult, measure_survivors
@@ -41,6 +43,9 @@ if TYPE_CHECKING:
 
 WhatIf = Mapping[str, float | str] | Sequence[str] | str
 """Suppositions: ``{"weight.t_e": 0.4}``, or texts as ``--what-if`` takes them."""
+
+STUDY_SUFFIXES = (".yaml", ".yml")
+"""By these a study file is told from a project's folder."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -170,6 +175,19 @@ class Study:
     def effects(self) -> pd.DataFrame:
         """What each level of each factor does to each measure; as of `trade`."""
         return self._trade.effects()
+
+    def fleet(self) -> pd.DataFrame:
+        """The designs that together serve the studies of the fleet best, by each study's own evidence.
+
+        Raises:
+            DefinitionError: The study asks for no fleet.
+            EvidenceError: Trials of one of the studies have no evidence.
+            TradeoffError: The choice is ill posed.
+        """
+        projects = fleet_projects(self.project)
+        with EvidenceStore.open(self.project.evidence, create=False) as store:
+            measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
+        return fleet_frame(choose_fleet(self.project, measured))
 
     def columns(self, frame: str) -> pd.DataFrame:
         """What the columns of a frame mean, with their units.
@@ -315,7 +333,8 @@ def load(
     """Read a project and one of its studies; see `rgss.load_study`.
 
     Args:
-        folder: The project's folder; the nearest at or above the current one if None.
+        folder: The project's folder, or a study file in one; the nearest folder at or above the
+            current one if None.
         study: The study file, relative to the project.
         fidelity: How much physics a trial has, in place of what the study says.
         replicates: Trials of each variant, in place of what the study says.
@@ -325,6 +344,12 @@ def load(
         DocumentError: Files are wrong; with every problem in all of them.
         DefinitionError: There is no project, or an argument is impossible.
     """
+    if folder is not None and folder.suffix in STUDY_SUFFIXES:
+        if study is not None:
+            raise DefinitionError(
+                f"{str(folder)!r} is a study already, and {study!r} another", hint="name a folder and a study, or one"
+            )
+        folder, study = project_of_study(folder)
     project = load_project(find_project(folder), study)
     if replicates is not None:
         if not 1 <= replicates <= MOST_REPLICATES:

@@ -8,11 +8,9 @@ from collections.abc import Callable, Sequence
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError, SimulationError
 from rgss.evidence import EvidenceStore
-from rgss.studies.expansion import trial_specs
 from rgss.studies.keeping import origin_of
 from rgss.studies.project import Project
-from rgss.studies.recording import record_after_sweep
-from rgss.studies.screening import screen, screening_specs, surviving_specs
+from rgss.studies.staged_sweep import sweep_in_stages
 from rgss.studies.sweep import FinishedTrial, LostTrials, sweep
 from rgss.trials.spec import TrialSpec
 
@@ -42,16 +40,7 @@ def sweep_study(
         raise DefinitionError(f"{jobs} is no number of processes", hint="0 works in this process")
     runner = _Runner(project, jobs=(os.cpu_count() or 1) if jobs is None else jobs, on_trial=on_trial)
     with EvidenceStore.open(project.evidence) as store:
-        specs = trial_specs(project, variants=variants)
-        first = screening_specs(project, variants=variants)
-        if first:
-            runner.run(first, store)
-            screened = screen(project, store)
-            if screened is not None:
-                specs = surviving_specs(project, screened, variants=variants)
-        run_now = runner.run(specs, store)
-        if run_now:
-            record_after_sweep(project, store, run_now)
+        sweep_in_stages(project, variants, store, lambda specs: runner.run(specs, store))
     runner.require_all()
 
 

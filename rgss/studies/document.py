@@ -20,6 +20,7 @@ from rgss.documents import (
 from rgss.findings import shown
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off_document import TradeOffEntry
+from rgss.studies.until_section import UntilDecidedEntry
 
 MOST_REPLICATES = 10_000
 """Trials of each variant that a study may have."""
@@ -100,6 +101,7 @@ class StudyDocument(DocumentModel):
     replicates: Annotated[int, Field(ge=1, le=MOST_REPLICATES)]
     fidelity: FidelityField = ("contact",)
     promotion: PromotionEntry | None = None
+    until_decided: UntilDecidedEntry | None = None
     planning: PlanningEntry
     physics: PhysicsEntry
     trade_off: TradeOffEntry

@@ -245,6 +245,17 @@ _CHANGES = FrameDescription(
     ),
 )
 
+_FLEET = FrameDescription(
+    name="fleet",
+    row="a study that the fleet serves",
+    index=(Column(name="study", meaning="file of the study"),),
+    columns=(
+        Column(name="member", meaning="member of the fleet that serves it: a component, or a variant"),
+        Column(name="variant", meaning="id of the design variant that serves it", unit="1", kind=Kind.COUNT),
+        Column(name="value", meaning="its weighted value in that study", unit="1", kind=Kind.NUMBER),
+    ),
+)
+
 _COURSE = FrameDescription(
     name="course",
     row="an instant of a trial with contact, in simulated time without planning",
@@ -290,6 +301,7 @@ FRAMES: Mapping[str, FrameDescription] = MappingProxyType(
             _EFFECTS,
             _WEIGHTS,
             _ACCEPTABILITY,
+            _FLEET,
             _CHANGES,
             _COURSE,
         )

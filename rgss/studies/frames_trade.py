@@ -16,7 +16,7 @@ from rgss.studies.frames import Row, described_frame
 from rgss.studies.robustness import Robustness, WeightRobustness
 from rgss.studies.robustness_effects import FactorLevels, StudyEffects
 from rgss.studies.what_if import Change, Scenario
-from rgss.tradeoff import Decision, TradeProblem
+from rgss.tradeoff import Decision, FleetDecision, TradeProblem
 from rgss.tradeoff.effects import Effect
 from rgss.tradeoff.enumeration import Enumeration
 from rgss.tradeoff.outcomes import single_values
@@ -137,6 +137,15 @@ def changes_frame(scenario: Scenario | None) -> pd.DataFrame:
         for one, asked in changes
     ]
     return described_frame("changes", rows)
+
+
+def fleet_frame(fleet: FleetDecision) -> pd.DataFrame:
+    """One row for each study that the fleet serves; none if no fleet serves all of them."""
+    rows = [
+        {"study": one.task, "member": one.member, "variant": one.variant, "value": one.value}
+        for one in fleet.assignments
+    ]
+    return described_frame("fleet", rows)
 
 
 def _weighting(found: Robustness) -> WeightRobustness:

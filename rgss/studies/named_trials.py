@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rgss.errors import DefinitionError, DocumentError
-from rgss.evidence import Fidelity
+from rgss.evidence import EvidenceStore, Fidelity
 from rgss.findings import Finding
 from rgss.studies.document import MOST_REPLICATES
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
-from rgss.studies.screening import screening_specs
+from rgss.studies.screening import screen, screening_specs, surviving_specs
 from rgss.studies.sweep import trials_of
 from rgss.trials.spec import TrialSpec
 
@@ -73,6 +73,23 @@ def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[Na
     if findings:
         raise DocumentError(findings)
     return tuple(_naming(name, project, seeds) for name, project in projects.items())
+
+
+def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[str]:
+    """The keys of the trials that a sweep would see to: with a screening, no deciding ones of what it screens out.
+
+    Args:
+        study: The study.
+        store: The evidence; None if there is none yet.
+
+    Raises:
+        EvidenceError: The store is damaged.
+    """
+    screened = screen(study.project, store)
+    if screened is None:
+        return study.own.trials
+    specs = (*screening_specs(study.project), *surviving_specs(study.project, screened))
+    return frozenset(trial.key for trial in trials_of(specs))
 
 
 def _naming(name: str, project: Project, seeds: Mapping[str, Iterable[int]]) -> NamingStudy:

@@ -19,7 +19,7 @@ from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes import GripperGeometry, Scene, load_gripper, load_scene
 from rgss.studies.consequences import without_consequences
 from rgss.studies.measure_sources import source_findings
-from rgss.studies.study import Study, named_file, read_study
+from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.task_parameters import GRIPPER, task_findings
 from rgss.trace import MeasureKind, MeasureTrace, check_trace
 
@@ -54,7 +54,7 @@ class Project:
     designs: DesignSpace
     scene: Scene
     grippers: dict[str, GripperGeometry]
-    study: Study
+    study: StudyDefinition
     measure_traces: tuple[MeasureTrace, ...]
 
     @property
@@ -101,6 +101,31 @@ def find_project(folder: Path | None) -> Path:
         if all(_is_folder(candidate / name) for name in FOLDERS):
             return candidate
     raise DefinitionError("no project here or above", hint="go into a project or name it with --project DIR")
+
+
+def project_of_study(study: Path) -> tuple[Path, str]:
+    """The project that a study file lies in: the nearest folder above it that looks like one.
+
+    Args:
+        study: The file.
+
+    Returns:
+        The project's folder, and the file relative to it.
+
+    Raises:
+        DefinitionError: There is none.
+    """
+    try:
+        path = study.resolve()
+    except (OSError, ValueError, RuntimeError):  # a name that no file can have, a circle of links
+        path = study
+    for candidate in path.parents:
+        if all(_is_folder(candidate / name) for name in FOLDERS):
+            return candidate, path.relative_to(candidate).as_posix()
+    raise DefinitionError(
+        f"the study {str(study)!r} lies in no project",
+        hint=f"a project has {', '.join(f'{name}/' for name in FOLDERS)}",
+    )
 
 
 def _is_folder(path: Path) -> bool:

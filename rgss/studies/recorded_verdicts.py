@@ -21,6 +21,7 @@ from typing import Any
 
 from rgss.documents.digests import canonical_json
 from rgss.errors import EvidenceError
+from rgss.evidence.connection import error_of
 from rgss.evidence.digests import is_digest
 from rgss.measures import Verdict
 
@@ -142,7 +143,7 @@ def write_record(folder: Path, record: VerdictRecord) -> Path:
             Path(temporary).unlink(missing_ok=True)
             raise
     except OSError as error:
-        raise EvidenceError(f"{FILE} cannot be written: {error.strerror}", hint="check the folder") from error
+        raise error_of(error)(f"{FILE} cannot be written: {error.strerror}", hint="check the folder") from error
     return path
 
 

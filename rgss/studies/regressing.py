@@ -272,9 +272,7 @@ class _Comparing:
             return (Failing(trouble=Trouble.NOT_RUN, text="decision: trials that it needs could not be run"),), ()
         records = self._records.of(trials, count)
         now = decision_of(trials, records)
-        explained: Mapping[str, float] = {}
-        if (now.chosen, now.pareto) != (before.chosen, before.pareto):
-            explained = explained_by_noise(trials, records, before, now)
+        explained: Mapping[str, float] = {} if now == before else explained_by_noise(trials, records, before, now)
         return decision_changes(before, now, explained=explained, error_rate=self._guard.error_rate)
 
     def _what_changed(self) -> list[str]:

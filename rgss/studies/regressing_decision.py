@@ -6,23 +6,27 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from rgss.designs import sources
+from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError, TradeoffError
 from rgss.evidence import TrialRecord
-from rgss.measures import Verdict, evaluate, judge
+from rgss.measures import Estimate, Verdict, evaluate, judge
 from rgss.regression.baseline import DecisionState
 from rgss.studies.choosing import choose, trade_problem
 from rgss.studies.measuring import VariantMeasures, requirements_with_criteria
+from rgss.studies.project import Project
 from rgss.studies.regressing_runs import WatchedTrials
 from rgss.tradeoff import AdditiveValue
 from rgss.tradeoff.dominance import nondominated
 from rgss.tradeoff.enumeration import enumerate_alternatives
 from rgss.tradeoff.outcomes import noisy_outcomes, replicate_number, single_values
 from rgss.tradeoff.pareto import pareto_front
-from rgss.tradeoff.resampling import bootstrap
+from rgss.tradeoff.resampling import FEWEST_REPLICATES, bootstrap
 
 RESAMPLES = 1_000
 """So often the seeds are drawn anew, where there are too many distinct draws to look at each."""
+
+VERDICT_RESAMPLES = 300
+"""The same for verdicts, each of which needs the intervals of all measures."""
 
 _TIE = 1e-9
 
@@ -38,21 +42,13 @@ def measured_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
         EvidenceError: A trial has no record.
     """
     project = trials.project
-    criteria = [(one.id, one.criterion) for one in requirements_with_criteria(project) if one.criterion is not None]
     number = max(len(row) for row in records.values())
     measured = []
     for variant in sorted(trials.variants, key=lambda one: one.id):
         rows = [record for _, record in sorted(records[variant.id].items())]
         if len(rows) < number:
             raise EvidenceError(f"trials of variant {variant.id} have no record", hint="see what failed")
-        estimates = evaluate(
-            project.measures,
-            fixed=sources(variant),
-            trials=[record.metrics for record in rows],
-            seed=project.study.seed,
-            variant=variant.id,
-        )
-        verdicts = {name: judge(criterion, estimates[criterion.measure]) for name, criterion in criteria}
+        estimates, verdicts = _judged(project, variant, rows)
         measured.append(
             VariantMeasures(
                 variant=variant,
@@ -60,10 +56,7 @@ def measured_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
                 records=tuple(rows),
                 missing=0,
                 estimates=estimates,
-                verdicts={
-                    name: Verdict.INCONCLUSIVE if verdict is Verdict.NOT_RUN else verdict
-                    for name, verdict in verdicts.items()
-                },
+                verdicts=verdicts,
             )
         )
     return measured
@@ -103,8 +96,9 @@ def explained_by_noise(
 ) -> dict[str, float]:
     """How probable each part of the decision that moved is as it was, over the noise of the seeds.
 
-    The seeds are drawn anew with replacement, the same for all variants, and it is decided again.
-    A former choice also counts where it comes within the study's practical margin of the best.
+    The seeds are drawn anew with replacement, the same for all variants, and it is decided and
+    judged again. A former choice also counts where it comes within the study's practical margin of
+    the best.
 
     Args:
         trials: The run.
@@ -113,9 +107,23 @@ def explained_by_noise(
         now: The decision as it is.
 
     Returns:
-        Probabilities by ``chosen`` and ``pareto N``; empty where the study does not choose by a
-        weighted value or there is no noise to draw from.
+        Probabilities by ``chosen`` and ``pareto N``, without them where the study does not choose
+        by a weighted value; by ``verdict N REQUIREMENT``; none where there is no noise to draw from.
     """
+    return {
+        **_choice_explained(trials, records, before, now),
+        **_verdicts_explained(trials, records, before, now),
+    }
+
+
+def _choice_explained(
+    trials: WatchedTrials,
+    records: Mapping[int, Mapping[int, TrialRecord]],
+    before: DecisionState,
+    now: DecisionState,
+) -> dict[str, float]:
+    if (now.chosen, now.pareto) == (before.chosen, before.pareto):
+        return {}
     problem = trade_problem(trials.project, measured_of(trials, records))
     if not isinstance(problem.program, AdditiveValue):
         return {}
@@ -149,3 +157,53 @@ def explained_by_noise(
             was = on_front[:, rows[variant]] == (variant in before.pareto)
             found[f"pareto {variant}"] = float(outcomes.probabilities @ was)
     return found
+
+
+def _verdicts_explained(
+    trials: WatchedTrials,
+    records: Mapping[int, Mapping[int, TrialRecord]],
+    before: DecisionState,
+    now: DecisionState,
+) -> dict[str, float]:
+    generator = np.random.default_rng(trials.project.study.seed)
+    found = {}
+    for variant in trials.variants:
+        was, is_now = (state.verdicts.get(str(variant.id), {}) for state in (before, now))
+        moved = [name for name in was.keys() & is_now.keys() if was[name] != is_now[name]]
+        rows = [record for _, record in sorted(records[variant.id].items())]
+        if not moved or len(rows) < FEWEST_REPLICATES:
+            continue
+        resamples = bootstrap(len(rows), draws=VERDICT_RESAMPLES, generator=generator)
+        counts, shares = resamples.counts, resamples.probabilities
+        if len(counts) > VERDICT_RESAMPLES:
+            counts = counts[generator.choice(len(counts), size=VERDICT_RESAMPLES, p=shares)]
+            shares = np.full(VERDICT_RESAMPLES, 1.0 / VERDICT_RESAMPLES)
+        as_it_was = dict.fromkeys(sorted(moved), 0.0)
+        for count, share in zip(counts, shares, strict=True):
+            drawn = [row for row, often in zip(rows, count, strict=True) for _ in range(int(often))]
+            _, verdicts = _judged(trials.project, variant, drawn)
+            for name in moved:
+                if verdicts[name].value == was[name]:
+                    as_it_was[name] += float(share)
+        found.update({f"verdict {variant.id} {name}": share for name, share in as_it_was.items()})
+    return found
+
+
+def _judged(
+    project: Project, variant: DesignVariant, records: Sequence[TrialRecord]
+) -> tuple[dict[str, Estimate], dict[str, Verdict]]:
+    """The estimates of a variant's measures by some trials, and the verdict on each criterion."""
+    estimates = evaluate(
+        project.measures,
+        fixed=sources(variant),
+        trials=[record.metrics for record in records],
+        seed=project.study.seed,
+        variant=variant.id,
+    )
+    verdicts: dict[str, Verdict] = {}
+    for requirement in requirements_with_criteria(project):
+        if requirement.criterion is not None:
+            verdict = judge(requirement.criterion, estimates[requirement.criterion.measure])
+            # A measure that no trial knows a value of leaves the question open.
+            verdicts[requirement.id] = Verdict.INCONCLUSIVE if verdict is Verdict.NOT_RUN else verdict
+    return estimates, verdicts

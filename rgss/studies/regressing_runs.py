@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from rgss.designs import DesignVariant, picked
-from rgss.errors import DefinitionError
+from rgss.designs import DesignVariant
+from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import EvidenceStore, TrialRecord
 from rgss.regression.observing import fingerprint, observed
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
+from rgss.studies.regressing_designs import guard_findings, watched_designs
 from rgss.studies.regression_section import GuardedMetric, RegressionGuard, WatchedRun
 from rgss.studies.sweep import key_of
 from rgss.trials.spec import TrialSpec
@@ -118,13 +119,16 @@ def watched_trials(project: Project, guard: RegressionGuard) -> tuple[WatchedTri
     """The runs with their variants.
 
     Raises:
-        DefinitionError: A run names no variants.
+        DocumentError: A run names no variants.
     """
+    findings = guard_findings(project)
+    if findings:
+        raise DocumentError(findings)
     return tuple(
         WatchedTrials(
             run=run,
             project=project.with_fidelity(run.fidelity.value),
-            variants=picked(project.designs, [run.variants], option=f"variants of run {run.id}"),
+            variants=watched_designs(project, run),
         )
         for run in guard.runs
     )

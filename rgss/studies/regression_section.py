@@ -61,8 +61,8 @@ class RegressionMetricEntry(DocumentModel):
     """A metric that is guarded."""
 
     metric: Identifier
-    runs: tuple[Identifier, ...] | None = None
-    phases: Literal["all"] | tuple[Identifier, ...] | None = None
+    runs: Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
+    phases: Literal["all"] | Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
     better: Literal["higher", "lower"]
     margin: MarginText
 
@@ -208,6 +208,10 @@ class _Reader:
         unit = self._unit(entry, at)
         margin = 1.0 if unit is None else self._margin(entry, unit, at)
         phases = (WHOLE_TRIAL,) if entry.phases is None else _PHASES if entry.phases == "all" else tuple(entry.phases)
+        for key, names in (("runs", entry.runs or ()), ("phases", phases)):
+            for number, name in enumerate(names):
+                if name in names[:number]:
+                    self._report(f"{name} is named twice", (*at, key, number), "keep one")
         for number, phase in enumerate(phases):
             if phase not in (*_PHASES, WHOLE_TRIAL):
                 hint = f"phases: {', '.join(_PHASES)}"

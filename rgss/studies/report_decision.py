@@ -9,10 +9,11 @@ import numpy as np
 from rgss.studies.choosing import double_counting, shared_measures, trade_problem
 from rgss.studies.measuring import VariantMeasures
 from rgss.studies.project import Project
+from rgss.studies.report_conflicts import conflict_reasons
 from rgss.studies.report_numbers import Plain, plain_number
 from rgss.studies.robustness import RequirementPrice, Robustness
-from rgss.studies.robustness_export import robustness_to_json
-from rgss.studies.screening import ScreeningResult
+from rgss.studies.robustness_export import assumptions_to_json, costs_to_json
+from rgss.studies.screening import ScreeningResult, screening_summary
 from rgss.trace.figures import value_in_words
 from rgss.tradeoff import Decision, FleetDecision
 from rgss.tradeoff.columns import condition_column
@@ -45,7 +46,6 @@ def decision_part(
         screened: What became of the designs in screening; None if there was none.
         fleet: The portfolio that the study asks for; None if it asks for none.
     """
-    told = robustness_to_json(found)
     certificate = decision.certificate
     return {
         "chosen": decision.chosen,
@@ -59,7 +59,7 @@ def decision_part(
         "headline": _headline(decision),
         "reasons": list(_reasons(project, measured, decision)),
         "cautions": list(_cautions(project, decision)),
-        "screening": "" if screened is None else _screening(screened),
+        "screening": "" if screened is None else screening_summary(screened),
         "fleet": "" if fleet is None else _fleet(fleet),
         "contributions": {
             side: [
@@ -83,9 +83,9 @@ def decision_part(
         "acceptability": _acceptability(found),
         "weight_ranges": _weight_ranges(found),
         "limits": [_limit(found, price) for price in found.prices],
-        "assumptions": told["assumptions"],
-        "costs": told["costs"],
-        "refused": told["refused"],
+        "assumptions": assumptions_to_json(found),
+        "costs": costs_to_json(found),
+        "refused": dict(found.refused),
     }
 
 
@@ -99,7 +99,7 @@ def _headline(decision: Decision) -> str:
 
 def _reasons(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> Iterator[str]:
     if decision.chosen is None:
-        yield from _conflicts(decision)
+        yield from conflict_reasons(decision)
         return
     additive = decision.program == "additive"
     yield (
@@ -130,7 +130,8 @@ def _reasons(project: Project, measured: Sequence[VariantMeasures], decision: De
 
 
 def _closest_limits(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> Iterator[str]:
-    problem = trade_problem(project, measured)
+    # Of the chosen variant alone, for a trade-off of many takes long to pose.
+    problem = trade_problem(project, [entry for entry in measured if entry.variant.id == decision.chosen])
     table = tabulated(problem.alternatives)
     row = table.row_of(decision.chosen or 0)
     margins = []
@@ -145,21 +146,6 @@ def _closest_limits(project: Project, measured: Sequence[VariantMeasures], decis
         )
 
 
-def _conflicts(decision: Decision) -> Iterator[str]:
-    conflicts = decision.conflicts
-    if conflicts is None:
-        return
-    for one in conflicts.excluded_by:
-        if one.excluded:
-            yield f"{one.requirement} ({decision.demands[one.requirement]}) excludes {one.excluded}."
-    for conflict in conflicts.minimal_conflicts[:_MOST_LISTED]:
-        alone = len(conflict) == 1
-        yield f"Nothing meets {conflict[0]}." if alone else f"These cannot be met together: {', '.join(conflict)}."
-    for correction in conflicts.corrections[:_MOST_LISTED]:
-        yield f"Without {' and '.join(correction)} something is feasible."
-    yield f"Nearest is variant {conflicts.nearest.variant}, which violates {', '.join(conflicts.nearest.requirements)}."
-
-
 def _cautions(project: Project, decision: Decision) -> Iterator[str]:
     for overlap in double_counting(project):
         instead = f" {overlap.instead} could be valued instead of {overlap.whole}." if overlap.instead else ""
@@ -169,14 +155,6 @@ def _cautions(project: Project, decision: Decision) -> Iterator[str]:
     for flat in decision.flat_measures:
         among = "feasible variants" if flat.among_feasible else "variants"
         yield f"{flat.measure} is the same for all {among}, so its weight of {flat.weight:g} decides nothing."
-
-
-def _screening(screened: ScreeningResult) -> str:
-    out = len(screened.screened_out)
-    return (
-        f"{out} of {len(screened.variants)} designs were screened out by {screened.screening.fidelity.value} trials "
-        f"({screened.screening.promotion}) and are not shown here."
-    )
 
 
 def _fleet(fleet: FleetDecision) -> str:

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from rgss.evidence import EvidenceStore
 from rgss.studies.measuring import VariantMeasures
-from rgss.studies.project import Project
+from rgss.studies.project import DEFAULT_STUDY, Project
+from rgss.studies.report_conflicts import conflict_part
 from rgss.studies.report_decision import decision_part
 from rgss.studies.report_effects import effect_columns, factor_columns
 from rgss.studies.report_numbers import Plain
@@ -63,6 +64,10 @@ def report_document(
         "schema": SCHEMA,
         "study": project.study.id,
         "study_file": project.study.label,
+        "default_study": DEFAULT_STUDY,
+        "design_space": project.study.design_space,
+        "catalogue": project.study.catalogue,
+        "evidence": evidence,
         "fidelity": project.study.fidelity.value,
         "variants": variant_columns(measured, decision, found),
         "parameters": parameter_columns(project, measured, found),
@@ -70,6 +75,7 @@ def report_document(
         "requirements": requirement_columns(project, measured, decision),
         "weights": weight_columns(project, found),
         "decision": decision_part(project, measured, decision, found, screened=screened, fleet=fleet),
+        "conflicts": conflict_part(decision),
         "factors": factor_columns(measured, found.effects),
         "effects": effect_columns(found.effects),
         "trials": trial_columns(measured, notable),

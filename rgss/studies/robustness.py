@@ -252,13 +252,14 @@ def _prices(problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPri
 def _reversals(problem: TradeProblem, table: EvidenceTable, feasible: NDArray[np.bool_]) -> tuple[RankReversal, ...]:
     """Removals under the study's own program: its best first, then the best of the rest, and so on."""
     rows = np.flatnonzero(feasible)
+    totals = weighted_values(problem, table)[rows] if isinstance(problem.program, AdditiveValue) else None
 
     def score(there: NDArray[np.intp]) -> NDArray[np.float64]:
+        if totals is not None:
+            return totals[there]
         mask = np.zeros(len(table), dtype=np.bool_)
         mask[rows[there]] = True
         ordering = ordering_of(problem.program, problem, table, mask)
-        if isinstance(problem.program, AdditiveValue):
-            return weighted_values(problem, table)[rows[there]]
         ranked = {int(row): -float(place) for place, row in enumerate(ordering.ranked(mask, len(table)))}
         return np.array([ranked[int(rows[place])] for place in there])
 

@@ -41,8 +41,8 @@ def robustness_to_json(found: Robustness) -> Plain:
             for point in found.front.points
         ],
         "weight_changes": None if found.weighting is None else _weighting(found, found.weighting),
-        "assumptions": [_assumption(found, one) for one in found.assumptions],
-        "costs": None if found.costs is None else _costs(found, found.costs),
+        "assumptions": assumptions_to_json(found),
+        "costs": costs_to_json(found),
         "prices": [_price(found, one) for one in found.prices],
         "rank_reversals": {
             "of_the_program": _reversals(found, found.reversals),
@@ -51,6 +51,16 @@ def robustness_to_json(found: Robustness) -> Plain:
         "effects": _effects(found.effects),
         "refused": dict(found.refused),
     }
+
+
+def assumptions_to_json(found: Robustness) -> list[Plain]:
+    """How far each assumed number may move: a part of `robustness_to_json`, which is long for many variants."""
+    return [_assumption(found, one) for one in found.assumptions]
+
+
+def costs_to_json(found: Robustness) -> Plain | None:
+    """How far all costs may move together: a part of `robustness_to_json`."""
+    return None if found.costs is None else _costs(found, found.costs)
 
 
 def scenario_to_json(scenario: Scenario) -> Plain:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,14 @@ class Remeasuring:
         measured: Its variants with their records, by ascending id.
         table: The evidence of the trade-off, whose rows are these variants.
         fixed: The values that measures take from each of the variants.
+        kinds: Which variants are alike by some of these values, for what was asked already.
     """
 
     project: Project
     measured: Sequence[VariantMeasures]
     table: EvidenceTable
     fixed: tuple[Mapping[str, float | str], ...]
+    kinds: dict[tuple[str, ...], NDArray[np.intp]] = field(default_factory=dict)
 
     @staticmethod
     def of(project: Project, measured: Sequence[VariantMeasures], table: EvidenceTable) -> Remeasuring:
@@ -110,20 +112,25 @@ class Remeasuring:
 
     def _by_design(
         self, measures: MeasureSet, measure: str, rows: NDArray[np.intp], number: ModelNumber, value: float
-    ) -> list[float]:
+    ) -> Column:
         """Quantities that follow from the design alone, computed once for designs that do not differ in it."""
-        stands_on = measures.sources(measure)
-        known: dict[tuple[object, ...], float] = {}
-        found = []
-        for row in rows:
+        alike = self._alike(tuple(measures.sources(measure)))[rows]
+        _, firsts, kinds = np.unique(alike, return_index=True, return_inverse=True)
+        found = np.empty(len(firsts))
+        for kind, row in enumerate(rows[firsts]):
             fixed = self.fixed[row]
-            key = tuple(fixed[source] for source in stands_on)
-            if key not in known:
-                changed = {**fixed, number.source: value} if number.component else fixed
-                values = design_values(measures, fixed=changed, variant=self.measured[row].variant.id)
-                known[key] = values[measure] / measures.measure(measure).si_per_unit
-            found.append(known[key])
-        return found
+            changed = {**fixed, number.source: value} if number.component else fixed
+            values = design_values(measures, fixed=changed, variant=self.measured[row].variant.id)
+            found[kind] = values[measure] / measures.measure(measure).si_per_unit
+        return np.asarray(found[kinds], dtype=np.float64)
+
+    def _alike(self, stands_on: tuple[str, ...]) -> NDArray[np.intp]:
+        """For each variant the kind that it is of by these sources, shape (n,); found once, asked for often."""
+        if stands_on not in self.kinds:
+            known: dict[tuple[object, ...], int] = {}
+            keys = (tuple(fixed[source] for source in stands_on) for fixed in self.fixed)
+            self.kinds[stands_on] = np.array([known.setdefault(key, len(known)) for key in keys], dtype=np.intp)
+        return self.kinds[stands_on]
 
     def _replicates(self, measure: str, rows: NDArray[np.intp]) -> list[tuple[float | None, ...]]:
         return [replicates_of(self.project.measures, self.measured[row])[measure] for row in rows]

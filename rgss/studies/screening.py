@@ -29,6 +29,9 @@ from rgss.tradeoff import TargetValue, ValueFunction
 from rgss.tradeoff.values import TIE_TOLERANCE
 from rgss.trials.trial_spec import TrialSpec
 
+_MOST_SHOWN = 72
+"""Ids of a sentence."""
+
 
 class Fate(str, Enum):
     """What became of a design in screening."""
@@ -178,6 +181,47 @@ def measure_survivors(
         return measured, None
     survivors = set(result.survivors)
     return tuple(entry for entry in measured if entry.variant.id in survivors), result
+
+
+def reopened(result: ScreeningResult, project: Project, measured: Sequence[VariantMeasures]) -> tuple[int, ...]:
+    """The designs that were screened out and would go on under suppositions.
+
+    Args:
+        result: What became of the designs without them.
+        project: The project as it is supposed to be.
+        measured: Every variant with its estimates at the screening fidelity, as supposed.
+
+    Returns:
+        Their ids; nothing but the evidence of screening is known of them.
+    """
+    there = set(result.survivors)
+    return tuple(variant for variant in promoted(project, measured).survivors if variant not in there)
+
+
+def screening_summary(result: ScreeningResult) -> str:
+    """What was screened out, by which evidence and why, in a few sentences."""
+    out = result.screened_out
+    screening = result.screening
+    trials = f"{screening.fidelity.value} trials ({screening.promotion})"
+    parts = [f"{len(out)} of {len(result.variants)} designs were screened out by {trials} and are not shown here."]
+    missed: dict[str, list[int]] = {}
+    for one in out:
+        for requirement in one.missed:
+            missed.setdefault(requirement, []).append(one.variant)
+    parts += [f"{requirement} cannot be met by variants {_ids(ids)}." for requirement, ids in missed.items()]
+    outranked = [one for one in out if one.fate is Fate.OUTRANKED]
+    if outranked:
+        most = max(one.best_value for one in outranked if one.best_value is not None)
+        parts.append(
+            "Others are better, even if all that is unknown is at its best (a value of at most "
+            f"{most:.4g}): variants {_ids([one.variant for one in outranked])}."
+        )
+    return " ".join(parts)
+
+
+def _ids(ids: Sequence[int]) -> str:
+    more = f" and {len(ids) - _MOST_SHOWN} more" if len(ids) > _MOST_SHOWN else ""
+    return ", ".join(map(str, ids[:_MOST_SHOWN])) + more
 
 
 def _first_look(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
 from rgss.documents import Document, load_document
@@ -18,6 +18,8 @@ from rgss.studies.regression_section import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff
 from rgss.studies.trade_off_places import TradeOffPlaces
 from rgss.studies.trade_off_reading import read_trade_off
+from rgss.studies.until_section import read_until_decided
+from rgss.tradeoff.sequential import SequentialRule
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +59,7 @@ class ValueAnchors:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Study:
+class StudyDefinition:
     """A study as its file says.
 
     Attributes:
@@ -76,6 +78,7 @@ class Study:
         trade_off: How designs are compared.
         screening: The trials that come first, and which designs go on from them; None if all do.
         regression: Which metrics are guarded against a baseline; None if none are.
+        until_decided: When replication until decided goes on, and when it stops.
     """
 
     id: str
@@ -93,6 +96,7 @@ class Study:
     trade_off: TradeOff
     screening: Screening | None = None
     regression: RegressionGuard | None = None
+    until_decided: SequentialRule = field(default_factory=SequentialRule)
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -107,7 +111,7 @@ def read_study(
     project: Path,
     label: str,
     requirements: RequirementSet | None = None,
-) -> Study:
+) -> StudyDefinition:
     """Read a study.
 
     Args:
@@ -141,6 +145,7 @@ def read_study(
         findings.append(_not_positive(document, ("physics", "rate")))
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
+    until_decided = read_until_decided(entry.until_decided, document, findings)
     places = TradeOffPlaces(
         document, measures, lambda: _requirements(project) if requirements is None else requirements
     )
@@ -149,7 +154,7 @@ def read_study(
     if findings or trade_off is None:
         raise DocumentError(sorted(findings))
     planning = entry.planning
-    return Study(
+    return StudyDefinition(
         id=entry.study,
         label=label,
         design_space=entry.design_space,
@@ -171,6 +176,7 @@ def read_study(
         trade_off=trade_off,
         screening=screening,
         regression=regression,
+        until_decided=until_decided,
     )
 
 

@@ -27,7 +27,7 @@ class UntilDecided:
     Attributes:
         reason: Why it ended.
         variant: The variant that is chosen; None if none meets every requirement.
-        contenders: The variants that may be the best one.
+        contenders: The variants that may be the best one; if it is decided, by less than the margin.
         verdicts: By variant, the verdict on each requirement, valid in spite of the looks.
         trials: How many trials each variant has.
         probability: Posterior probability that the choice is good; see
@@ -69,7 +69,7 @@ def replicate_until_decided(
         project: The project; its study's number of replicates is not looked at.
         store: The evidence.
         run: Runs the trials that the store has not, and returns when their records are in it.
-        rule: When to stop; the default one if None.
+        rule: When to stop; as the study says if None.
         on_look: Told the number of each look and of the trials so far.
 
     Raises:
@@ -78,7 +78,7 @@ def replicate_until_decided(
     """
     from rgss.tradeoff.sequential_probability import probability_of_good_selection
 
-    rule = rule or SequentialRule()
+    rule = rule or project.study.until_decided
     variants = project.designs.expand()
     read = _Evidence(project, store, variants)
     wanted = {variant.id: rule.pilot for variant in variants}
@@ -118,8 +118,10 @@ def summary(result: UntilDecided) -> str:
     """One line that says what came of it."""
     share = result.total / (len(result.trials) * result.rule.cap)
     chosen = "no variant" if result.variant is None else f"variant {result.variant}"
+    others = len(set(result.contenders) - {result.variant})
+    nearly = f", {others} of the others may equal it within {result.rule.margin:g}" if others else ""
     ended = {
-        Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}",
+        Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
         Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
     }[result.reason]
     return (

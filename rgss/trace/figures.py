@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from rgss.evidence.records import Metric
@@ -38,6 +39,40 @@ def value_in_words(value: float | None, unit: str = "1") -> str:
         return UNKNOWN
     text = f"{value:,.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
     return text if unit == "1" else f"{text} {unit}"
+
+
+def share_in_words(share: float) -> str:
+    """A share in percent; only what is certain is ``100 %``, and only what is impossible ``0 %``.
+
+    Args:
+        share: From 0 to 1.
+    """
+    if 0.0 < share < 0.001:
+        return "< 0.1 %"
+    if 0.995 <= share < 1.0 - 1e-9:
+        return f"{100.0 * share:.1f} %" if share < 0.9995 else "> 99.9 %"
+    return f"{100.0 * share:.1f} %" if 0.0 < share < 0.1 else f"{100.0 * share:.0f} %"
+
+
+def rounded_away(limit: float, needed: float, unit: str, digits: int = 4) -> float:
+    """What a limit has to become, rounded away from what it is, so that the number as written is enough.
+
+    Args:
+        limit: The limit now.
+        needed: What it would have to become.
+        unit: The unit of both; money is rounded to whole units of it.
+        digits: Significant digits that are kept.
+    """
+    from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+
+    if needed == 0.0:
+        return needed
+    last = 0 if unit == "USD" else min(0, math.floor(math.log10(abs(needed))) - digits + 1)
+    nearest = round(needed, -last)
+    if math.isclose(nearest, needed, rel_tol=1e-9):
+        return nearest
+    away = ROUND_CEILING if needed > limit else ROUND_FLOOR
+    return float(Decimal(repr(needed)).quantize(Decimal(1).scaleb(last), rounding=away))
 
 
 def metric_in_words(metric: Metric) -> str:

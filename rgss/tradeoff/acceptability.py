@@ -16,7 +16,14 @@ from rgss.tradeoff.weight_set import WeightSet
 UNRANKED = 0
 """The rank of an alternative that cannot be chosen."""
 
+ALL_RANKS_TO = 1_000
+"""Of at most so many alternatives every rank is counted; the counts grow with their square."""
+
+MOST_RANKS = 100
+"""Of more alternatives so many ranks are counted, the best."""
+
 _ROWS_AT_ONCE = 4_096
+_RANKS_AT_ONCE = 4_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,9 +61,10 @@ class Acceptability:
     Attributes:
         iterations: How many pairs of weights and outcomes were drawn.
         ranks: The rank acceptability b_i^r: the share of draws in which alternative i has rank r,
-            shape (n, n), rank 1 in the first column. Equals share the better rank, so that the
-            first column may sum to more than 1.
-        rank_errors: The standard error of each of these, shape (n, n).
+            shape (n, r), rank 1 in the first column. Equals share the better rank, so that the
+            first column may sum to more than 1. All n ranks are there of up to `ALL_RANKS_TO`
+            alternatives, of more the first `MOST_RANKS`.
+        rank_errors: The standard error of each of these, shape (n, r).
         unranked: The share of draws in which it cannot be chosen, shape (n,).
         central_weights: The mean of the weights at which it is best, shape (n, m); NaN where it
             never is.
@@ -104,17 +112,19 @@ def smaa2(outcomes: Outcomes, weights: WeightSet, *, iterations: int, generator:
     _, count, size = outcomes.values.shape
     drawn = sample_weights(weights, iterations, generator)
     which = np.sort(generator.choice(len(outcomes.probabilities), size=iterations, p=outcomes.probabilities))
-    tally = np.zeros((count, count + 1), dtype=np.int64)
+    most = count if count <= ALL_RANKS_TO else MOST_RANKS
+    tally = np.zeros((count, most + 2), dtype=np.int64)  # not ranked, each rank, later ranks
+    at_once = _ROWS_AT_ONCE if most == count else max(1, min(_ROWS_AT_ONCE, _RANKS_AT_ONCE // count))
     sums = np.zeros((count, size))
     for outcome in np.unique(which):
         rows = np.flatnonzero(which == outcome)
-        for start in range(0, len(rows), _ROWS_AT_ONCE):
-            here = drawn[rows[start : start + _ROWS_AT_ONCE]]
-            ranks = _ranks(here, outcomes.values[outcome], outcomes.feasible[outcome])
-            for rank, column in enumerate(ranks.T):
-                tally[rank] += np.bincount(column, minlength=count + 1)
+        for start in range(0, len(rows), at_once):
+            here = drawn[rows[start : start + at_once]]
+            ranks = _ranks(here, outcomes.values[outcome], outcomes.feasible[outcome], most)
+            for row, column in enumerate(ranks.T):
+                tally[row] += np.bincount(column, minlength=most + 2)
             sums += (ranks == 1).T.astype(np.float64) @ here
-    shares = tally[:, 1:] / iterations
+    shares = tally[:, 1 : most + 1] / iterations
     best = tally[:, 1]
     central = np.divide(sums, best[:, None], out=np.full_like(sums, np.nan), where=best[:, None] > 0)
     confidence = np.array([_confidence(outcomes, row, weight) for row, weight in enumerate(central)])
@@ -145,19 +155,41 @@ def _check(outcomes: Outcomes, weights: WeightSet) -> None:
         )
 
 
-def _ranks(weights: Array, values: Array, feasible: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """The rank of each alternative at each of k weights, shape (k, n)."""
+def _ranks(weights: Array, values: Array, feasible: NDArray[np.bool_], most: int) -> NDArray[np.int64]:
+    """The rank of each alternative at each of k weights, shape (k, n); ``most + 1`` for all later ranks."""
     ranks = np.full((len(weights), len(values)), UNRANKED, dtype=np.int64)
     possible = np.flatnonzero(feasible)
     if not len(possible):
         return ranks
     totals = weights @ values[possible].T
+    if most < len(possible):
+        ranks[:, possible] = _first_ranks(totals, most)
+        return ranks
     # Values lie in [0, 1]: shifted by two a row, all rows are ranked in one sorted sequence.
     shift = 2.0 * np.arange(len(weights))[:, None]
     ranked = np.sort(totals, axis=1) + shift
     after = np.searchsorted(ranked.ravel(), (totals + shift + TIE_TOLERANCE).ravel(), side="right")
     ends = (np.arange(len(weights))[:, None] + 1) * len(possible)
     ranks[:, possible] = 1 + ends - after.reshape(totals.shape)
+    return ranks
+
+
+def _first_ranks(totals: Array, most: int) -> NDArray[np.int64]:
+    """The ranks up to ``most`` by descending totals, shape (k, n); ``most + 1`` for all later ones."""
+    ranks = np.full(totals.shape, most + 1, dtype=np.int64)
+    # What at least `most` alternatives are better than has a later rank, so that the rest need no order.
+    leaders = -np.sort(-np.partition(totals, -most, axis=1)[:, -most:], axis=1)
+    lines, places = np.nonzero(totals >= leaders[:, -1:] - TIE_TOLERANCE)
+    asked = totals[lines, places] + TIE_TOLERANCE
+    # How many leaders are better, counted by halving: they descend.
+    low, high = np.zeros(len(asked), dtype=np.int64), np.full(len(asked), most, dtype=np.int64)
+    while (low < high).any():
+        middle = (low + high) // 2
+        better = leaders[lines, np.minimum(middle, most - 1)] > asked
+        going = low < high
+        low = np.where(going & better, middle + 1, low)
+        high = np.where(going & ~better, middle, high)
+    ranks[lines, places] = low + 1
     return ranks
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rgss.tradeoff.alternatives import Array, Mask, checked_values, checked_weights, classes
 from rgss.tradeoff.polytope import Polytope
 from rgss.tradeoff.values import TIE_TOLERANCE
-from rgss.tradeoff.weight_region import winning_polytope
+from rgss.tradeoff.weight_region import never_best, rivals_of, winning_polytope
 from rgss.tradeoff.weight_set import WeightSet
 
 
@@ -80,8 +80,9 @@ def weight_shifts(
     here = checked_weights(weights, distinct.shape[1])
     admitted = among or WeightSet.simplex(distinct.shape[1])
     shifts = []
-    for kind in range(len(distinct)):
-        found = _shift(winning_polytope(distinct, kind, admitted), here)
+    rivals = rivals_of(distinct)
+    for kind in np.flatnonzero(~never_best(distinct, rivals)):
+        found = _shift(winning_polytope(distinct, int(kind), admitted, rivals), here)
         if found is not None:
             members = tuple(int(row) for row in rows[membership == kind])
             shifts.append(

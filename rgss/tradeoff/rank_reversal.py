@@ -15,6 +15,12 @@ Scoring = Callable[[NDArray[np.intp]], Array]
 """Gives the score of each of the alternatives that are there, more being better, shape (k,)."""
 
 
+_PAIRS_UP_TO = 500
+"""Of at most so many alternatives every pair is looked at."""
+
+_PAIRS_AT_ONCE = 4_000_000
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RankReversal:
     """What the removal of one alternative changes among the others.
@@ -55,7 +61,9 @@ def rank_reversals(count: int, score: Scoring) -> tuple[RankReversal, ...]:
         if not len(rest):
             continue
         old, new = before[rest], np.asarray(score(rest), dtype=np.float64)
-        swapped = int(np.triu(_order(old) != _order(new), 1).sum())
+        if np.array_equal(old, new) or (len(rest) > _PAIRS_UP_TO and _same_order(old, new)):
+            continue
+        swapped = _swaps(old, new)
         if swapped:
             found.append(
                 RankReversal(
@@ -90,10 +98,36 @@ def sample_anchored(quantities: Array, more_is_better: NDArray[np.bool_], weight
     return score
 
 
-def _order(scores: Array) -> NDArray[np.int8]:
+def _swaps(old: Array, new: Array) -> int:
+    """How many pairs change their order, a block of rows at a time, for all pairs at once need much memory."""
+    count = len(old)
+    step = max(1, _PAIRS_AT_ONCE // count)
+    swapped = 0
+    for start in range(0, count, step):
+        rows = slice(start, start + step)
+        changed = _order(old[rows], old) != _order(new[rows], new)
+        swapped += int(np.triu(changed, start + 1).sum())
+    return swapped
+
+
+def _order(scores: Array, others: Array) -> NDArray[np.int8]:
     """For each pair, 1 where the first is better, -1 where it is worse, 0 in a tie."""
-    gap = scores[:, None] - scores[None, :]
+    gap = scores[:, None] - others[None, :]
     return np.asarray(np.where(np.abs(gap) <= TIE_TOLERANCE, 0, np.sign(gap)), dtype=np.int8)
+
+
+def _same_order(old: Array, new: Array) -> bool:
+    """Whether no pair changes its order, told from two sorted sequences instead of all pairs."""
+    by_old, by_new = np.argsort(old, kind="stable"), np.argsort(new, kind="stable")
+    worse = np.searchsorted(old[by_old], old - TIE_TOLERANCE)
+    if not np.array_equal(worse, np.searchsorted(new[by_new], new - TIE_TOLERANCE)):
+        return False
+    # Equally many are worse than each; they are the same ones if the sequences begin with the same.
+    place = np.empty(len(new), dtype=np.intp)
+    place[by_new] = np.arange(len(new))
+    furthest = np.maximum.accumulate(place[by_old])
+    sizes = np.unique(worse[worse > 0])
+    return bool((furthest[sizes - 1] < sizes).all())
 
 
 def _best(scores: Array) -> int:

@@ -1,11 +1,17 @@
 """Replication until decided: which alternatives need more replicates, and when none does.
 
-The rule keeps a set of alternatives that may still be the best one. An alternative leaves it when
-it is proven to be infeasible, or to be beaten by a rival. Let i* be the best feasible alternative.
-Only i* can be dropped wrongly, so the probability of an error is that of tests of i* alone: it is
-*not* divided among all pairs. The rivals are chosen by the first replicates (the pilot) and held
-against the others by the replicates after it; all of them are tests that stay valid under any
-number of looks (`rgss.tradeoff.sequential_tests`), so that the rule may stop whenever it likes.
+The rule has a choice, an alternative that it would name now, and holds it against all others. Let i*
+be the best feasible alternative. The decision is wrong only if i* was taken for infeasible, if the
+choice was taken for acceptable, or if i* was taken for worth no more than the choice by the margin.
+So only tests of i* and of the choice can err: α is *not* divided among all pairs, but among those
+that may become the choice. These are the rivals, which the first replicates (the pilot) name and the
+replicates after it judge; what is left of α is for all others. Everything is a test that stays valid
+under any number of looks (`rgss.tradeoff.sequential_tests`), so that the rule may stop when it likes
+and may leave those alone for which there is nothing left to show.
+
+What is within the margin of the choice is settled as well as what is worth less. That ends the race of
+alternatives that hardly a trial tells apart, as planning limits that seldom bind: after n replicates
+without any difference two proportions differ by less than about ln(1/level)/n.
 
 The guarantee is one of good selection with tolerances, as procedures for ranking and selection
 give (Kim and Nelson, "A fully sequential procedure for indifference-zone selection in simulation",
@@ -30,7 +36,7 @@ from rgss.tradeoff.sequential_comparison import is_acceptable, is_beaten, is_inf
 from rgss.tradeoff.sequential_evidence import SequentialEvidence
 
 _INFEASIBLE_SHARE, _ACCEPTED_SHARE, _BEATEN_SHARE = 0.1, 0.1, 0.8
-_DROP_SHARE = 0.8
+_RIVALS_SHARE = 0.9
 _GROUP_SHARES = (0.75, 0.25)
 _TIE = 1e-9
 _LEVEL_STEP = 1.3
@@ -128,7 +134,8 @@ class Decided:
     Attributes:
         reason: Why.
         variant: The alternative that is chosen; None if none meets every requirement.
-        contenders: The alternatives that may be the best.
+        contenders: The alternatives that may be the best; if it is decided, those that the choice
+            may fall short of, by less than the margin.
         verdicts: By alternative, the verdict on each requirement.
         progress: What was found.
     """
@@ -162,12 +169,14 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     progress = replace(progress, dropped=_dropped(evidence, rule, progress))
     contenders = tuple(each for each in ids if each not in progress.dropped)
     chosen = _chosen(evidence, contenders)
-    decided = not contenders or (chosen is not None and _is_decided(evidence, rule, progress, contenders, chosen))
+    open_pairs = _unsettled(evidence, rule, progress, chosen)
+    accepted = chosen is not None and _is_accepted(evidence, rule, progress, chosen)
+    decided = (accepted and not open_pairs) or not any(progress.dropped.get(each) != INFEASIBLE for each in ids)
     wanted: dict[int, int] = {}
     for row, variant in enumerate(ids):
         ran = int(evidence.replicates[row])
         most = 0
-        if variant in contenders and not decided:
+        if not decided and (variant == chosen or variant in open_pairs):
             most = rule.cap
         elif _is_open(evidence, progress, row):
             most = rule.verdict_cap
@@ -222,6 +231,7 @@ def _shares_trials(evidence: SequentialEvidence, row: int, other: int) -> bool:
 
 
 def _dropped(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress) -> dict[int, str]:
+    """The alternatives that are proven not to be the best; that they are beaten is no part of the promise."""
     ids = evidence.table.variants.tolist()
     level = rule.error_rate * _INFEASIBLE_SHARE
     infeasible = {
@@ -235,21 +245,17 @@ def _dropped(evidence: SequentialEvidence, rule: SequentialRule, progress: Progr
     if not any(variant in infeasible and progress.dropped.get(variant) != INFEASIBLE for variant, _ in progress.rivals):
         dropped = {**progress.dropped, **infeasible}
     for row, variant in enumerate(ids):
-        if variant not in dropped and _is_beaten(evidence, rule, row, rivals, only_strictly=variant in rivals):
+        if variant not in dropped and _is_beaten(evidence, rule, row, rivals):
             dropped[variant] = BEATEN
     return dropped
 
 
-def _is_beaten(
-    evidence: SequentialEvidence, rule: SequentialRule, row: int, rivals: Mapping[int, float], *, only_strictly: bool
-) -> bool:
-    """Whether the rivals together prove that an alternative is not worth choosing.
+def _is_beaten(evidence: SequentialEvidence, rule: SequentialRule, row: int, rivals: Mapping[int, float]) -> bool:
+    """Whether the rivals together prove that an alternative is not worth more than each of them.
 
     The smallest level at which a rival's test rejects is one over an e-value; were the alternative
     the best, each would have an expectation of at most 1, and so would their weighted mean.
     """
-    # A rival is dropped for what is strictly better, so that tolerances do not add up in a chain.
-    lead = 0.0 if only_strictly else rule.margin * _DROP_SHARE
     total = rule.error_rate * _BEATEN_SHARE
     variant = int(evidence.table.variants[row])
     found = 0.0
@@ -258,7 +264,7 @@ def _is_beaten(
             continue
         needed = (1.0 / total - found) / weight
         evident, tried = 0.0, 1.0 / total
-        while tried > evident and _beats(evidence, rule, row, rival, 1.0 / tried, lead):
+        while tried > evident and _beats(evidence, rule, row, rival, 1.0 / tried, lead=0.0, after=rule.pilot):
             evident = tried
             tried = min(tried * _LEVEL_STEP, needed)
         if evident >= needed:
@@ -267,44 +273,52 @@ def _is_beaten(
     return False
 
 
-def _is_decided(
-    evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, contenders: tuple[int, ...], chosen: int
-) -> bool:
-    """Whether the chosen one is acceptable, and nothing that is left is better by more than the margin."""
+def _unsettled(
+    evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, chosen: int | None
+) -> frozenset[int]:
+    """The alternatives that may be worth more than the choice by the margin, as far as is proven."""
+    possible = frozenset(
+        variant for variant in evidence.table.variants.tolist() if progress.dropped.get(variant) != INFEASIBLE
+    )
+    if chosen is None:
+        return possible - {variant for variant, why in progress.dropped.items() if why == BEATEN}
     rivals = dict(progress.rivals)
-    place = evidence.table.row_of(chosen)
-    level = rule.error_rate * _ACCEPTED_SHARE / 2.0
-    level /= len(rivals) if chosen in rivals else len(evidence.table)
-    # The pilot chose the rivals, so that it cannot speak for them again.
+    share = _RIVALS_SHARE * rivals[chosen] if chosen in rivals else (1.0 - _RIVALS_SHARE) / len(evidence.table)
+    level = rule.error_rate * _BEATEN_SHARE * share
+    # The pilot named the rivals, so that it cannot speak for them again.
     after = rule.pilot if chosen in rivals else 0
-    if not is_acceptable(evidence, place, level=level, slack=rule.slack, after=after):
-        return False
-    others = [variant for variant in contenders if variant != chosen]
-    if not others:
-        return True
-    if chosen not in rivals:
-        return False
-    level = rule.error_rate * _BEATEN_SHARE * rivals[chosen]
-    lead = rule.margin * (1.0 - _DROP_SHARE)
-    return all(_beats(evidence, rule, evidence.table.row_of(variant), chosen, level, lead) for variant in others)
-
-
-def _beats(evidence: SequentialEvidence, rule: SequentialRule, row: int, rival: int, level: float, lead: float) -> bool:
-    return is_beaten(
-        evidence, row, evidence.table.row_of(rival), level=level, after=rule.pilot, lead=lead, slack=rule.slack
+    return frozenset(
+        variant
+        for variant in possible - {chosen}
+        if not _beats(evidence, rule, evidence.table.row_of(variant), chosen, level, lead=rule.margin, after=after)
     )
 
 
+def _is_accepted(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, chosen: int) -> bool:
+    """Whether the choice is proven to violate no threshold by more than the slack."""
+    rivals = dict(progress.rivals)
+    level = rule.error_rate * _ACCEPTED_SHARE / 2.0
+    level /= len(rivals) if chosen in rivals else len(evidence.table)
+    after = rule.pilot if chosen in rivals else 0
+    return is_acceptable(evidence, evidence.table.row_of(chosen), level=level, slack=rule.slack, after=after)
+
+
+def _beats(
+    evidence: SequentialEvidence, rule: SequentialRule, row: int, rival: int, level: float, *, lead: float, after: int
+) -> bool:
+    place = evidence.table.row_of(rival)
+    return is_beaten(evidence, row, place, level=level, after=after, lead=lead, slack=rule.slack)
+
+
 def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...]) -> int | None:
-    """The contender of the highest value that is feasible by its estimates; the smallest id of ties."""
-    best: int | None = None
-    for variant in contenders:
-        row = evidence.table.row_of(variant)
-        if not evidence.feasible[row]:
-            continue
-        if best is None or evidence.values[row] > evidence.values[evidence.table.row_of(best)] + _TIE:
-            best = variant
-    return best
+    """The contender of the highest value that is feasible by its estimates; the smallest id of ties.
+
+    Only those with the most replicates count: who was left alone is known too vaguely to lead.
+    """
+    rows = [row for row in map(evidence.table.row_of, contenders) if evidence.feasible[row]]
+    most = max((evidence.replicates[row] for row in rows), default=0)
+    best = _best([row for row in rows if evidence.replicates[row] == most], evidence.values.tolist())
+    return int(evidence.table.variants[best[0]]) if best else None
 
 
 def _settled(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress) -> dict[tuple[int, int], bool]:

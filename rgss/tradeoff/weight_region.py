@@ -10,11 +10,17 @@ import numpy as np
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.alternatives import Array, Mask, checked_values, classes
+from rgss.tradeoff.dominance import nondominated
 from rgss.tradeoff.polytope import THINNEST, Polytope
 from rgss.tradeoff.sampling import sample_weights
 from rgss.tradeoff.weight_set import WeightSet
 
 SHARE_SAMPLES = 1 << 16
+
+ALL_RIVALS_TO = 200
+"""Of more distinct alternatives only those count that none dominates; a region needs a program as large."""
+
+_CLEARLY = 1e-6
 """Weights that are drawn where a volume cannot be computed from vertices."""
 
 
@@ -52,17 +58,45 @@ class WeightRegion:
     vertices: Array | None
 
 
-def winning_polytope(values: Array, row: int, weights: WeightSet) -> Polytope:
+def winning_polytope(values: Array, row: int, weights: WeightSet, rivals: Array | None = None) -> Polytope:
     """The region of one alternative as a polytope.
 
     Args:
         values: The single values of the alternatives, shape (n, m).
         row: The alternative.
         weights: The admitted weights.
+        rivals: What it is held against, as `rivals_of` gives it; None for all others.
     """
-    differences = np.delete(values, row, axis=0) - values[row]
+    differences = (np.delete(values, row, axis=0) if rivals is None else rivals) - values[row]
     differences = differences[np.abs(differences).max(axis=1) > 0.0] if len(differences) else differences
     return Polytope.of(weights, differences, np.zeros(len(differences)))
+
+
+def rivals_of(values: Array) -> Array | None:
+    """The alternatives that all others have to be held against.
+
+    What another dominates is never worth more than that one, whatever the weights.
+
+    Args:
+        values: The single values of distinct alternatives, shape (n, m).
+
+    Returns:
+        The values of those that none dominates; None of up to `ALL_RIVALS_TO`, where all count.
+    """
+    return None if len(values) <= ALL_RIVALS_TO else np.asarray(values[nondominated(values)], dtype=np.float64)
+
+
+def never_best(values: Array, rivals: Array | None) -> Mask:
+    """Which alternatives a rival beats clearly in every measure, so that no weights make them best, shape (n,).
+
+    Args:
+        values: The single values of distinct alternatives, shape (n, m).
+        rivals: What `rivals_of` gives for them; of None nothing is said.
+    """
+    beaten = np.zeros(len(values), dtype=np.bool_)
+    for rival in () if rivals is None else rivals:
+        beaten |= (rival - values > _CLEARLY).all(axis=1)
+    return beaten
 
 
 def winning_regions(
@@ -91,7 +125,9 @@ def winning_regions(
         return tuple(regions)
     distinct, membership = classes(checked_values(values[feasible]))
     whole = _whole(weights)
-    found = [_region(distinct, row, weights, whole) for row in range(len(distinct))]
+    rivals = rivals_of(distinct)
+    never = never_best(distinct, rivals)
+    found = [_EMPTY if never[row] else _region(distinct, row, weights, whole, rivals) for row in range(len(distinct))]
     if any(math.isnan(region.share) for region in found):
         found = _sampled_shares(found, distinct, weights, generator)
     for row, kind in zip(np.flatnonzero(feasible), membership, strict=True):
@@ -125,8 +161,8 @@ def _whole(weights: WeightSet) -> float:
     return math.nan if volume is None else volume
 
 
-def _region(values: Array, row: int, weights: WeightSet, whole: float) -> WeightRegion:
-    polytope = winning_polytope(values, row, weights)
+def _region(values: Array, row: int, weights: WeightSet, whole: float, rivals: Array | None) -> WeightRegion:
+    polytope = winning_polytope(values, row, weights, rivals)
     ball = polytope.largest_ball()
     if ball is None:
         return _EMPTY

@@ -36,7 +36,8 @@ def test_a_brush_on_an_axis_filters_every_other_view(reader, page, study):
     reader.script("arguments[0].scrollIntoView({block: 'center'})", canvas)
     box = canvas.rect
     # The fourth axis is the planner's, with RRT at its foot: a drag over its lower quarter keeps RRT alone.
-    axis_x, foot, height = 64 + 3 * 108, 420 - 46, 420 - 62 - 46
+    step = int(canvas.get_attribute("data-step"))
+    axis_x, foot, height = 64 + 3 * step, 420 - 46, 420 - 62 - 46
     to = (axis_x - box["width"] / 2, foot - 0.25 * height - box["height"] / 2)
     start = (axis_x - box["width"] / 2, foot + 4 - box["height"] / 2)
     (
@@ -175,6 +176,91 @@ def test_texts_are_shown_as_texts(reader, study, tmp_path):
     assert reader.text(".reasons li") == HOSTILE
     assert HOSTILE in reader.text("#variant-evidence")
     assert "<b>bold</b>" in reader.text("#planning-plot")
+
+
+FIGURES_WITHOUT_EVIDENCE = """
+const told = [];
+const leads = (link) => (link.hash.startsWith('#variant-')
+  ? /^#variant-\\d+/.test(link.hash)
+  : document.getElementById(link.hash.slice(1)) !== null);
+for (const table of document.querySelectorAll('main table')) {
+  const region = table.closest('.scroll') ?? table;
+  const named = region.parentElement.querySelector(':scope > .source') !== null;
+  for (const cell of table.querySelectorAll('td.number')) {
+    if (!/\\d/.test(cell.textContent)) continue;
+    const links = Array.from(cell.querySelectorAll('a[href]'));
+    const sound = links.every(leads) && (links.length > 0 || named);
+    if (!sound) told.push(`${table.closest('section').id}: ${cell.outerHTML.slice(0, 120)}`);
+  }
+}
+return told;
+"""
+
+
+def test_every_figure_of_the_page_has_a_link_or_a_named_source(reader, page):
+    reader.open(page)
+    reader.script("for (const one of document.querySelectorAll('details')) one.open = true")
+    reader.until("return document.querySelectorAll('#acceptability-table td').length > 0")
+
+    cells = reader.script(
+        "return Array.from(document.querySelectorAll('main td.number'))"
+        ".filter((one) => /\\d/.test(one.textContent)).length"
+    )
+    assert cells > 1500
+    assert reader.script(FIGURES_WITHOUT_EVIDENCE) == []
+    # It would tell of one that had lost its link.
+    reader.script("document.querySelector('.compared td a[href$=t_e]').removeAttribute('href')")
+    assert [one.split(":")[0] for one in reader.script(FIGURES_WITHOUT_EVIDENCE)] == ["decision"]
+
+
+def test_a_figure_leads_to_its_row_and_from_there_to_the_command(reader, page, study):
+    reader.open(page)
+    chosen = study.document["decision"]["chosen"]
+    reader.driver.find_element(By.CSS_SELECTOR, f".compared a[href='#variant-{chosen}/t_e']").click()
+    reader.until("return document.activeElement.dataset.key === 't_e'")
+    assert reader.script("return document.activeElement.classList.contains('sought')")
+
+    reader.driver.find_element(By.CSS_SELECTOR, "#variant-evidence tr[data-key='t_e'] a").click()
+    trials = study.document["trials"]
+    key = trials["key"][trials["variant"].index(study.document["variants"]["id"].index(chosen))]
+    reader.until("return document.activeElement.dataset.key === arguments[0]", key)
+    assert f"rgss replay {key}" in reader.script("return document.activeElement.textContent")
+    # What is no figure of a variant leads to the variant.
+    reader.script("location.hash = arguments[0]", f"#variant-{chosen}/%E0%A4%A")
+    reader.until("return document.activeElement.id === 'evidence-title'")
+    assert reader.complaints() == []
+
+
+def test_conflicts_are_shown_at_every_width(reader, study, tmp_path):
+    document = copy.deepcopy(study.document)
+    moved = {"requirement": "SYS-004", "demand": HOSTILE, "needed": "41,750 USD", "relative": "3.1 %"}
+    document["decision"] |= {"chosen": None, "runner_up": None, "headline": "No variant is chosen.", "reasons": ["x"]}
+    document["decision"]["demands"] = {"SYS-004": HOSTILE, "SYS-012": HOSTILE}
+    document["conflicts"] = {
+        "conflicts": [{"requirements": ["SYS-004", "SYS-012"], "survives": 0.22}],
+        "more_conflicts": 0,
+        "complete": True,
+        "joint": [
+            {"requirements": ["SYS-004"], "changes": [moved], "unlocked": 3, "winner": 13},
+            {"requirements": ["SYS-012"], "changes": [], "unlocked": 0, "winner": None},
+        ],
+        "more_joint": 2,
+        "requirements": [
+            {"requirement": "SYS-004", "demand": "d", "excludes": 9, "changes": [moved], "unlocked": 3, "winner": 13}
+        ],
+        "example": "rgss trade --what-if 'SYS-004.threshold=41750 USD'",
+        "noise": "Survives.",
+        "nearest": {"variant": 19, "requirements": ["SYS-004"]},
+    }
+    file = tmp_path / "report.html"
+    file.write_text(study_report_to_html(document, study.trace), encoding="utf-8")
+    for width in (1400, 400):
+        reader.open(file, width=width)
+        assert reader.script("return document.documentElement.scrollWidth") <= width
+        assert reader.complaints() == []
+    assert reader.rows(".repairs")[0] == ["SYS-004 and SYS-012", HOSTILE + HOSTILE, "22 %"]
+    assert "evidence is missing" in reader.text(".repairs")
+    assert reader.script("return document.querySelector('.repairs b') === null")
 
 
 def test_paper_has_every_table_and_every_plot(reader, page):

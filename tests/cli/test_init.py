@@ -7,7 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from rgss.evidence import EvidenceStore, Provenance
+from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
+from rgss.studies.sweep import key_of
+
+from .conftest import made_record
 
 
 def test_a_new_project_is_sound(rgss, tmp_path):
@@ -26,6 +31,21 @@ def test_a_new_project_is_sound(rgss, tmp_path):
     assert (checked.status, checked.errors) == (0, "")
     assert ": 0 findings" in checked.output
     assert len(load_project(folder).designs.expand()) == 4
+
+
+def test_its_page_has_a_place_for_the_decision(rgss, tmp_path):
+    folder = tmp_path / "project"
+    rgss("init", folder)
+    project = load_project(folder).with_fidelity("kinematic")
+    with EvidenceStore.open(project.evidence) as store:
+        for spec in trial_specs(project, variants=project.designs.expand(), seeds=(1, 2)):
+            store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
+    page = folder / "README.md"
+    told = rgss("trade", "--fidelity", "kinematic", "--section", "--into", page, "--project", folder)
+
+    assert (told.status, told.errors) == (0, "")
+    assert "is chosen" in page.read_text(encoding="utf-8")
+    assert page.read_text(encoding="utf-8").startswith("# A project of rgss")
 
 
 def test_the_files_are_told_as_json(rgss, tmp_path):

@@ -175,3 +175,36 @@ def test_files_that_cannot_be_written(rgss, with_baseline, tmp_path):
         told = rgss("regress", "--project", with_baseline, option, tmp_path / "no" / "file")
         assert told.status == 2
         assert "cannot be written" in told.complaint
+
+
+def test_designs_that_are_not_there_are_told_where_they_stand(rgss, guarded):
+    path = guarded / STUDY
+    path.write_text(path.read_text(encoding="utf-8").replace('"57,60"', '"57,160"'), encoding="utf-8")
+    line = 1 + path.read_text(encoding="utf-8")[: path.read_text(encoding="utf-8").index('"57,160"')].count("\n")
+    said = (
+        f"{STUDY}:{line}:53: error: variants of run planning: there is no variant 160 (ids go from 1 to 72) "
+        "[study.regression]"
+    )
+
+    checked = rgss("check", "--project", guarded)
+    assert checked.status == 1
+    assert checked.output.splitlines()[0] == said
+    told = rgss("regress", "--project", guarded, "--update", "--reason", "x")
+    assert (told.status, told.output, told.complaint) == (2, "", said)
+    # What is guarded stops nothing but the guard.
+    assert rgss("variants", "--project", guarded).status == 0
+
+
+def test_a_trial_that_could_not_be_run_is_a_status_of_its_own(rgss, with_baseline, monkeypatch):
+    project = load_project(with_baseline)
+    (trials,) = watched_trials(project, guard_of(project))
+    gone = next(spec for spec in trials.specs(4) if (spec.variant, spec.seed) == (60, 2))
+    records = EvidenceStore.records
+
+    def without_one(store, keys):
+        return {key: record for key, record in records(store, keys).items() if key != key_of(gone)}
+
+    monkeypatch.setattr(EvidenceStore, "records", without_one)
+    told = rgss("regress", "--project", with_baseline)
+    assert told.status == 3
+    assert "FAILED        not run: run planning: the trial of variant 60 with seed 2 could not be run" in told.output

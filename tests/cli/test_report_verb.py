@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
+import shutil
 from contextlib import redirect_stdout
 from io import StringIO
 
@@ -169,8 +171,116 @@ def test_without_evidence_one_line_says_what_to_run(folder, tmp_path, rgss):
     said = rgss("report", "--project", folder, "--out", tmp_path / "report.html")
 
     assert said.status == 2
-    assert "run the sweep first" in said.complaint
+    assert said.complaint.endswith(f"(run 'rgss sweep --project {folder}' first)")
     assert not (tmp_path / "report.html").exists()
+
+
+def test_too_little_evidence_names_the_sweep_that_is_missing(with_evidence, tmp_path, rgss):
+    said = rgss("report", "--project", with_evidence, "--replicates", 5, "--out", tmp_path / "report.html")
+
+    assert said.status == 2
+    assert said.complaint == (
+        "rgss: 144 of 360 trials have no evidence for the project as it is now "
+        f"(run 'rgss sweep --project {with_evidence} --replicates 5' first)"
+    )
+    said = rgss("report", "studies/pick_place.yaml", "--project", with_evidence, "--fidelity", "kinematic")
+    assert f"(run 'rgss sweep studies/pick_place.yaml --project {with_evidence} --fidelity kinematic' first)" in (
+        said.complaint
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "problem"),
+    [
+        (("--film-size", "huge"), "--film-size: 'huge' is no size (write width and height, such as 640x480)"),
+        (("--film-size", "9x9"), "--film-size: 9x9 is out of range (give from 200 to 2000 pixels each way)"),
+        (("--film-rate", "99"), "--film-rate: 99 is out of range (give from 1 to 50)"),
+        (("--no-film", "--film-rate", "5"), "--film-rate is given with --no-film (leave one of them away)"),
+    ],
+)
+def test_a_film_that_cannot_be_is_told_before_anything_is_done(with_evidence, tmp_path, rgss, options, problem):
+    said = rgss("report", "--project", with_evidence, "--out", tmp_path / "report.html", *options)
+
+    assert said.status == 2
+    assert said.complaint == f"rgss: {problem}"
+
+
+def test_films_are_large_where_they_are_few():
+    look = report_pictures.ordered_look
+    assert look(None, None, films=4) == report_pictures.LARGE
+    assert look(None, None, films=5) == report_pictures.SMALL
+    assert look("640x480", 12.0, films=9) == report_pictures.FilmLook(width=640, height=480, rate_hz=12.0)
+
+
+@pytest.fixture(scope="module")
+def infeasible(with_evidence, tmp_path_factory):
+    """The project with limits that no variant meets."""
+    project = tmp_path_factory.mktemp("infeasible") / "project"
+    shutil.copytree(with_evidence, project)
+    for name, changes in {
+        "1-manipulator.yaml": {"43000 USD": "40500 USD", "within 25 s": "within 5 s", '"25 s"': '"5 s"'},
+        "2-gripper.yaml": {"at least 0.8 kg": "at least 0.9 kg", '"0.8 kg"': '"0.9 kg"'},
+    }.items():
+        file = project / "requirements" / "system" / name
+        text = file.read_text(encoding="utf-8")
+        for before, after in changes.items():
+            assert before in text
+            text = text.replace(before, after)
+        file.write_text(text, encoding="utf-8")
+    return project
+
+
+def test_an_infeasible_study_leads_with_what_conflicts_and_what_mends_it(infeasible, tmp_path, rgss):
+    file = tmp_path / "report.html"
+    with redirect_stdout(StringIO()) as output:
+        assert main(["report", "--project", str(infeasible), "--out", str(file), "--no-film", "--json"]) == 1
+    told = json.loads(output.getvalue())["report"]["conflicts"]
+    with redirect_stdout(StringIO()) as output:
+        assert main(["trade", "--project", str(infeasible), "--json"]) == 1
+    trade = json.loads(output.getvalue())["conflicts"]
+
+    assert [one["requirements"] for one in told["conflicts"]] == trade["minimal_conflicts"]
+    assert ["SYS-005"] in trade["minimal_conflicts"]
+    assert [one["survives"] for one in told["conflicts"]] == trade["survival"]["conflicts"]
+    assert {one["requirement"]: one["excludes"] for one in told["requirements"]} == {
+        one["requirement"]: one["excluded"] for one in trade["excluded_by"]
+    }
+    # The same ways to mend it, the one whose largest relative change is least first.
+    assert {tuple(one["requirements"]): one["winner"] for one in told["joint"]} == {
+        tuple(one["requirements"]): one["winner"] for one in trade["joint_repairs"]
+    }
+    largest = [
+        max(change["relative"] for change in one["changes"])
+        for shown in told["joint"]
+        for one in trade["joint_repairs"]
+        if one["requirements"] == shown["requirements"]
+    ]
+    assert largest == sorted(largest)
+    text = file.read_text(encoding="utf-8")
+    headline, together, mend = (
+        text.index(words)
+        for words in ("none of 72 meets every requirement", "What cannot be met together", "What would mend it")
+    )
+    assert headline < together < mend < text.index("All variants</h2>")
+    # The limits as they are written are enough.
+    tried = shlex.split(told["example"])
+    assert tried[:2] == ["rgss", "trade"]
+    with redirect_stdout(StringIO()) as output:
+        assert main([*tried[1:], "--project", str(infeasible), "--json"]) == 0
+    assert json.loads(output.getvalue())["chosen"] == told["joint"][0]["winner"]
+
+
+def test_every_figure_of_the_decision_leads_to_its_evidence(told, side):
+    text, _ = told
+    _, measured, decision, *_ = side
+    table = re.search(r'<table class="cards compared">.*?</table>', text, flags=re.DOTALL).group()
+    figures = [cell for cell in re.findall(r"<td[^>]*>(.*?)</td>", table, flags=re.DOTALL) if re.search(r"\d", cell)]
+    assert len(figures) > 20
+    assert all("<a " in cell for cell in figures)
+    for variant in (decision.chosen, decision.runner_up):
+        entry = next(one for one in measured if one.variant.id == variant)
+        for key in entry.trials:
+            assert f'<a href="#variant-{variant}/{key[:12]}"><code>rgss replay {key[:12]}</code></a>' in table
 
 
 @pytest.mark.parametrize(
@@ -196,22 +306,25 @@ def test_a_result_of_tests_needs_tests(with_evidence, tmp_path, rgss):
 def test_what_cannot_be_filmed_is_said(side):
     project, measured, *_ = side
     notable = [NotableTrial(key="0" * 64, record=measured[0].records[0], why="x")]
-    pictures, notice = report_pictures.trial_pictures(project.with_fidelity("kinematic"), notable, wanted=True)
+    pictures, notice = report_pictures.trial_pictures(
+        project.with_fidelity("kinematic"), notable, look=report_pictures.SMALL
+    )
     assert pictures == ()
     assert notice == "Trials of kinematic fidelity have nothing to film; those with contact have."
-    assert report_pictures.trial_pictures(project, [], wanted=True) == ((), "There are no trials to look at.")
+    assert report_pictures.trial_pictures(project, [], look=report_pictures.SMALL) == (
+        (),
+        "There are no trials to look at.",
+    )
 
 
 @pytest.mark.engine
-def test_a_notable_trial_is_run_again_and_filmed(side, monkeypatch):
+def test_a_notable_trial_is_run_again_and_filmed(side):
     project, *_ = side
-    monkeypatch.setattr(report_pictures, "WIDTH", 200)
-    monkeypatch.setattr(report_pictures, "HEIGHT", 150)
-    monkeypatch.setattr(report_pictures, "RATE_HZ", 1.0)
+    look = report_pictures.FilmLook(width=200, height=150, rate_hz=1.0)
     (spec,) = trial_specs(project, variants=[project.designs.variant(28)], seeds=[1])
     one = NotableTrial(key="ab" * 32, record=run_trial(spec), why="the deciding trial")
 
-    (picture,), notice = report_pictures.trial_pictures(project, [one], wanted=True)
+    (picture,), notice = report_pictures.trial_pictures(project, [one], look=look)
 
     assert notice == ""
     assert picture.title == "Variant 28, seed 1: the deciding trial"

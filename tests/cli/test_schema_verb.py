@@ -54,6 +54,8 @@ def test_headers_lead_to_the_schemas(rgss, folder):
     documents = list(folder.rglob("*.yaml"))
     assert told.status == 0
     assert f"{len(documents)} documents have a new first line" in told.output
+    again = rgss("schema", "--out", folder / "schemas", "--headers", "--project", folder)
+    assert again.output.splitlines()[1] == "every document of the project names its schema already"
     for path in documents:
         first = path.read_text(encoding="utf-8").splitlines()[0]
         schema = json.loads((path.parent / first.removeprefix("# yaml-language-server: $schema=")).read_text())

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 import rgss.studies.until_decided as until
+from rgss.evidence import RunFailure, RunFailureKind
 from rgss.measures import Verdict
+from rgss.studies.sweep import LostTrials, SweepResult
 from rgss.tradeoff.sequential import Reason, SequentialRule
 
 
@@ -58,3 +60,53 @@ def test_what_came_of_it(rgss, untouched, monkeypatch):
     assert told.output.startswith("variant 2: decided at an error rate of 0.05")
     assert (document["variant"], document["trials"], document["probability"]) == (2, 20, 0.97)
     assert document["variants"][0] == {"variant": 1, "trials": 8, "verdicts": {"SYS-005": "not_met"}}
+    assert {name: document[name] for name in ("error_rate", "margin", "slack", "pilot", "batch", "cap")} == {
+        "error_rate": 0.05,
+        "margin": 0.05,
+        "slack": 0.1,
+        "pilot": 8,
+        "batch": 4,
+        "cap": 200,
+    }
+
+
+def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypatch):
+    study = folder / "studies" / "pick_place.yaml"
+    text = study.read_text(encoding="utf-8")
+    study.write_text(f"{text}\nuntil_decided: {{margin: 0.02, cap: 90}}\n", encoding="utf-8")
+    asked = []
+
+    def replicate(*_, rule, **__):
+        asked.append(rule)
+        return until.UntilDecided(
+            reason=Reason.DECIDED,
+            variant=2,
+            contenders=(1, 2, 3),
+            verdicts={},
+            trials={1: 8, 2: 12, 3: 12},
+            probability=0.97,
+            looks=2,
+            rule=rule,
+        )
+
+    monkeypatch.setattr(until, "replicate_until_decided", replicate)
+
+    told = rgss("sweep", "--until", "decided", "--project", folder)
+    rgss("sweep", "--until", "decided", "--cap", "60", "--project", folder)
+
+    assert asked == [SequentialRule(margin=0.02, cap=90), SequentialRule(margin=0.02, cap=60)]
+    assert "decided at an error rate of 0.05, 2 of the others may equal it within 0.02, prob" in told.output
+
+
+def test_trials_that_cannot_be_run_are_a_failure_of_the_run(rgss, untouched, monkeypatch):
+    failure = RunFailure(key="a" * 64, what="plan", kind=RunFailureKind.CRASHED, detail="killed", attempts=2)
+    result = SweepResult(made={}, reused={}, lost=(LostTrials(failure=failure, trials=((1, 1),)),))
+    monkeypatch.setattr("rgss.studies.sweep.sweep", lambda *_, **__: result)
+
+    told = rgss("sweep", "--until", "decided", "--project", untouched)
+
+    assert (told.status, told.output) == (3, "")
+    assert told.errors.splitlines() == [
+        "rgss: the plan of variant 1, seed 1 crashed: killed (tried 2 times)",
+        "rgss: the trial of variant 1 with seed 1 was not run (see what failed with 'rgss sweep', then run it again)",
+    ]

@@ -134,7 +134,9 @@ class Reader:
 
 @pytest.mark.engine
 def test_the_tutorial_word_for_word(tmp_path):
-    reader = Reader(tmp_path)
+    clone = tmp_path / "rgss"
+    clone.mkdir()
+    reader = Reader(clone)
     for step in steps():
         if step.language == "console":
             for command, shown in commands(step.text):
@@ -150,6 +152,8 @@ def test_the_tutorial_word_for_word(tmp_path):
             assert step.language in ("diff", "yaml"), step.line
             reader.change(step)
 
+    assert reader.folder == tmp_path / "my_project"
+    assert [path.name for path in clone.iterdir()] == [".reader-is-in"]
     assert (reader.folder / "jug.png").read_bytes().startswith(b"\x89PNG")
     page = " ".join(PAGE.read_text(encoding="utf-8").split())
     _, told = reader.run("rgss measure --json")

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.errors import EvidenceError
+from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import EvidenceStore, Provenance, StoredTrial, record_digest
 from rgss.evidence.schema import APPLICATION_ID, SCHEMA_VERSION
 from rgss.findings import shown
@@ -212,7 +212,7 @@ def test_a_full_disk_is_named(store, record, provenance, key):
             store.put(key(number), record(variant=number), provenance)
             put.append(number)
 
-    with pytest.raises(EvidenceError) as caught:
+    with pytest.raises(StorageError) as caught:
         fill()
     assert str(caught.value) == (
         "the evidence store evidence.sqlite cannot be used: database or disk is full "
@@ -226,7 +226,7 @@ def test_a_store_that_another_process_keeps_locked_is_named(path, record, proven
     monkeypatch.setattr("rgss.evidence.connection.BUSY_TIMEOUT_S", 0.05)
     other = sqlite3.connect(path, isolation_level=None)
     other.execute("BEGIN IMMEDIATE")
-    with EvidenceStore.open(path, label="evidence.sqlite") as store, pytest.raises(EvidenceError) as caught:
+    with EvidenceStore.open(path, label="evidence.sqlite") as store, pytest.raises(StorageError) as caught:
         store.put(key(1), record(), provenance)
     assert str(caught.value) == (
         "the evidence store evidence.sqlite cannot be used: database is locked "

@@ -13,6 +13,7 @@ import rgss
 from rgss.errors import DefinitionError, DocumentError, EvidenceError, SimulationError
 from rgss.evidence import EvidenceStore, RunFailure, RunFailureKind
 from rgss.studies import analysis_sweep
+from rgss.studies.frame_columns import FRAMES
 from rgss.studies.recorded_verdicts import read_record, study_key
 from rgss.studies.sweep import LostTrials, SweepResult
 from rgss.trials.versions import ENTRIES, source_of
@@ -29,6 +30,65 @@ def test_it_is_found_from_within_the_project(empty, monkeypatch):
     assert repr(rgss.load_study("..", "studies/pick_place.yaml", **ASKED)) == (
         "Study('pick_place', 8 variants × 2 seeds, kinematic fidelity)"
     )
+
+
+def test_a_fleet_as_a_frame(told, changeable):
+    text = (changeable / "studies/pick_place.yaml").read_text(encoding="utf-8")
+    text = text.replace("replicates: 3", "replicates: 2", 1).replace("fidelity: contact", "fidelity: kinematic", 1)
+    (changeable / "studies/quick.yaml").write_text(text, encoding="utf-8")
+    head, rest = text.split("trade_off:\n", 1)
+    payload = "trade_off:\n  values:\n    - {measure: P_max, weight: 1.0, worst: 0.8 kg, best: 1.4 kg}\n"
+    (changeable / "studies/payload.yaml").write_text(head + payload, encoding="utf-8")
+    fleet = (
+        "trade_off:\n  fleet:\n    at_most: 1\n    aim: mean\n    member: component.gripper\n    studies:\n"
+        "      - {study: studies/quick.yaml, weight: 0.5}\n      - {study: studies/payload.yaml, weight: 0.5}\n"
+    )
+    (changeable / "studies/both.yaml").write_text(head + fleet + rest, encoding="utf-8")
+    found = rgss.load_study(changeable / "studies/both.yaml").fleet()
+    said = told("trade", "--brief", "--json", "studies/both.yaml", "--project", changeable)["fleet"]
+
+    assert list(found.index) == ["studies/quick.yaml", "studies/payload.yaml"]
+    assert found.reset_index().to_dict("records") == said["assignments"]
+    assert set(found["member"]) == set(said["members"])
+    assert {name: str(kind) for name, kind in found.dtypes.items()} == {
+        column.name: column.kind.value for column in FRAMES["fleet"].columns
+    }
+
+
+def test_a_study_that_asks_for_no_fleet(study):
+    with pytest.raises(DefinitionError, match="fleet"):
+        study.fleet()
+
+
+def test_a_study_file_names_its_project(empty, monkeypatch):
+    other = empty / "studies" / "other.yaml"
+    text = (empty / "studies" / "pick_place.yaml").read_text(encoding="utf-8")
+    other.write_text(text.replace("replicates: 3", "replicates: 5", 1), encoding="utf-8")
+    monkeypatch.chdir(empty / "scenes")
+
+    for path in (other, str(other), "../studies/other.yaml"):
+        study = rgss.load_study(path)
+        assert study.project.study.label == "studies/other.yaml"
+        assert study.project.folder.samefile(empty)
+        assert study.project.study.replicates == 5
+
+
+def test_a_study_file_that_cannot_be_meant(empty, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "lonely.yaml").write_text("study: lonely\n", encoding="utf-8")
+    with pytest.raises(DefinitionError) as caught:
+        rgss.load_study(tmp_path / "lonely.yaml")
+    assert caught.value.message == f"the study '{tmp_path}/lonely.yaml' lies in no project"
+    assert caught.value.hint == "a project has requirements/, designs/, scenes/, studies/"
+    with pytest.raises(DefinitionError) as caught:
+        rgss.load_study(empty / "studies/pick_place.yaml", "studies/other.yaml")
+    assert caught.value.message == (
+        f"'{empty}/studies/pick_place.yaml' is a study already, and 'studies/other.yaml' another"
+    )
+    with pytest.raises(DocumentError, match=r"studies/none\.yaml:1:1: error: no such file"):
+        rgss.load_study(empty / "studies/none.yaml")
+    with pytest.raises(DefinitionError, match="lies in no project"):
+        rgss.load_study("a\0b.yaml")
 
 
 def test_it_is_frozen(study):

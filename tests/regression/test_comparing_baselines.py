@@ -107,9 +107,17 @@ def test_noise_explains_a_move(baseline):
     now = replace(before, chosen=None, pareto=())
     failing, notes = decision_changes(before, now, explained={"chosen": 0.3, "pareto 9": 0.05}, error_rate=0.05)
     assert texts(failing) == ["unstable: decision: variant 9 left the Pareto front"]
-    assert notes == (
-        "variant 9 was chosen, now no variant; within the noise, which has it as it was in 30% of the resamples",
-    )
+    said = "within the noise, which has it as it was in 30% of the resamples"
+    assert notes == (f"decision: variant 9 was chosen, now no variant; {said}",)
+
+
+@pytest.mark.parametrize(("share", "is_noise"), [(0.05, False), (0.051, True)])
+def test_noise_explains_a_verdict(baseline, share, is_noise):
+    now = replace(baseline.decision, verdicts={"9": {"SYS-1": "inconclusive"}, "10": {"SYS-1": "not_met"}})
+    failing, notes = decision_changes(baseline.decision, now, explained={"verdict 9 SYS-1": share}, error_rate=0.05)
+    text = "variant 9: the verdict on SYS-1 was met and is inconclusive"
+    assert texts(failing) == ([] if is_noise else [f"unstable: {text}"])
+    assert notes == ((f"{text}; within the noise, which has it as it was in 5% of the resamples",) if is_noise else ())
 
 
 def test_a_verdict_that_is_gone(baseline):

@@ -149,6 +149,17 @@ def test_as_junit(report):
     assert "behaviour changed" in cases["rgss.regress", "behaviour"].find("system-out").text
 
 
+def test_a_trial_that_could_not_be_run_is_an_error_in_junit(report):
+    text = "run contact: the trial of variant 3 with seed 2 could not be run"
+    lost = replace(report, failing=(Failing(trouble=Trouble.NOT_RUN, text=text),))
+    suite = ET.fromstring(report_to_junit(lost))  # noqa: S314 - our own text
+    (case,) = [case for case in suite if case.find("error") is not None]
+
+    assert (suite.get("errors"), suite.get("failures")) == ("1", "2")
+    assert case.find("error").get("message") == f"not run: {text}"
+    assert (lost.incomplete, report.incomplete) == (True, False)
+
+
 def test_as_markdown(report):
     text = report_to_markdown(report)
     assert text.startswith("### Regression guard: failed\n")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import random
 import re
 import shutil
+import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,16 +22,32 @@ from rgss.evidence import (
     PlanningRecord,
     PlanOutcome,
     Provenance,
+    RunFailureKind,
     TrialRecord,
 )
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, Project, load_project
+from rgss.studies.regressing import compare_with_baseline, make_baseline
 from rgss.studies.study import read_study
 from rgss.studies.sweep import key_of
+from rgss.studies.workers import Trouble
 from rgss.trials.metrics import METRICS
 
 REPOSITORY = Path(__file__).parents[2]
 STUDY = "studies/pick_place.yaml"
+SECTION = """
+regression:
+  runs:
+    - {id: planning, fidelity: kinematic, variants: "57,60", replicates: 4, batch: 4, cap: 12}
+    - {id: grasp, fidelity: contact, variants: "57", replicates: 4, batch: 8, cap: 12}
+  decision: grasp
+  metrics:
+    - {metric: success, better: higher, margin: 25 %}
+    - {metric: success, phases: all, better: higher, margin: 25 %}
+    - {metric: planning_time_s, runs: [planning], phases: all, better: lower, margin: 0.2 s}
+    - {metric: motion_time_s, better: lower, margin: 0.5 s}
+"""
+REASON = "First baseline."
 
 
 @pytest.fixture(scope="session")
@@ -168,3 +187,118 @@ def read_trade_off_of(shipped, tmp_path_factory):
         return read_study(path, shipped.measures, project=shipped.folder, label="s", requirements=shipped.requirements)
 
     return read
+
+
+@pytest.fixture(scope="session")
+def carried_out():
+    """Carries out tasks on workers of any kind."""
+
+    def carry_out(workers, tasks, *, patience_s=60.0):
+        """Carry out tasks by their keys; return how each ended."""
+        left, ended = dict(tasks), {}
+        end = time.monotonic() + patience_s
+        while len(ended) < len(tasks):
+            assert time.monotonic() < end, f"no end of {set(tasks) - set(ended)}"
+            workers.want(len(tasks) - len(ended))
+            while workers.free and left:
+                key = next(iter(left))
+                workers.begin(key, left.pop(key))
+            for each in workers.wait(1.0):
+                assert each.key not in ended
+                ended[each.key] = each
+        return ended
+
+    return carry_out
+
+
+@pytest.fixture(scope="session")
+def troubles_of_tasks() -> dict[str, Trouble]:
+    """What becomes of the troubled tasks of `worker_doubles.act`, whoever carries them out within 5 s."""
+    return {
+        "die": Trouble(
+            kind=RunFailureKind.CRASHED,
+            detail="the worker was killed by SIGSEGV: free(): invalid next size",
+            may_pass=True,
+        ),
+        "exit": Trouble(kind=RunFailureKind.CRASHED, detail="the worker ended with status 7", may_pass=True),
+        "fail": Trouble(kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True),
+        "refuse": Trouble(
+            kind=RunFailureKind.RAISED,
+            detail="the workpiece cannot have the mass 0 (give it some)",
+            may_pass=False,
+        ),
+        "hang": Trouble(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True),
+    }
+
+
+def without_section(text):
+    """The text of a study without what it guards."""
+    return re.sub(r"(?ms)^(?:# What `rgss regress`[^\n]*\n(?:#[^\n]*\n)*)?regression:\n.*?(?=^\S|\Z)", "", text)
+
+
+@pytest.fixture
+def project_of(shipped, tmp_path):
+    """The shipped project with another section."""
+
+    def load(section=SECTION):
+        path = tmp_path / "study.yaml"
+        path.write_text(without_section((shipped.folder / STUDY).read_text(encoding="utf-8")) + section, "utf-8")
+        study = read_study(
+            path, shipped.measures, project=shipped.folder, label=STUDY, requirements=shipped.requirements
+        )
+        return replace(shipped, study=study)
+
+    return load
+
+
+@pytest.fixture
+def stores(tmp_path):
+    """Opens a new store each time."""
+    opened = []
+
+    def make():
+        opened.append(EvidenceStore.open(tmp_path / f"{len(opened)}.sqlite"))
+        return opened[-1]
+
+    yield make
+    for store in opened:
+        store.close()
+
+
+@pytest.fixture
+def runner(record_of):
+    """Runs trials without a simulation; each planning takes its time, and one may fail, or not be run at all."""
+
+    def make(store, *, slower_s=0.0, slower=lambda spec: True, fails=lambda spec: False, lost=lambda spec: False):
+        def run(specs):
+            rows = []
+            for spec in specs:
+                chance = random.Random(f"{spec.planner} {spec.seed}")  # noqa: S311 - a sample, no secret
+                if lost(spec):
+                    continue
+                took_s = 0.5 + chance.random() + slower_s * slower(spec)
+                record = record_of(spec, success=not fails(spec), planning_s=took_s)
+                rows.append((key_of(spec), record, Provenance(inputs={}, versions={})))
+            store.put_many(trials=rows)
+
+        return run
+
+    return make
+
+
+@pytest.fixture
+def compared(project_of, stores, runner):
+    """The report of a project whose trials changed since its baseline."""
+
+    def compare(section=SECTION, baseline_of=lambda baseline: baseline, on_look=None, before=SECTION, **changes):
+        project = project_of(before)
+        first = stores()
+        baseline = make_baseline(project, first, runner(first), before=None, reason=REASON)
+        if section != before:
+            project = project_of(section)
+        now = stores()
+        return compare_with_baseline(
+            project, now, runner(now, **changes), baseline_of(baseline), label="b", on_look=on_look
+        )
+
+    return compare

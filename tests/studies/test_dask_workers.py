@@ -57,22 +57,6 @@ def threads(doubles):
         yield cluster
 
 
-def carried_out(workers, tasks, *, patience_s=60.0):
-    """Carry out tasks by their keys; return how each ended."""
-    left, ended = dict(tasks), {}
-    end = time.monotonic() + patience_s
-    while len(ended) < len(tasks):
-        assert time.monotonic() < end, f"no end of {set(tasks) - set(ended)}"
-        workers.want(len(tasks) - len(ended))
-        while workers.free and left:
-            key = next(iter(left))
-            workers.begin(key, left.pop(key))
-        for each in workers.wait(1.0):
-            assert each.key not in ended
-            ended[each.key] = each
-    return ended
-
-
 def is_running(pid):
     try:
         return (Path("/proc") / str(pid) / "stat").read_text().rpartition(")")[2].split()[0] != "Z"
@@ -91,7 +75,7 @@ def digests_in(store):
     return {trial.key: trial.content_digest for trial in store.all()}
 
 
-def test_a_cluster_goes_on_whatever_becomes_of_its_tasks(local, doubles):
+def test_a_cluster_goes_on_whatever_becomes_of_its_tasks(local, doubles, carried_out, troubles_of_tasks):
     names = ["who", "die", "memory_limit", "exit", "fail", "refuse", "hang", "threads", "parent"]
     with dask_cluster(local.scheduler_address, **LIMITS) as cluster:
         workers = cluster.workers(doubles.act)
@@ -107,24 +91,12 @@ def test_a_cluster_goes_on_whatever_becomes_of_its_tasks(local, doubles):
     assert ended["threads"].result == "1"
     troubles = {name: each.trouble for name, each in ended.items() if each.trouble is not None}
     assert troubles == {
-        "die": Trouble(
-            kind=RunFailureKind.CRASHED,
-            detail="the worker was killed by SIGSEGV: free(): invalid next size",
-            may_pass=True,
-        ),
-        "exit": Trouble(kind=RunFailureKind.CRASHED, detail="the worker ended with status 7", may_pass=True),
-        "fail": Trouble(kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True),
-        "refuse": Trouble(
-            kind=RunFailureKind.RAISED,
-            detail="the workpiece cannot have the mass 0 (give it some)",
-            may_pass=False,
-        ),
-        "hang": Trouble(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True),
+        **troubles_of_tasks,
     }
     assert not is_running(ended["who"].result)
 
 
-def test_a_task_that_costs_one_dask_worker_after_another_is_given_up(local, doubles):
+def test_a_task_that_costs_one_dask_worker_after_another_is_given_up(local, doubles, carried_out):
     with dask_cluster(local.scheduler_address, **LIMITS) as cluster:
         workers = cluster.workers(doubles.act)
         ended = carried_out(workers, {"rob": ("rob",)})
@@ -188,7 +160,7 @@ def test_a_cluster_that_loses_a_worker_makes_the_same_records(local, shipped, tm
         assert digests_in(there) == digests_in(here)
 
 
-def test_stopping_ends_what_is_being_done_at_once(local, doubles):
+def test_stopping_ends_what_is_being_done_at_once(local, doubles, carried_out):
     with dask_cluster(local.scheduler_address, time_limit_s=60.0, memory_limit_bytes=0) as cluster:
         workers = cluster.workers(doubles.act)
         pid = carried_out(workers, {"who": ("who",)})["who"].result
@@ -201,7 +173,7 @@ def test_stopping_ends_what_is_being_done_at_once(local, doubles):
         workers.close()
 
 
-def test_each_thread_of_a_dask_worker_has_a_process_of_its_own(threads, doubles):
+def test_each_thread_of_a_dask_worker_has_a_process_of_its_own(threads, doubles, carried_out):
     with dask_cluster(threads.scheduler_address, time_limit_s=60.0, memory_limit_bytes=0) as cluster:
         workers = cluster.workers(doubles.act)
         assert workers.size == 2
@@ -211,7 +183,7 @@ def test_each_thread_of_a_dask_worker_has_a_process_of_its_own(threads, doubles)
     assert len({each.result for each in ended.values()} - {os.getpid()}) == 2
 
 
-def test_a_cluster_without_workers_in_the_middle_is_left_in_the_end(doubles):
+def test_a_cluster_without_workers_in_the_middle_is_left_in_the_end(doubles, carried_out):
     with LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60
     ) as local:
@@ -229,7 +201,7 @@ def test_a_cluster_without_workers_in_the_middle_is_left_in_the_end(doubles):
     )
 
 
-def test_a_scheduler_that_goes_is_an_error(doubles):
+def test_a_scheduler_that_goes_is_an_error(doubles, carried_out):
     with LocalCluster(
         n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60
     ) as local:
@@ -261,7 +233,7 @@ def test_a_worker_that_would_make_other_records_is_refused_before_the_first_task
     }
 
 
-def test_a_worker_that_comes_later_and_differs_ends_the_sweep(local, doubles):
+def test_a_worker_that_comes_later_and_differs_ends_the_sweep(local, doubles, carried_out):
     with dask_cluster(local.scheduler_address, **LIMITS) as cluster:
         order = Order(name="later", environment={**environment(), "numpy": "1.0"}, **LIMITS)
         workers = cluster.workers(doubles.act)
@@ -325,7 +297,7 @@ def test_a_memory_limit_that_is_too_low_is_the_same_error_as_here(threads):
         pytest.fail("it was accepted")
 
 
-def test_a_time_limit_that_is_too_short_is_told_by_the_tasks(threads, doubles):
+def test_a_time_limit_that_is_too_short_is_told_by_the_tasks(threads, doubles, carried_out):
     with dask_cluster(threads.scheduler_address, time_limit_s=1e-4, memory_limit_bytes=0) as cluster:
         ended = carried_out(cluster.workers(doubles.act), {"who": ("who",)})
     assert cluster.machine == ""

@@ -2,114 +2,23 @@
 
 from __future__ import annotations
 
-import itertools
-import random
 import re
 from dataclasses import replace
 
 import pytest
 
-from rgss.errors import DefinitionError, EvidenceError
-from rgss.evidence import EvidenceStore, PieceKind, Provenance
+from rgss.errors import DefinitionError, DocumentError, EvidenceError
+from rgss.evidence import PieceKind
 from rgss.regression.baseline import baseline_to_text
 from rgss.regression.comparing import Outcome
 from rgss.regression.report import Trouble
-from rgss.studies.choosing import choose
 from rgss.studies.project import load_project
 from rgss.studies.regressing import baseline_name, compare_with_baseline, make_baseline
-from rgss.studies.regressing_decision import decision_of, explained_by_noise, measured_of
 from rgss.studies.regressing_runs import guard_of, watched_trials
-from rgss.studies.study import read_study
-from rgss.studies.sweep import key_of, sweep, trials_of
+from rgss.studies.sweep import sweep, trials_of
 from rgss.trials import execution
 
-STUDY = "studies/pick_place.yaml"
-SECTION = """
-regression:
-  runs:
-    - {id: planning, fidelity: kinematic, variants: "57,60", replicates: 4, batch: 4, cap: 12}
-    - {id: grasp, fidelity: contact, variants: "57", replicates: 4, batch: 8, cap: 12}
-  decision: grasp
-  metrics:
-    - {metric: success, better: higher, margin: 25 %}
-    - {metric: success, phases: all, better: higher, margin: 25 %}
-    - {metric: planning_time_s, runs: [planning], phases: all, better: lower, margin: 0.2 s}
-    - {metric: motion_time_s, better: lower, margin: 0.5 s}
-"""
-REASON = "First baseline."
-
-
-def without_section(text):
-    """The text of a study without what it guards."""
-    return re.sub(r"(?ms)^(?:# What `rgss regress`[^\n]*\n(?:#[^\n]*\n)*)?regression:\n.*?(?=^\S|\Z)", "", text)
-
-
-@pytest.fixture
-def project_of(shipped, tmp_path):
-    """The shipped project with another section."""
-
-    def load(section=SECTION):
-        path = tmp_path / "study.yaml"
-        path.write_text(without_section((shipped.folder / STUDY).read_text(encoding="utf-8")) + section, "utf-8")
-        study = read_study(
-            path, shipped.measures, project=shipped.folder, label=STUDY, requirements=shipped.requirements
-        )
-        return replace(shipped, study=study)
-
-    return load
-
-
-@pytest.fixture
-def stores(tmp_path):
-    """Opens a new store each time."""
-    opened = []
-
-    def make():
-        opened.append(EvidenceStore.open(tmp_path / f"{len(opened)}.sqlite"))
-        return opened[-1]
-
-    yield make
-    for store in opened:
-        store.close()
-
-
-@pytest.fixture
-def runner(record_of):
-    """Runs trials without a simulation; each planning takes its time, and one may fail, or not be run at all."""
-
-    def make(store, *, slower_s=0.0, fails=lambda spec: False, lost=lambda spec: False):
-        def run(specs):
-            rows = []
-            for spec in specs:
-                chance = random.Random(f"{spec.planner} {spec.seed}")  # noqa: S311 - a sample, no secret
-                if lost(spec):
-                    continue
-                took_s = 0.5 + chance.random() + slower_s
-                record = record_of(spec, success=not fails(spec), planning_s=took_s)
-                rows.append((key_of(spec), record, Provenance(inputs={}, versions={})))
-            store.put_many(trials=rows)
-
-        return run
-
-    return make
-
-
-@pytest.fixture
-def compared(project_of, stores, runner):
-    """The report of a project whose trials changed since its baseline."""
-
-    def compare(section=SECTION, baseline_of=lambda baseline: baseline, on_look=None, **changes):
-        project = project_of()
-        before = stores()
-        baseline = make_baseline(project, before, runner(before), before=None, reason=REASON)
-        if section != SECTION:
-            project = project_of(section)
-        now = stores()
-        return compare_with_baseline(
-            project, now, runner(now, **changes), baseline_of(baseline), label="b", on_look=on_look
-        )
-
-    return compare
+from .conftest import REASON, SECTION, STUDY, without_section
 
 
 def plans_of(store, project):
@@ -283,7 +192,7 @@ def test_a_phase_that_observes_nothing(project_of, stores, runner):
 
 def test_variants_that_are_none(project_of, stores, runner):
     project, store = project_of(SECTION.replace('"57,60"', '"99"')), stores()
-    with pytest.raises(DefinitionError, match=r"variants of run planning"):
+    with pytest.raises(DocumentError, match=r"variants of run planning: there is no variant 99 \(ids go from 1 to 72"):
         make_baseline(project, store, runner(store), before=None, reason=REASON)
 
 
@@ -358,37 +267,3 @@ regression:
     assert {one.subject.phase for one in report.of(Outcome.MISSING)} >= {"lift", "place"}
     assert {(one.run, one.phase) for one in report.behaviour.changed} == {("grasp", "grasp")}
     assert all(failing.trouble is not Trouble.CHANGED_SCHEMA for failing in report.failing)
-
-
-def test_noise_is_every_draw_of_the_seeds(project_of, record_of):
-    """Against deciding anew for each of the 27 ordered draws of three seeds."""
-    section = SECTION.replace('"57", replicates: 4', '"57,60", replicates: 3')
-    project = project_of(section)
-    (trials,) = [one for one in watched_trials(project, guard_of(project)) if one.run.id == "grasp"]
-    times = {57: (1.0, 4.0, 2.5), 60: (2.0, 2.0, 2.2)}
-    records = {
-        variant: {seed: record_of(spec, planning_s=times[variant][seed - 1]) for seed, spec in specs.items()}
-        for variant, specs in {
-            variant: {spec.seed: spec for spec in trials.specs(3) if spec.variant == variant} for variant in times
-        }.items()
-    }
-    now = decision_of(trials, records)
-    before = replace(now, chosen=60 if now.chosen == 57 else 57, pareto=())
-    explained = explained_by_noise(trials, records, before, now)
-
-    margin = project.study.trade_off.practical_margin
-    chosen, on_front = 0, dict.fromkeys(now.pareto, 0)
-    for draw in itertools.product((1, 2, 3), repeat=3):
-        drawn = {
-            variant: {place: replace(row[seed], seed=place) for place, seed in enumerate(draw, start=1)}
-            for variant, row in records.items()
-        }
-        values = {one.variant: one.value for one in choose(trials.project, measured_of(trials, drawn)).ranking}
-        chosen += before.chosen in values and values[before.chosen] >= max(values.values()) - margin
-        for variant in on_front:
-            on_front[variant] += variant not in decision_of(trials, drawn).pareto
-    assert 0 < chosen < 27
-    assert explained["chosen"] == pytest.approx(chosen / 27)
-    assert {variant: explained[f"pareto {variant}"] for variant in on_front} == pytest.approx(
-        {variant: count / 27 for variant, count in on_front.items()}
-    )

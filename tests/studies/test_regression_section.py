@@ -9,6 +9,9 @@ import pytest
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.regression.comparing import Guard
+from rgss.studies.project import load_project
+from rgss.studies.regressing_designs import guard_findings
+from rgss.studies.regressing_runs import watched_trials
 from rgss.studies.study import read_study
 
 STUDY = "studies/pick_place.yaml"
@@ -64,6 +67,9 @@ FINDINGS = [
         "metric: planning_time_s, runs: [planning]",
         "10:16: error: planning_time_s is g",
     ),
+    ("[lift, place]", "[lift, place, lift]", "10:63: error: lift is named twice (keep one)"),
+    ("[lift, place]", "[]", "10:49: error: phases: at least 1 entry is expected"),
+    ("runs: [planning]", "runs: []", "9:39: error: runs: at least 1 entry is expected"),
     ("better: higher", "better: more", "8:33: error: better: 'more' is not one of 'higher' or 'lower'"),
 ]
 
@@ -116,3 +122,35 @@ def test_the_shipped_study_guards_itself(shipped):
     guard = shipped.study.regression
     assert {run.fidelity for run in guard.runs} == {Fidelity.KINEMATIC, Fidelity.CONTACT}
     assert any(metric.metric == "success" and metric.wherever for metric in guard.metrics)
+
+
+@pytest.mark.parametrize(
+    ("variants", "said"),
+    [
+        ('"999"', "variants of run planning: there is no variant 999 (ids go from 1 to 72)"),
+        ('"fingers=four"', "variants of run planning: "),
+        ('"57,,60"', "variants of run planning: "),
+        ('"d1 > 3 kg"', "variants of run planning: "),
+        ('"nonsense"', "variants of run planning: "),
+    ],
+)
+def test_variants_that_are_none_are_told_where_they_stand(folder, variants, said):
+    path = folder / STUDY
+    text = re.sub(r"(?ms)^regression:\n.*?(?=^\S|\Z)", "", path.read_text(encoding="utf-8"))
+    path.write_text(text + SECTION.replace('"57,60"', variants), encoding="utf-8")
+    line = (
+        path.read_text(encoding="utf-8")
+        .splitlines()
+        .index(f"    - {{id: planning, fidelity: kinematic, variants: {variants}, replicates: 8, batch: 3, cap: 16}}")
+    )
+    project = load_project(folder)
+    (finding,) = guard_findings(project)
+    assert str(finding).startswith(f"{STUDY}:{line + 1}:53: error: {said}"), str(finding)
+    assert finding.hint
+    with pytest.raises(DocumentError) as caught:
+        watched_trials(project, project.study.regression)
+    assert caught.value.findings == (finding,)
+
+
+def test_the_shipped_study_guards_designs_that_are_there(shipped):
+    assert guard_findings(shipped) == ()

@@ -28,23 +28,7 @@ def doubles(monkeypatch):
     return worker_doubles
 
 
-def carried_out(workers, tasks, *, patience_s=60.0):
-    """Carry out tasks by their keys; return how each ended."""
-    left, ended = dict(tasks), {}
-    end = time.monotonic() + patience_s
-    while len(ended) < len(tasks):
-        assert time.monotonic() < end, f"no end of {set(tasks) - set(ended)}"
-        workers.want(len(tasks) - len(ended))
-        while workers.free and left:
-            key = next(iter(left))
-            workers.begin(key, left.pop(key))
-        for each in workers.wait(1.0):
-            assert each.key not in ended
-            ended[each.key] = each
-    return ended
-
-
-def test_one_pool_goes_on_whatever_becomes_of_its_tasks(doubles):
+def test_one_pool_goes_on_whatever_becomes_of_its_tasks(doubles, carried_out, troubles_of_tasks):
     names = ["who", "die", "memory_limit", "exit", "fail", "refuse", "allocate", "hang", "threads", "interrupted"]
     with WorkerPool(doubles.act, size=2, time_limit_s=5.0, memory_limit_bytes=1 * GIB) as pool:
         assert (pool.size, pool.free) == (2, 0)
@@ -60,24 +44,12 @@ def test_one_pool_goes_on_whatever_becomes_of_its_tasks(doubles):
     assert ended["interrupted"].result is True
     troubles = {name: each.trouble for name, each in ended.items() if each.trouble is not None}
     assert troubles == {
-        "die": Trouble(
-            kind=RunFailureKind.CRASHED,
-            detail="the worker was killed by SIGSEGV: free(): invalid next size",
-            may_pass=True,
-        ),
-        "exit": Trouble(kind=RunFailureKind.CRASHED, detail="the worker ended with status 7", may_pass=True),
-        "fail": Trouble(kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True),
-        "refuse": Trouble(
-            kind=RunFailureKind.RAISED,
-            detail="the workpiece cannot have the mass 0 (give it some)",
-            may_pass=False,
-        ),
+        **troubles_of_tasks,
         "allocate": Trouble(kind=RunFailureKind.OUT_OF_MEMORY, detail="MemoryError", may_pass=True),
-        "hang": Trouble(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True),
     }
 
 
-def test_a_worker_keeps_what_it_has_loaded_for_the_next_task(doubles):
+def test_a_worker_keeps_what_it_has_loaded_for_the_next_task(doubles, carried_out):
     with WorkerPool(doubles.act, size=1) as pool:
         first = carried_out(pool, {"one": ("who",), "two": ("who",)})
         pid = first["one"].result
@@ -90,7 +62,7 @@ def test_a_worker_keeps_what_it_has_loaded_for_the_next_task(doubles):
     assert trouble is None or trouble.detail == "the worker was killed by SIGKILL"
 
 
-def test_no_more_processes_are_started_than_there_are_tasks(doubles):
+def test_no_more_processes_are_started_than_there_are_tasks(doubles, carried_out):
     with WorkerPool(doubles.act, size=8) as pool:
         carried_out(pool, {"one": ("who",)})
         assert pool.free == 1
@@ -98,7 +70,7 @@ def test_no_more_processes_are_started_than_there_are_tasks(doubles):
         assert pool.free == 1
 
 
-def test_closing_stops_at_once_and_leaves_no_process(doubles, tmp_path):
+def test_closing_stops_at_once_and_leaves_no_process(doubles, tmp_path, carried_out):
     with WorkerPool(doubles.act, size=1) as pool:
         pid = carried_out(pool, {"who": ("who",)})["who"].result
         pool.begin("hang", ("hang",))
@@ -128,7 +100,7 @@ def test_a_pool_that_is_asked_for_nothing_starts_nothing(doubles):
         assert pool.free == 0
 
 
-def test_this_process_can_be_the_one_worker(doubles):
+def test_this_process_can_be_the_one_worker(doubles, carried_out):
     workers = InlineWorkers(doubles.act)
     ended = carried_out(workers, {name: (name,) for name in ("who", "fail", "refuse")})
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
+from rgss.tradeoff import acceptability
 from rgss.tradeoff.acceptability import Outcomes, smaa2
 from rgss.tradeoff.weight_region import winning_regions
 from rgss.tradeoff.weight_set import WeightSet
@@ -179,3 +180,21 @@ def test_weights_of_another_number():
             iterations=10,
             generator=generator_of(0),
         )
+
+
+def test_of_many_alternatives_the_first_ranks_are_those_of_all(monkeypatch):
+    generator = generator_of(11)
+    values = np.round(generator.random((260, 3)), 1)  # with many ties
+    outcomes = Outcomes.certain(values, generator.random(260) < 0.8)
+    every = smaa2(outcomes, SIMPLEX, iterations=400, generator=generator_of(3))
+    monkeypatch.setattr(acceptability, "ALL_RANKS_TO", 100)
+    monkeypatch.setattr(acceptability, "MOST_RANKS", 40)
+    monkeypatch.setattr(acceptability, "_RANKS_AT_ONCE", 260 * 64)
+    some = smaa2(outcomes, SIMPLEX, iterations=400, generator=generator_of(3))
+
+    assert every.ranks.shape == (260, 260)
+    assert some.ranks.shape == some.rank_errors.shape == (260, 40)
+    assert np.array_equal(some.ranks, every.ranks[:, :40])
+    assert np.array_equal(some.unranked, every.unranked)
+    assert some.central_weights == pytest.approx(every.central_weights, rel=1e-12, nan_ok=True)
+    assert np.array_equal(some.confidence, every.confidence, equal_nan=True)

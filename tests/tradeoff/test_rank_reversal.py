@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rgss.tradeoff import rank_reversal
 from rgss.tradeoff.rank_reversal import RankReversal, rank_reversals, sample_anchored
 
 A, B, C, D = range(4)
@@ -64,3 +65,25 @@ def test_less_may_be_better_and_a_level_measure_counts_nothing():
 
 def test_one_alternative_has_nobody_to_swap_with():
     assert rank_reversals(1, lambda rows: np.ones(len(rows))) == ()
+
+
+def test_of_many_alternatives_the_same_pairs_swap_as_pair_by_pair(monkeypatch):
+    generator = np.random.default_rng(4)
+    quantities = np.round(generator.random((60, 3)), 2)
+    score = sample_anchored(quantities, np.array([True, False, True]), np.array([0.5, 0.3, 0.2]))
+    pair_by_pair = rank_reversals(60, score)
+    monkeypatch.setattr(rank_reversal, "_PAIRS_UP_TO", 0)
+    monkeypatch.setattr(rank_reversal, "_PAIRS_AT_ONCE", 500)
+
+    assert pair_by_pair
+    assert rank_reversals(60, score) == pair_by_pair
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_an_order_is_the_same_if_every_pair_is(seed):
+    generator = np.random.default_rng(seed)
+    old = np.round(generator.random(12), 1)
+    new = old + generator.choice([0.0, 4e-10, -4e-10, 0.05], size=12, p=[0.6, 0.15, 0.15, 0.1])
+    every = [np.sign(np.where(np.abs(gap) <= 1e-9, 0.0, gap)) for gap in (old[:, None] - old, new[:, None] - new)]
+
+    assert rank_reversal._same_order(old, new) == np.array_equal(*every)

@@ -72,8 +72,9 @@ def test_everything_gets_the_pilot_first(evidence_of):
 
 def test_the_better_one_is_chosen_and_the_hopeless_get_few(replicate):
     answer, counts, _ = replicate(drawn({1: 0.99, 2: 0.99, 3: 0.3}), {1: 0.5, 2: 0.9, 3: 1.0})
-    assert (answer.reason, answer.variant, answer.contenders) == (Reason.DECIDED, 2, (2,))
-    assert answer.progress.dropped == {1: "beaten", 3: "infeasible"}
+    assert (answer.reason, answer.variant) == (Reason.DECIDED, 2)
+    assert 2 in answer.contenders
+    assert answer.progress.dropped[3] == "infeasible"
     assert counts[3] < counts[2] < RULE.cap
     assert answer.verdicts[3] == {"R-1": Verdict.NOT_MET}
     assert answer.verdicts[2] == {"R-1": Verdict.MET}
@@ -90,6 +91,49 @@ def test_exact_ties_are_settled_by_the_margin_where_the_cap_allows(replicate):
     rule = SequentialRule(batch=100, cap=900, margin=0.3)
     answer, _, _ = replicate(drawn({7: 0.98, 4: 0.98}, length=900), {7: 0.5, 4: 0.5}, rule)
     assert (answer.reason, answer.variant) == (Reason.DECIDED, 4)
+
+
+def test_what_no_trial_tells_apart_is_settled_before_the_cap(replicate):
+    # Limits that never bind in 200 replicates: three rows of the same trials, and one that is worth less.
+    rows = {number: np.ones(200) for number in (1, 2, 3, 4)}
+    answer, counts, _ = replicate(rows, {1: 0.5, 2: 0.5, 3: 0.5, 4: 0.1}, SequentialRule())
+    assert (answer.reason, answer.variant, answer.contenders) == (Reason.DECIDED, 1, (1, 2, 3))
+    assert counts[1] == counts[2] == counts[3] < 150
+    assert counts[4] < 60
+
+
+def test_limits_that_bind_now_and_then_are_not_taken_for_equal(replicate):
+    # Trials are shared and the first two fail in addition: 6 points of success are worth 0.06, beyond the margin.
+    for seed in range(20):
+        answer, _, _ = replicate(drawn({1: 0.93, 2: 0.935, 3: 0.99}, seed=seed), {1: 0.5, 2: 0.5, 3: 0.5})
+        assert answer.variant == 3
+
+
+def test_the_choice_is_never_worse_by_the_margin_more_often_than_stated(replicate):
+    # Independent trials; the second is better by a little more than the margin, and so the only good choice.
+    wrong = decided = 0
+    runs = 40
+    rule = SequentialRule(batch=20, cap=200, verdict_cap=16, error_rate=0.2)
+    for seed in range(runs):
+        rows = {
+            number: (np.random.default_rng([seed, number]).random(200) < chance).astype(float)
+            for number, chance in {1: 0.92, 2: 0.98}.items()
+        }
+        answer, _, _ = replicate(rows, {1: 0.5, 2: 0.505}, rule)
+        decided += answer.reason is Reason.DECIDED
+        wrong += answer.reason is Reason.DECIDED and answer.variant != 2
+    assert decided > runs / 4
+    assert wrong <= 0.2 * runs
+
+
+def test_a_choice_that_was_no_rival_needs_more_evidence(evidence_of):
+    rows = {number: np.ones(120) for number in (1, 2)}
+    evidence = evidence_of(rows, {1: 0.5, 2: 0.5})
+    rule = SequentialRule(cap=120)
+    as_rival = next_batch(evidence, rule, Progress(rivals=((1, 1.0),)))
+    as_other = next_batch(evidence, rule, Progress(rivals=((2, 1.0),), dropped={2: "beaten"}))
+    assert (as_rival.reason, as_rival.variant) == (Reason.DECIDED, 1)
+    assert (as_other.reason, as_other.variant, as_other.contenders) == (Reason.CAP, 1, (1,))
 
 
 def test_nothing_feasible_is_a_decision(replicate):

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
+from rgss.tradeoff import weight_region
+from rgss.tradeoff.flip import weight_shifts
 from rgss.tradeoff.weight_region import RegionKind, winning_regions
 from rgss.tradeoff.weight_set import WeightSet
 
@@ -191,3 +193,22 @@ def test_a_fixed_weight():
 def test_values_that_are_none(values, message):
     with pytest.raises(TradeoffError, match=message):
         regions_of(values, weights=WeightSet.simplex(2))
+
+
+def test_of_many_alternatives_only_those_that_none_dominates_count(monkeypatch):
+    values = np.round(np.random.default_rng(8).random((60, 3)), 2)
+    every = regions_of(values)
+    shifts = weight_shifts(values, np.ones(60, dtype=bool), np.array([0.5, 0.3, 0.2]))
+    monkeypatch.setattr(weight_region, "ALL_RIVALS_TO", 10)
+    some = regions_of(values)
+    fewer = weight_shifts(values, np.ones(60, dtype=bool), np.array([0.5, 0.3, 0.2]))
+
+    assert [one.kind for one in some] == [one.kind for one in every]
+    assert [one.share for one in some] == pytest.approx([one.share for one in every], abs=1e-9)
+    assert sum(one.share for one in some) == pytest.approx(1.0)
+    for one, other in zip(some, every, strict=True):
+        if other.kind is RegionKind.OPEN:
+            assert one.low == pytest.approx(other.low, abs=1e-7)
+            assert one.high == pytest.approx(other.high, abs=1e-7)
+    assert [one.rows for one in fewer] == [one.rows for one in shifts]
+    assert [one.distance for one in fewer] == pytest.approx([one.distance for one in shifts], abs=1e-7)

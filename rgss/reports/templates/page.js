@@ -42,7 +42,9 @@
     if (gapsOnly !== null) gapsOnly.addEventListener("change", filter);
     // A link to a row that the filter hides shows it again.
     const reveal = () => {
-      const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+      let name = "";
+      try { name = decodeURIComponent(location.hash.slice(1)); } catch { /* an address that names nothing */ }
+      const target = document.getElementById(name);
       const row = target && target.closest("[data-row]");
       if (row && row.hidden) {
         search.value = "";

@@ -55,6 +55,8 @@ const element = (tag, attributes = {}, ...children) => {
   return made;
 };
 const variantLink = (id) => element("a", { href: `#variant-${id}` }, String(id));
+// The place where a figure of a variant stands with its evidence.
+const figureAddress = (id, name) => `#variant-${id}/${encodeURIComponent(name)}`;
 const options = (select, entries) => {
   select.replaceChildren(...entries.map(([value, text]) => element("option", { value }, text)));
 };

@@ -14,10 +14,23 @@ const outcomeOf = (trial) => {
   return `${data.trials.failures[failure]} in ${data.trials.phases[phase] ?? "no phase"}`;
 };
 const quoted = (word) => (/^[\w./-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`);
-const study = data.study_file === "studies/pick_place.yaml" ? "" : ` --study ${quoted(data.study_file)}`;
+const study = data.study_file === data.default_study ? "" : ` --study ${quoted(data.study_file)}`;
 const replayOf = (trial) => `rgss replay ${data.trials.key[trial]}${study}`;
 const runOf = (trial) => `rgss run ${variants.id[data.trials.variant[trial]]} --seed ${data.trials.seed[trial]} --fidelity ${data.fidelity}${study}`;
 
+// The trials that a measure of a variant is estimated from, each with a link to the command that runs it again.
+const trialLinks = (place) => {
+  const id = variants.id[place], trials = trialsOf(place);
+  const links = trials.slice(0, 8).flatMap((trial, index) => [index ? ", " : "", element("a", { href: figureAddress(id, data.trials.key[trial]) }, `seed ${data.trials.seed[trial]}`)]);
+  return trials.length > 8 ? [...links, `, and ${trials.length - 8} more`] : links;
+};
+const standsOn = (measure, place) => {
+  const used = at(measure.n, place), trials = trialsOf(place).length;
+  if (!measure.from_trials) return "the design alone";
+  if (!used) return "nothing: no trial tells";
+  return element("span", { class: "many" }, used === trials ? "" : `${used} of these trials: `, ...trialLinks(place));
+};
+let tables = [];
 const showVariant = (place) => {
   const id = variants.id[place];
   byId("variant-choice").value = String(id);
@@ -30,40 +43,48 @@ const showVariant = (place) => {
     return host;
   });
   byId("variant-evidence").replaceChildren(...Array.from(byId("variant-evidence").children).slice(-8));
-  pagedTable(hosts[0], {
+  const figure = (name) => figureAddress(id, name);
+  const design = pagedTable(hosts[0], {
     label: `Design of variant ${id}`,
+    key: (one) => one.id,
+    source: `From ${data.design_space}.`,
     columns: [
       { head: "parameter", cell: (one) => one.id },
       { head: "name", cell: (one) => one.name },
       { head: "value", number: true, cell: (one) => show(at(one.values, place), one.unit) },
     ],
     rows: () => data.parameters,
-  })();
-  pagedTable(hosts[1], {
+  });
+  const measures = pagedTable(hosts[1], {
     label: `Measures of variant ${id}`,
+    key: (one) => one.id,
+    source: `What stands on the design alone is computed from ${data.design_space} and ${data.catalogue}; “rgss measure” computes it again.`,
     columns: [
       { head: "measure", cell: (one) => one.id },
       { head: "name", cell: (one) => one.name },
       { head: "value", number: true, cell: (one) => show(at(one.value, place), one.unit) },
       { head: "interval", number: true, cell: (one) => interval(one, place) },
-      { head: "stands on", cell: (one) => (!one.from_trials ? "the design alone" : at(one.n, place) ? `${at(one.n, place)} of the trials below` : "nothing: no trial tells") },
+      { head: "stands on", cell: (one) => standsOn(one, place) },
       { head: "assumptions", cell: (one) => element("span", { class: "many" }, one.assumptions.join(", ")) },
     ],
     rows: () => data.measures.filter((one) => known(at(one.value, place))),
-  })();
-  pagedTable(hosts[2], {
+  });
+  const requirements = pagedTable(hosts[2], {
     label: `Requirements and variant ${id}`,
+    key: (one) => one.id,
     columns: [
       { head: "requirement", cell: (one) => element("a", { href: `#r-${one.id}` }, one.id) },
       { head: "criterion", cell: (one) => one.criterion },
       { head: "verdict", cell: (one) => element("span", { class: `verdict ${at(one.verdict, place)}` }, VERDICTS[at(one.verdict, place)].join(" ")) },
-      { head: "figure", number: true, cell: (one) => estimate(measureOf.get(one.measure), place) },
+      { head: "figure", number: true, cell: (one) => estimate(measureOf.get(one.measure), place), to: (one) => figure(one.measure) },
       { head: "text", cell: (one) => element("span", { class: "words" }, one.text) },
     ],
     rows: () => data.requirements,
-  })();
-  pagedTable(hosts[3], {
+  });
+  const trials = pagedTable(hosts[3], {
     label: `Trials of variant ${id}`,
+    key: (trial) => data.trials.key[trial],
+    source: `From ${data.evidence}.`,
     columns: [
       { head: "trial", cell: (trial) => element("code", {}, data.trials.key[trial]) },
       { head: "seed", number: true, cell: (trial) => String(data.trials.seed[trial]) },
@@ -72,18 +93,39 @@ const showVariant = (place) => {
       { head: "run it and look", cell: (trial) => element("code", {}, runOf(trial)) },
     ],
     rows: () => trialsOf(place),
-  })();
+  });
+  tables = [design, measures, requirements, trials];
+  for (const update of tables) update();
+};
+// The row of a figure, a requirement or a trial of the variant that is shown; null if it has none.
+const rowNamed = (name) => {
+  for (const update of tables) {
+    const row = update.reveal(name);
+    if (row !== null) return row;
+  }
+  return name === "trials" ? tables[3].reveal(data.trials.key[trialsOf(placeOf.get(Number(byId("variant-choice").value)))[0]]) : null;
+};
+const named = (text) => {
+  try { return decodeURIComponent(text); } catch { return ""; }
 };
 const startEvidence = () => {
   const choice = byId("variant-choice");
   const fromAddress = () => {
-    const match = /^#variant-(\d+)$/.exec(location.hash);
+    const match = /^#variant-(\d+)(?:\/(.*))?$/.exec(location.hash);
     if (match === null) return;
     const place = placeOf.get(Number(match[1]));
     if (place === undefined) return;
     showVariant(place);
-    byId("evidence-title").focus({ preventScroll: true });
-    byId("evidence").scrollIntoView();
+    const row = match[2] === undefined ? null : rowNamed(named(match[2]));
+    if (row === null) {
+      byId("evidence-title").focus({ preventScroll: true });
+      byId("evidence").scrollIntoView();
+      return;
+    }
+    row.classList.add("sought");
+    row.tabIndex = -1;
+    row.focus({ preventScroll: true });
+    row.scrollIntoView({ block: "center" });
   };
   choice.addEventListener("change", () => {
     const place = placeOf.get(Number(choice.value));

@@ -1,7 +1,7 @@
 // --------------------------------------------- parallel coordinates, drawn on a canvas
 const DENSE = 600;
 const BINS = 48;
-const TOP = 62, BOTTOM = 46, HEIGHT = 420, SIDE = 64, STEP = 108;
+const TOP = 62, BOTTOM = 46, HEIGHT = 420, SIDE = 64, LEAST_STEP = 108, MOST_STEP = 160;
 
 const axes = (() => {
   const made = [];
@@ -44,8 +44,12 @@ const axes = (() => {
 
 const parallel = (() => {
   const host = byId("parallel");
+  // The axes take the room that the page has, if they have enough of it to be read.
+  const gaps = Math.max(1, axes.length - 1);
+  const STEP = Math.min(MOST_STEP, Math.max(LEAST_STEP, Math.floor((host.clientWidth - 2 * SIDE) / gaps)));
   const width = 2 * SIDE + STEP * (axes.length - 1);
   const canvas = element("canvas", { role: "img", "aria-label": "Parallel coordinates of all variants; the table below has the figures" });
+  canvas.dataset.step = String(STEP);
   host.append(canvas);
   const x = (index) => SIDE + STEP * index;
   const y = (share) => HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM);

@@ -1,6 +1,8 @@
 // -------------------------------------------------- plots: drawn when they come into sight
 const MOST_POINTS = 400, MOST_SCATTERED = 2000;
 const drawings = [];
+// What figures stand on that come from all variants at once.
+const ANALYSED = `From all trials of the study in ${data.evidence}; “rgss trade${data.study_file === data.default_study ? "" : ` ${data.study_file}`}” computes them again.`;
 
 // The library is carried as a text, and run when the first plot comes near.
 const needPlotly = () => {
@@ -11,13 +13,15 @@ const needPlotly = () => {
 const layoutOf = (more) => {
   const style = getComputedStyle(document.documentElement);
   const ink = style.getPropertyValue("--ink").trim(), line = style.getPropertyValue("--line").trim();
-  const axis = (one) => ({ gridcolor: line, zerolinecolor: line, linecolor: ink, automargin: true, fixedrange: false, ...one });
+  // A title keeps off the ticks, and so off the edge of the picture.
+  const spaced = (one) => (one.title ? { ...one, title: { standoff: 12, ...one.title } } : one);
+  const axis = (one) => ({ gridcolor: line, zerolinecolor: line, linecolor: ink, automargin: true, fixedrange: false, ...spaced(one) });
   const { xaxis = {}, yaxis = {}, ...rest } = more;
   return {
     font: { family: "system-ui, sans-serif", size: 13, color: ink },
     paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
     margin: { l: 60, r: 16, t: 48, b: 64 }, hovermode: "closest",
-    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 }, ...rest, xaxis: axis(xaxis), yaxis: axis(yaxis),
+    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, traceorder: "normal" }, ...rest, xaxis: axis(xaxis), yaxis: axis(yaxis),
   };
 };
 // make() → {traces, layout} or null where there is nothing to draw.
@@ -110,24 +114,31 @@ const startMeasures = () => {
     const limits = data.requirements.filter((one) => one.measure === measure.id);
     return { traces, layout: {
       shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
-      annotations: limits.map((one) => ({ xref: "paper", x: 1, xanchor: "right", y: one.threshold, yanchor: "bottom", showarrow: false, text: plotText(`${one.id}: ${one.criterion}`) })),
+      annotations: limits.map((one) => ({ xref: "paper", x: 1, xanchor: "right", y: one.threshold, yanchor: "bottom", showarrow: false, bgcolor: getComputedStyle(document.documentElement).getPropertyValue("--paper").trim(), opacity: 0.85, text: plotText(`${one.id}: ${one.criterion}`) })),
       xaxis: { title: { text: "variants, by this measure" } }, yaxis: { title: { text: plotText(withUnit(measure.id, measure.unit)) } },
     } };
   });
   const update = tableIn("measures-table", {
     label: "Measures of the shown variants",
-    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : "") })),
-      { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)) }],
+    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), to: (place) => figureAddress(variants.id[place], measure.id) })),
+      { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)), to: (place) => figureAddress(variants.id[place], "trials") }],
     rows: byRank, search: finds,
   });
   onShown(update);
   const tell = () => {
     const measure = current();
+    const counts = Array.isArray(measure.n) ? measure.n : [measure.n ?? 0];
+    let fewest = Infinity, most = 0;
+    for (const count of counts) { fewest = Math.min(fewest, count); most = Math.max(most, count); }
+    const unknown = shownPlaces.filter((place) => !known(at(measure.value, place))).length;
+    const better = measure.better === "none" ? "" : ` ${measure.better === "higher" ? "Higher" : "Lower"} is better.`;
+    const lacking = unknown ? ` ${unknown} of the shown variants have none and are not drawn.` : "";
     byId("measure-note").textContent = measure.from_trials
-      ? `Estimated from ${[...new Set(Array.isArray(measure.n) ? measure.n : [measure.n])].sort((a, b) => a - b).slice(0, 6).join(", ")} trials of each variant, with intervals of 95 %. ${measure.better === "none" ? "" : `${measure.better === "higher" ? "Higher" : "Lower"} is better.`}`
-      : `It follows from the design alone, without trials. ${measure.better === "none" ? "" : `${measure.better === "higher" ? "Higher" : "Lower"} is better.`}`;
+      ? `Estimated from ${fewest === most ? most : `${fewest} to ${most}`} trials of each variant, with intervals of 95 %.${better}${lacking}`
+      : `It follows from the design alone, without trials.${better}${lacking}`;
   };
   choice.addEventListener("change", () => { tell(); redraw(); });
+  onShown(tell);
   const first = shownMeasures.find((measure) => measure.from_trials && measure.weight !== null) || shownMeasures[0];
   if (first) { choice.value = first.id; tell(); }
 };
@@ -160,7 +171,7 @@ const startPareto = () => {
   for (const select of [across, up]) select.addEventListener("change", redraw);
   onShown(tableIn("pareto-table", {
     label: "The Pareto front among the shown variants",
-    columns: [...variantColumns, { head: "support", cell: (place) => String(variants.pareto[place]).replace(/_/g, " ") }, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), number: true, cell: (place) => show(at(measure.value, place)) }))],
+    columns: [...variantColumns, { head: "support", cell: (place) => String(variants.pareto[place]).replace(/_/g, " ") }, ...effectivenessColumns],
     rows: () => byRank().filter((place) => variants.pareto[place] !== null),
   }));
 };
@@ -180,8 +191,8 @@ const startWeights = () => {
   const update = tableIn("weights-table", {
     label: "What each measure adds at these weights",
     columns: [{ head: "rank", cell: (row) => String(row.rank) }, { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
-      ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => parts(row)[index].toFixed(4) })), { head: "value", number: true, cell: (row) => row.value.toFixed(4) }],
-    rows: shownRanking, size: 20,
+      ...weighted.map((one, index) => ({ head: one.id, number: true, cell: (row) => parts(row)[index].toFixed(4), to: (row) => figureAddress(variants.id[row.place], one.id) })), { head: "value", number: true, cell: (row) => row.value.toFixed(4), to: (row) => figureAddress(variants.id[row.place], "value") }],
+    rows: shownRanking, size: 20, source: "Computed here: the weight times what the variant's figure is worth, which its evidence shows.",
   });
   rankingWatchers.push(update);
   onShown(update);
@@ -207,7 +218,7 @@ const startAcceptability = () => {
   onShown(tableIn("acceptability-table", {
     label: "Acceptability of the shown variants",
     columns: [{ head: "variant", cell: (one) => variantLink(one.variant) }, { head: "first", number: true, cell: (one) => percent(one.first) }, { head: "± (1.96 standard errors)", number: true, cell: (one) => percent(1.96 * one.error) }, { head: "confidence", number: true, cell: (one) => percent(one.confidence) }, { head: "feasible in", number: true, cell: (one) => percent(one.feasible) }, { head: "share of weights", number: true, cell: (one) => percent(one.region) }],
-    rows,
+    rows, source: ANALYSED,
   }));
 };
 
@@ -243,27 +254,30 @@ const startEffects = () => {
       return { traces: [{ type: "bar", x: one.shares.map((share) => plotText(share.factor)), y: one.shares.map((share) => share.share), marker: { color: KINDS[FRONT].colour }, error_y: { type: "data", symmetric: false, array: one.shares.map((share) => share.high - share.share), arrayminus: one.shares.map((share) => share.share - share.low) } }], layout: { xaxis: { type: "category" }, yaxis: { title: { text: "share of the variance" }, rangemode: "tozero" } } };
     }
     const traces = [], found = rows();
+    // Where two rows of names have no room, the legend alone tells the factors apart.
+    const narrow = byId("effects-plot").clientWidth < 640;
+    const across = (those) => (narrow ? those.map((row) => found.indexOf(row)) : [those.map((row) => plotText(row.factor)), those.map((row) => plotText(row.level))]);
     one.main.forEach((term, index) => {
       const mine = found.filter((row) => row.factor === term.factor);
-      traces.push({ x: [mine.map(() => plotText(term.factor)), mine.map((row) => plotText(row.level))], y: mine.map((row) => row.mean), mode: "lines+markers", name: plotText(`${term.factor} (${percent(term.share)})`), line: { color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length] }, marker: { size: 9 },
+      traces.push({ x: across(mine), y: mine.map((row) => row.mean), mode: "lines+markers", name: plotText(`${term.factor} (${percent(term.share)})`), line: { color: PALETTE[index % PALETTE.length], dash: DASHES[index % DASHES.length] }, marker: { size: 9 },
         error_y: term.low === null ? { visible: false } : { type: "data", symmetric: false, thickness: 1, array: mine.map((row) => row.high - row.effect), arrayminus: mine.map((row) => row.effect - row.low) } });
     });
     if (shownPlaces.length < total) {
-      traces.push({ x: [found.map((row) => plotText(row.factor)), found.map((row) => plotText(row.level))], y: found.map((row) => row.brushed), mode: "markers", name: "mean of the shown variants", marker: { symbol: "x", size: 10, color: "#d55e00" } });
+      traces.push({ x: across(found), y: found.map((row) => row.brushed), mode: "markers", name: "mean of the shown variants", marker: { symbol: "x", size: 10, color: "#d55e00" } });
     }
-    return { traces, layout: { xaxis: { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withUnit(one.measure, one.unit)}`) } }, height: 460 } };
+    return { traces, layout: { xaxis: narrow ? { type: "linear", tickvals: found.map((_, index) => index), ticktext: found.map((row) => plotText(row.level)), tickangle: -90 } : { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withUnit(one.measure, one.unit)}`) } }, height: 460 } };
   });
   const update = tableIn("effects-table", {
     label: "Main effects",
     columns: [{ head: "factor", cell: (row) => row.factor }, { head: "share", number: true, cell: (row) => percent(row.share) }, { head: "level", cell: (row) => row.level }, { head: "effect", number: true, cell: (row) => show(row.effect) }, { head: "interval of 95 %", number: true, cell: (row) => (known(row.low) ? `${show(row.low)} to ${show(row.high)}` : "–") }, { head: "mean of the shown variants", number: true, cell: (row) => show(row.brushed) }],
-    rows,
+    rows, source: ANALYSED,
   });
   onShown(update);
   const tell = () => {
     const one = current();
     if (!one) { note.textContent = "No factor varies."; return; }
     const joint = one.interactions.map((term) => `${term.factors.join(" × ")} ${percent(term.share)}`).join(", ");
-    note.textContent = `Over ${one.designs} designs${one.left_out.length ? `, without ${one.left_out.join(", ")}, which lack the measure` : ""}; in brackets the share of the differences between designs.${joint ? ` Interactions: ${joint}.` : ""}`;
+    note.textContent = `Over ${one.designs} designs${one.left_out.length ? `, without ${one.left_out.join(", ")}, which lack the measure` : ""}; ${one.main.length ? "in brackets the share of the differences between designs" : "the share of the differences between designs that each factor explains alone"}.${joint ? ` Interactions: ${joint}.` : ""}`;
   };
   choice.addEventListener("change", () => { tell(); redraw(); update(); });
   const first = shownEffects.find((one) => measureOf.get(one.measure).weight !== null && measureOf.get(one.measure).from_trials) || shownEffects[0];

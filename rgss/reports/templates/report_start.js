@@ -5,10 +5,7 @@ onShown(parallel.draw);
 onShown(verdictsTable());
 onShown(tableIn("parallel-table", {
   label: "The shown variants",
-  columns: [...variantColumns,
-    ...varying.map((one) => ({ head: withUnit(one.name, one.unit), number: true, cell: (place) => show(at(one.values, place)) })),
-    ...effectiveness.map((one) => ({ head: withUnit(one.id, one.unit), title: one.name, number: true, cell: (place) => show(at(one.value, place)) })),
-    { head: "value", number: true, cell: (place) => show(variants.value[place]) }],
+  columns: [...variantColumns, ...parameterColumns, ...effectivenessColumns, valueColumn],
   rows: byRank, search: finds,
 }));
 startMeasures();

@@ -1,8 +1,9 @@
 // ----------------------------------- tables of any length: a page of rows and a search
 const PAGE_ROWS = 100;
 
-// columns: [{head, cell(row) → text or node, number, header}]; rows() → list of rows.
-const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROWS }) => {
+// columns: [{head, cell(row) → text or node, number, to(row) → where its evidence stands}];
+// rows() → list of rows; key(row) → what a link names it by; source: what all its figures stand on.
+const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROWS, key = null, source = "" }) => {
   let first = 0;
   let found = [];
   const body = element("tbody");
@@ -17,13 +18,16 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
   if (search) pager.append(element("label", {}, "Find ", wanted));
   pager.append(told, back, on);
   host.replaceChildren(pager, box);
+  if (source) host.append(element("p", { class: "small source" }, source));
 
   const draw = () => {
     const page = found.slice(first, first + size);
     body.replaceChildren(...page.map((row) => {
-      const line = element("tr");
+      const line = element("tr", key ? { "data-key": key(row) } : {});
       columns.forEach((column, index) => {
-        const cell = column.cell(row);
+        const said = column.cell(row);
+        // Only the row's own head is in the order of the tabulator: it leads to the same evidence.
+        const cell = column.to && typeof said === "string" && /\d/.test(said) ? element("a", { href: column.to(row), tabindex: -1, class: "quiet" }, said) : said;
         const tag = index === 0 ? "th" : "td";
         const attributes = index === 0 ? { scope: "row" } : { class: column.number ? "number" : null };
         line.append(element(tag, attributes, ...(cell === null ? [] : [cell])));
@@ -46,6 +50,13 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
   back.addEventListener("click", () => { first = Math.max(0, first - size); draw(); });
   on.addEventListener("click", () => { first += size; draw(); });
   wanted.addEventListener("input", () => { first = 0; update(); });
+  update.reveal = (name) => {
+    const index = key === null ? -1 : found.findIndex((row) => key(row) === name);
+    if (index < 0) return null;
+    first = Math.floor(index / size) * size;
+    draw();
+    return body.rows[index - first];
+  };
   return update;
 };
 
@@ -73,6 +84,10 @@ const byRank = () => shownPlaces.slice().sort((one, other) => {
 });
 const varying = data.parameters.filter((parameter) => parameter.varies);
 const effectiveness = data.measures.filter((measure) => measure.kind === "moe" || measure.weight !== null);
+// Columns of parameters and measures of a variant, each figure with the way to its evidence.
+const parameterColumns = varying.map((one) => ({ head: withUnit(one.name, one.unit), number: true, cell: (place) => show(at(one.values, place)), to: (place) => figureAddress(variants.id[place], one.id) }));
+const effectivenessColumns = effectiveness.map((one) => ({ head: withUnit(one.id, one.unit), title: one.name, number: true, cell: (place) => show(at(one.value, place)), to: (place) => figureAddress(variants.id[place], one.id) }));
+const valueColumn = { head: "value", number: true, cell: (place) => show(variants.value[place]), to: (place) => figureAddress(variants.id[place], "value") };
 // A whole number names a variant; other words stand in what is said of it.
 const finds = (place, word) => {
   if (/^\d+$/.test(word)) return String(variants.id[place]) === word;
@@ -81,6 +96,6 @@ const finds = (place, word) => {
 };
 const variantColumns = [
   { head: "Variant", cell: (place) => variantLink(variants.id[place]) },
-  { head: "rank", number: true, cell: (place) => show(variants.rank[place]) },
+  { head: "rank", number: true, cell: (place) => show(variants.rank[place]), to: (place) => figureAddress(variants.id[place], "value") },
   { head: "stands", cell: (place) => element("span", { class: "stands" }, KINDS[kindOf[place]].name) },
 ];

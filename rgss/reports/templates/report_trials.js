@@ -31,7 +31,7 @@ const startPlanning = () => {
     label: "Planning times by planner",
     columns: [{ head: "planner", cell: (row) => row.planner.name }, { head: "searches", number: true, cell: (row) => show(row.count) }, { head: "found a path", number: true, cell: (row) => show(row.solved) },
       ...[["least", 0], ["quarter", 0.25], ["median", 0.5], ["three quarters", 0.75], ["most", 1]].map(([head, share]) => ({ head: `${head} [s]`, number: true, cell: (row) => show(quantile(row.times, share)) }))],
-    rows,
+    rows, source: `From the searches that the trials in ${data.evidence} recorded; “rgss export ompl” writes each of them.`,
   }));
 };
 
@@ -63,7 +63,7 @@ const startFailures = () => {
   });
   const update = tableIn("failures-table", {
     label: "What ended trials of the shown variants",
-    columns: [{ head: "failure", cell: (row) => trials.failures[row.failure] }, { head: "in the phase", cell: (row) => trials.phases[row.phase] ?? "–" }, { head: "trials", number: true, cell: (row) => String(row.count) },
+    columns: [{ head: "failure", cell: (row) => trials.failures[row.failure] }, { head: "in the phase", cell: (row) => trials.phases[row.phase] ?? "–" }, { head: "trials", number: true, cell: (row) => String(row.count), to: (row) => figureAddress(variants.id[trials.variant[row.example]], trials.key[row.example]) },
       { head: "of variant", number: true, cell: (row) => variantLink(variants.id[trials.variant[row.example]]) }, { head: "see the first", cell: (row) => element("code", {}, replayOf(row.example)) }],
     rows: () => counted().rows,
   });
@@ -107,7 +107,7 @@ const startTimeline = () => {
   const update = tableIn("timeline-table", {
     label: "Phases of the trial",
     columns: [{ head: "phase", cell: (row) => row.phase }, { head: "outcome", cell: (row) => row.outcome }, { head: "begins [s]", number: true, cell: (row) => (row.outcome === "not run" ? "–" : show(row.start)) }, { head: "planning [s]", number: true, cell: (row) => show(row.planning) }, { head: "phase [s]", number: true, cell: (row) => show(row.moving) }],
-    rows,
+    rows, source: "From the record of the trial that is named above, with the command that runs it again.",
   });
   const tell = () => {
     const trial = Number(choice.value), notable = why.get(trial);

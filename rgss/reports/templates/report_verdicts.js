@@ -19,7 +19,9 @@ const verdictCell = (requirement, place) => {
   const [sign, words] = VERDICTS[verdict];
   const causes = requirement.stale[String(place)] || [];
   const measure = measureOf.get(requirement.measure);
-  const number = element("a", { href: `#variant-${variants.id[place]}`, tabindex: -1, class: "quiet" }, estimate(measure, place));
+  const spread = interval(measure, place);
+  const number = element("a", { href: figureAddress(variants.id[place], requirement.id), tabindex: -1, class: "quiet" }, show(at(measure.value, place), measure.unit));
+  if (spread) number.append(" ", element("span", { class: "small" }, `(${spread})`));
   const badge = element("span", { class: `verdict ${verdict}`, title: causes.length ? `${words}: ${causes.join(", ")} changed` : words },
     element("span", { "aria-hidden": "true" }, sign), element("span", { class: "vh" }, words));
   return element("span", { class: "judged" }, badge, " ", number);
@@ -28,7 +30,7 @@ const verdictsTable = () => tableIn("verdict-table", {
   label: "Verdicts of the shown variants",
   columns: [
     ...variantColumns,
-    { head: "value", number: true, cell: (place) => show(variants.value[place]) },
+    valueColumn,
     ...data.requirements.map((requirement) => ({
       head: element("span", {}, element("span", { class: "id" }, requirement.id), element("br"), element("span", { class: "small" }, requirement.criterion)),
       title: requirement.text,

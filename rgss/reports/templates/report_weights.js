@@ -77,8 +77,8 @@ const drawSliders = () => {
     columns: [
       { head: "rank", cell: (row) => String(row.rank) },
       { head: "variant", number: true, cell: (row) => variantLink(variants.id[row.place]) },
-      { head: "value", number: true, cell: (row) => row.value.toFixed(4) },
-      { head: "rank in the study", number: true, cell: (row) => show(variants.rank[row.place]) },
+      { head: "value", number: true, cell: (row) => row.value.toFixed(4), to: () => "#weights-plot" },
+      { head: "rank in the study", number: true, cell: (row) => show(variants.rank[row.place]), to: (row) => figureAddress(variants.id[row.place], "value") },
     ],
     rows: shownRanking,
   });

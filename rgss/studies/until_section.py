@@ -1,0 +1,70 @@
+"""What a study says of replication until decided: how surely, how nearly, and with how many trials."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from rgss.documents import Dimensionless, Document, DocumentModel
+from rgss.findings import Finding
+from rgss.tradeoff.sequential import SequentialRule
+
+MOST_TRIALS = 10_000
+"""Trials of a variant that replication until decided may ask for."""
+
+_DEFAULT = SequentialRule()
+_Count = Annotated[int, Field(ge=1, le=MOST_TRIALS)]
+
+
+class UntilDecidedEntry(DocumentModel):
+    """The rule of ``rgss sweep --until decided``."""
+
+    error_rate: Dimensionless = _DEFAULT.error_rate
+    margin: Dimensionless = _DEFAULT.margin
+    slack: Dimensionless = _DEFAULT.slack
+    pilot: Annotated[int, Field(ge=2, le=MOST_TRIALS)] = _DEFAULT.pilot
+    batch: _Count = _DEFAULT.batch
+    cap: _Count = _DEFAULT.cap
+    verdict_cap: Annotated[int, Field(ge=0, le=MOST_TRIALS)] = _DEFAULT.verdict_cap
+
+
+def read_until_decided(entry: UntilDecidedEntry | None, document: Document, findings: list[Finding]) -> SequentialRule:
+    """The rule that a study's file states; the default one if it states none.
+
+    Args:
+        entry: The section as it stands in the file; None if there is none.
+        document: The file.
+        findings: Takes what is wrong.
+
+    Returns:
+        The rule. It is the study's if nothing was found.
+    """
+    if entry is None:
+        return _DEFAULT
+    found = list(_problems(entry))
+    for key, message, hint in found:
+        # What is left away has no place of its own.
+        place = ("until_decided", key) if key in entry.model_fields_set else ("until_decided",)
+        findings.append(document.finding("study.until-decided", message, place, hint=hint))
+    return _DEFAULT if found else SequentialRule(**entry.model_dump())
+
+
+def _problems(entry: UntilDecidedEntry) -> list[tuple[str, str, str]]:
+    """The key, the message and the hint of each thing that is wrong."""
+    found = []
+    if not 0.0 < entry.error_rate < 0.5:
+        message = f"an error rate of {entry.error_rate:g} is none"
+        found.append(("error_rate", message, "give a share between 0 and 0.5, such as 5 %"))
+    if not 0.0 <= entry.margin < 1.0:
+        message = f"a margin of {entry.margin:g} is no difference of values, which lie between 0 and 1"
+        found.append(("margin", message, "give one such as 0.05"))
+    if not 0.0 <= entry.slack < 1.0:
+        found.append(("slack", f"a slack of {entry.slack:g} is no share of a threshold", "give one such as 10 %"))
+    for key, count in (("pilot", entry.pilot), ("verdict_cap", entry.verdict_cap)):
+        if count > entry.cap:
+            message = f"{key} is {count} trials of a variant, and the cap {entry.cap}"
+            found.append(
+                (key if key in entry.model_fields_set else "cap", message, "raise the cap, or lower the other")
+            )
+    return found

@@ -1,0 +1,96 @@
+"""What the watched trials decide: over several designs, and how much their own noise explains."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+
+import pytest
+
+from rgss.studies.choosing import choose
+from rgss.studies.regressing_decision import decision_of, explained_by_noise, measured_of
+from rgss.studies.regressing_runs import guard_of, watched_trials
+
+from .conftest import SECTION
+
+
+def troubles(report):
+    return [f"{one.trouble.value}: {one.text}" for one in report.failing]
+
+
+def test_noise_of_verdicts_is_every_draw_of_the_seeds(project_of, record_of):
+    """Against judging anew for each of the 27 ordered draws of three seeds."""
+    project = project_of(SECTION.replace('"57", replicates: 4', '"57,60", replicates: 3'))
+    (trials,) = [one for one in watched_trials(project, guard_of(project)) if one.run.id == "grasp"]
+    # The requirement on the planning time asks for at most 15 s, and five moves are planned.
+    times = {57: (1.0, 4.0, 2.5), 60: (2.0, 2.0, 2.2)}
+    records = {
+        variant: {
+            spec.seed: record_of(spec, planning_s=times[variant][spec.seed - 1])
+            for spec in trials.specs(3)
+            if spec.variant == variant
+        }
+        for variant in times
+    }
+    now = decision_of(trials, records)
+    assert (now.verdicts["57"]["SYS-033"], now.verdicts["60"]["SYS-033"]) == ("inconclusive", "met")
+    was = {"57": {**now.verdicts["57"], "SYS-033": "met"}, "60": {**now.verdicts["60"], "SYS-033": "not_met"}}
+    explained = explained_by_noise(trials, records, replace(now, verdicts=was), now)
+
+    met = 0
+    for draw in itertools.product((1, 2, 3), repeat=3):
+        drawn = {
+            variant: {place: replace(row[seed], seed=place) for place, seed in enumerate(sorted(draw), start=1)}
+            for variant, row in records.items()
+        }
+        (first, _) = measured_of(trials, drawn)
+        met += first.verdicts["SYS-033"].value == "met"
+    assert 0 < met < 27
+    assert explained == pytest.approx({"verdict 57 SYS-033": met / 27, "verdict 60 SYS-033": 0.0})
+
+
+def test_the_decision_over_several_designs_is_guarded(compared):
+    """A choice, a place on the front and verdicts that a slower planner of one design takes away."""
+    section = SECTION.replace('"57", replicates: 4', '"28,31,57", replicates: 4')
+    same = compared(section, before=section)
+    assert (same.failing, same.notes) == ((), ())
+    report = compared(section, before=section, slower_s=20.0, slower=lambda spec: spec.variant in (28, 57))
+    said = troubles(report)
+    assert "unstable: decision: variant 28 was chosen, now variant 31" in said
+    assert "unstable: decision: variant 28 left the Pareto front" in said
+    assert "unstable: variant 57: the verdict on SYS-033 was met and is not_met" in said
+    assert not any("variant 31: the verdict" in text for text in said)
+
+
+def test_noise_is_every_draw_of_the_seeds(project_of, record_of):
+    """Against deciding anew for each of the 27 ordered draws of three seeds."""
+    section = SECTION.replace('"57", replicates: 4', '"57,60", replicates: 3')
+    project = project_of(section)
+    (trials,) = [one for one in watched_trials(project, guard_of(project)) if one.run.id == "grasp"]
+    times = {57: (1.0, 4.0, 2.5), 60: (2.0, 2.0, 2.2)}
+    records = {
+        variant: {seed: record_of(spec, planning_s=times[variant][seed - 1]) for seed, spec in specs.items()}
+        for variant, specs in {
+            variant: {spec.seed: spec for spec in trials.specs(3) if spec.variant == variant} for variant in times
+        }.items()
+    }
+    now = decision_of(trials, records)
+    before = replace(now, chosen=60 if now.chosen == 57 else 57, pareto=())
+    explained = explained_by_noise(trials, records, before, now)
+
+    margin = project.study.trade_off.practical_margin
+    chosen, on_front = 0, dict.fromkeys(now.pareto, 0)
+    for draw in itertools.product((1, 2, 3), repeat=3):
+        drawn = {
+            variant: {place: replace(row[seed], seed=place) for place, seed in enumerate(draw, start=1)}
+            for variant, row in records.items()
+        }
+        values = {one.variant: one.value for one in choose(trials.project, measured_of(trials, drawn)).ranking}
+        chosen += before.chosen in values and values[before.chosen] >= max(values.values()) - margin
+        for variant in on_front:
+            on_front[variant] += variant not in decision_of(trials, drawn).pareto
+    assert 0 < chosen < 27
+    assert explained["chosen"] == pytest.approx(chosen / 27)
+    assert {variant: explained[f"pareto {variant}"] for variant in on_front} == pytest.approx(
+        {variant: count / 27 for variant, count in on_front.items()}
+    )

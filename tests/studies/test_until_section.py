@@ -1,0 +1,94 @@
+"""The section ``until_decided`` of a study: each key read, each finding at its place, defaults as they were."""
+
+from __future__ import annotations
+
+import pytest
+
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import load_project
+from rgss.studies.sweep import key_of
+from rgss.tradeoff.sequential import SequentialRule
+
+STUDY = "studies/pick_place.yaml"
+SECTION = """\
+until_decided:
+  error_rate: 1 %
+  margin: 0.02
+  slack: 4 %
+  pilot: 10
+  batch: 6
+  cap: 90
+  verdict_cap: 30
+"""
+
+
+@pytest.fixture
+def section(edit):
+    """Puts a section before the planning."""
+    return lambda text: edit(STUDY, "planning:\n", f"{text}planning:\n")
+
+
+def test_what_it_says(folder, section):
+    section(SECTION)
+    assert load_project(folder).study.until_decided == SequentialRule(
+        error_rate=0.01, margin=0.02, slack=0.04, pilot=10, batch=6, cap=90, verdict_cap=30
+    )
+
+
+def test_what_is_left_away_is_as_it_always_was(shipped, folder, section):
+    section("until_decided: {cap: 60}\n")
+    assert shipped.study.until_decided == SequentialRule(
+        error_rate=0.05, margin=0.05, slack=0.1, pilot=8, batch=4, cap=200, verdict_cap=16
+    )
+    assert load_project(folder).study.until_decided == SequentialRule(cap=60)
+
+
+def test_no_trial_depends_on_it(shipped, folder, section):
+    section(SECTION)
+    variants = [shipped.designs.variant(1)]
+    before, after = (trial_specs(project, variants=variants, seeds=[1]) for project in (shipped, load_project(folder)))
+    assert key_of(before[0]) == key_of(after[0])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "mark", "message"),
+    [
+        ("1 %", "0", "0\n  margin", "an error rate of 0 is none (give a share between 0 and 0.5, such as 5 %)"),
+        ("1 %", "60 %", "60 %", "an error rate of 0.6 is none (give a share between 0 and 0.5, such as 5 %)"),
+        ("1 %", "2 s", "2 s", "'2 s' has a unit where a pure number is expected (write 2)"),
+        ("0.02", "1.5", "1.5", "a margin of 1.5 is no difference of values, which lie between 0 and 1 (give one such"),
+        ("0.02", "-0.1", "-0.1", "a margin of -0.1 is no difference of values"),
+        ("4 %", "100 %", "100 %", "a slack of 1 is no share of a threshold (give one such as 10 %)"),
+        ("pilot: 10", "pilot: 1", "1\n  batch", "pilot: input should be greater than or equal to 2"),
+        ("batch: 6", "batch: 0", "0\n  cap", "batch: input should be greater than or equal to 1"),
+        ("cap: 90", "cap: 20000", "20000", "cap: input should be less than or equal to 10000"),
+        ("cap: 90", "cap: many", "many", "cap: "),
+        (
+            "verdict_cap: 30",
+            "verdict_cap: 91",
+            "91",
+            "verdict_cap is 91 trials of a variant, and the cap 90 (raise the cap, or lower the other)",
+        ),
+        (
+            "pilot: 10",
+            "pilot: 100",
+            "100",
+            "pilot is 100 trials of a variant, and the cap 90 (raise the cap, or lower the other)",
+        ),
+        ("pilot: 10", "first_look: 10", "first_look", "unknown key 'first_look'"),
+    ],
+)
+def test_mistakes_are_found_at_their_place(section, place_of, problems, old, new, mark, message):
+    section(SECTION.replace(old, new, 1))
+    (found,) = problems()
+    assert found.startswith(f"{place_of(STUDY, mark)}: error: ")
+    assert message in found
+
+
+def test_a_cap_below_a_default_is_found_at_the_cap(section, place_of, problems):
+    section("until_decided: {cap: 12}\n")
+    (found,) = problems()
+    assert found == (
+        f"{place_of(STUDY, '12}')}: error: verdict_cap is 16 trials of a variant, and the cap 12 "
+        "(raise the cap, or lower the other) [study.until-decided]"
+    )
