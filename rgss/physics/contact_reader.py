@@ -43,6 +43,7 @@ class ContactReader:
         self._finger_of_link = {link: finger for finger, link in enumerate(finger_links)}
         self._link_names = link_names
         self._scene_names = scene_names
+        self._resting: dict[tuple[str, ...], Contacts] = {}
 
     def contacts(self) -> Contacts:
         """What touches what after the last step.
@@ -55,6 +56,7 @@ class ContactReader:
         workpiece_bodies: tuple[str, ...] = ()
         robot, workpiece = self._robot, self._workpiece
         names, finger_of_link = self._scene_names, self._finger_of_link
+        is_robot_touching = False
         # All are asked for: asked for one body's, the engine names it A, yet does not turn the friction round.
         for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
             force = point[9]
@@ -71,6 +73,7 @@ class ContactReader:
                     if body not in workpiece_bodies:
                         workpiece_bodies = (*workpiece_bodies, body)
                 continue
+            is_robot_touching = True
             if partner != workpiece:
                 pair = (self._link_names[link], names[partner])
                 if pair not in robot_bodies:
@@ -86,7 +89,14 @@ class ContactReader:
             fx += sign * (first * ax + second * bx)
             fy += sign * (first * ay + second * by)
             fz += sign * (first * az + second * bz)
-        return Contacts(tuple(forces), other, (fx, fy, fz), robot_bodies, workpiece_bodies)
+        if is_robot_touching:
+            return Contacts(tuple(forces), other, (fx, fy, fz), robot_bodies, workpiece_bodies)
+        # So it is for half of the time, with one body under the workpiece or none.
+        resting = self._resting.get(workpiece_bodies)
+        if resting is None:
+            nothing = (0.0,) * len(forces)
+            resting = self._resting[workpiece_bodies] = Contacts(nothing, 0.0, (0.0, 0.0, 0.0), (), workpiece_bodies)
+        return resting
 
     def finger_contacts(self, step_s: float) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step, by finger and from low to high.

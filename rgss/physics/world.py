@@ -180,7 +180,7 @@ class World:
     def workpiece_pose(self) -> Pose:
         """Transform of the workpiece to the world."""
         position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
-        return Pose(position_m=tuple(position), quaternion_xyzw=tuple(orientation))
+        return Pose(position_m=position, quaternion_xyzw=orientation)
 
     def workpiece_speed(self) -> tuple[float, float]:
         """Linear (m/s) and angular (rad/s) speed of the workpiece."""
@@ -192,8 +192,7 @@ class World:
         state = self._engine.getLinkState(
             self._robot, self._flange, computeForwardKinematics=1, physicsClientId=self._client
         )
-        flange = Pose(position_m=tuple(state[4]), quaternion_xyzw=tuple(state[5]))
-        return flange @ self.gripper.geometry.grasp_centre
+        return Pose(position_m=state[4], quaternion_xyzw=state[5]) @ self._grasp_centre
 
     def contacts(self) -> Contacts:
         """What touches what after the last step.
@@ -333,6 +332,7 @@ class World:
         fingers = range(self.gripper.geometry.fingers)
         self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
         self._flange = links[self.scene.robot.flange]
+        self._grasp_centre = self.gripper.geometry.grasp_centre
         self._reader = ContactReader(
             engine,
             client,

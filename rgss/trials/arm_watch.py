@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from operator import sub
+from array import array
 from typing import Protocol
 
 import numpy as np
@@ -45,14 +45,17 @@ class ArmWatch:
             settings: Length of a step.
         """
         self._kinematics = kinematics
+        self._joints = len(robot.joints)
         self._limit_m = control.largest_tracking_error_m
-        self._limit_rad = self._limit_m / kinematics.reach_m
+        # A joint that is off by an angle moves the tool by at most the angle times the reach.
+        self._near_rad = self._limit_m / (kinematics.reach_m * math.sqrt(self._joints))
         self._step_s = settings.step_s
         self._window = max(1, round(control.acceleration_window_s * settings.rate_hz))
         self._load = JointLoad(robot.joints)
-        self._torques: list[tuple[float, ...]] = []
-        self._followed: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
-        self._tool_m: list[tuple[float, float, float]] = []
+        self._torques = array("d")
+        self._positions = array("d")
+        self._velocities = array("d")
+        self._targets_m = array("d")
 
     def note(self, state: JointState) -> None:
         """Add a step in which the arm is held where it is.
@@ -60,7 +63,7 @@ class ArmWatch:
         Args:
             state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
         """
-        self._torques.append(state[2])
+        self._torques.extend(state[2])
 
     def follow(
         self, state: JointState, target_rad: tuple[float, ...], target_m: tuple[float, float, float]
@@ -76,11 +79,11 @@ class ArmWatch:
             What is wrong, if the tool is farther from there than it may be.
         """
         positions, velocities, torques = state
-        self._torques.append(torques)
-        self._followed.append((positions, velocities))
-        self._tool_m.append(target_m)
-        # A joint that is off by an angle moves the tool by at most the angle times the reach.
-        if sum(map(abs, map(sub, positions, target_rad))) <= self._limit_rad:
+        self._torques.extend(torques)
+        self._positions.extend(positions)
+        self._velocities.extend(velocities)
+        self._targets_m.extend(target_m)
+        if math.dist(positions, target_rad) <= self._near_rad:
             return None
         error = math.dist(self._kinematics.tool_motion([positions], [velocities])[0][0], target_m)
         if error <= self._limit_m:
@@ -91,13 +94,14 @@ class ArmWatch:
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit; those of the tool are missing where it did not follow a path."""
         self._settle_torques()
-        if not self._followed:
+        if not self._positions:
             off = 0.0
             speed = acceleration = None
         else:
-            states = np.array(self._followed)
-            positions, velocities = self._kinematics.tool_motion(states[:, 0], states[:, 1])
-            off = float(np.linalg.norm(positions - np.array(self._tool_m), axis=1).max())
+            positions, velocities = self._kinematics.tool_motion(
+                self._rows(self._positions), self._rows(self._velocities)
+            )
+            off = float(np.linalg.norm(positions - np.frombuffer(self._targets_m).reshape(-1, 3), axis=1).max())
             speed = float(np.linalg.norm(velocities, axis=1).max())
             # Every move starts from rest.
             padded = np.vstack([np.zeros((self._window, 3)), velocities])
@@ -112,5 +116,8 @@ class ArmWatch:
 
     def _settle_torques(self) -> None:
         if self._torques:
-            self._load.note_all(np.array(self._torques), self._step_s)
-            self._torques.clear()
+            self._load.note_all(self._rows(self._torques), self._step_s)
+            self._torques = array("d")
+
+    def _rows(self, numbers: array[float]) -> Array:
+        return np.frombuffer(numbers).reshape(-1, self._joints)

@@ -13,6 +13,8 @@ from rgss.trials.arm_watch import ArmWatch, ToolKinematics
 from rgss.trials.control import ControlSettings
 from rgss.trials.grasp_watch import GraspWatch
 
+_FEWEST_FINGERS = 2
+
 
 class Watch:
     """Accumulates the observations of one phase and names what goes wrong.
@@ -128,7 +130,8 @@ class Watch:
             margin = self._friction * math.fsum(self._forces_n) / len(self._forces_n) / needed
             self.grip_margin = margin
             self._margin = min(self._margin, margin)
-        if contacts.fingers_touching >= 2:
+        # Mostly all of them press, which is told at once.
+        if min(contacts.finger_forces_n) > 0.0 or contacts.fingers_touching >= _FEWEST_FINGERS:
             self._lost_s = 0.0
             return
         self._lost_s += self._step_s
