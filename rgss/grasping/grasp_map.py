@@ -79,13 +79,17 @@ def grasp_map(grasp: Grasp, intensities: Sequence[Sequence[float]]) -> Wrench:
 
 def net_wrench(grasp: Grasp) -> Wrench:
     """The wrench of the contacts' present normal and friction forces about the centre of mass."""
-    forces = np.array(
-        [
-            np.array(contact.normal) * contact.normal_force_n + np.array(contact.friction_force_n)
-            for contact in grasp.contacts
-        ]
-    )
-    return _wrench(forces.sum(axis=0), np.cross(grasp.arms_m(), forces).sum(axis=0))
+    # In plain numbers, as for the contacts' axes: it is asked for at every look at a grasp.
+    ox, oy, oz = grasp.centre_of_mass_m
+    fx = fy = fz = tx = ty = tz = 0.0
+    for contact in grasp.contacts:
+        (x, y, z), (nx, ny, nz), press_n = contact.position_m, contact.normal, contact.normal_force_n
+        ax, ay, az = contact.friction_force_n
+        ax, ay, az = ax + press_n * nx, ay + press_n * ny, az + press_n * nz
+        x, y, z = x - ox, y - oy, z - oz
+        fx, fy, fz = fx + ax, fy + ay, fz + az
+        tx, ty, tz = tx + y * az - z * ay, ty + z * ax - x * az, tz + x * ay - y * ax
+    return Wrench(torque_n_m=(tx, ty, tz), force_n=(fx, fy, fz))
 
 
 def in_friction_cone(contact: ContactPoint, intensities: Sequence[float], *, tolerance_n: float = 1e-9) -> bool:
