@@ -129,6 +129,9 @@ def measure(seeds: int, *, fidelity: str = "contact", project: Path = REPOSITORY
         project: The project's folder.
         top: How many functions to show of a profile by cProfile, which itself costs time; 0 for none.
     """
+    from rgss.studies.worker_process import settle
+
+    settle()
     from rgss.studies.expansion import trial_specs
     from rgss.studies.project import load_project
     from rgss.studies.sweep import trials_of

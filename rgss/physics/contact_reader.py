@@ -45,11 +45,17 @@ class ContactReader:
         self._scene_names = scene_names
         self._resting: dict[tuple[str, ...], Contacts] = {}
 
-    def contacts(self) -> Contacts:
+    def contacts(self, standing: Contacts | None = None) -> Contacts:
         """What touches what after the last step.
 
         The arm's base link does not move and so is never reported, wherever it is mounted.
+
+        Args:
+            standing: What touched what when the workpiece was last seen to stand at rest without the robot, if
+                it was; as long as the robot touches nothing, it goes on to do so.
         """
+        if standing is not None and not self._engine.getContactPoints(self._robot, -1, -2, -2, self._client):
+            return standing
         forces = [0.0] * len(self._finger_joints)
         other = fx = fy = fz = 0.0
         robot_bodies: tuple[tuple[str, str], ...] = ()

@@ -29,6 +29,11 @@ class Contacts:
         return sum(self.finger_forces_n)
 
     @property
+    def is_robot_touching(self) -> bool:
+        """Whether any link of the robot touches anything."""
+        return bool(self.robot_bodies) or self.other_force_n > 0.0 or any(self.finger_forces_n)
+
+    @property
     def fingers_touching(self) -> int:
         """Number of fingers that press on the workpiece."""
         return sum(force > 0.0 for force in self.finger_forces_n)

@@ -189,17 +189,22 @@ class World:
 
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world as the arm really stands."""
-        state = self._engine.getLinkState(
-            self._robot, self._flange, computeForwardKinematics=1, physicsClientId=self._client
-        )
-        return Pose(position_m=state[4], quaternion_xyzw=state[5]) @ self._grasp_centre
+        state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
+        flange = Pose(position_m=state[4], quaternion_xyzw=state[5])
+        # The grasp centre is shifted against the flange and not turned.
+        (x, y, z), (dx, dy, dz) = flange.position_m, flange.rotate(self._grasp_centre_m)
+        return Pose(position_m=(x + dx, y + dy, z + dz), quaternion_xyzw=flange.quaternion_xyzw)
 
-    def contacts(self) -> Contacts:
+    def contacts(self, standing: Contacts | None = None) -> Contacts:
         """What touches what after the last step.
 
         The arm's base link does not move and so is never reported, wherever it is mounted.
+
+        Args:
+            standing: What touched what when the workpiece was last seen to stand at rest without the robot, if
+                it was; as long as the robot touches nothing, it goes on to do so.
         """
-        return self._reader.contacts()
+        return self._reader.contacts(standing)
 
     def finger_contacts(self) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step."""
@@ -332,7 +337,7 @@ class World:
         fingers = range(self.gripper.geometry.fingers)
         self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
         self._flange = links[self.scene.robot.flange]
-        self._grasp_centre = self.gripper.geometry.grasp_centre
+        self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
         self._reader = ContactReader(
             engine,
             client,

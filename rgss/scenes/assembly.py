@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
+from functools import lru_cache
 
 from rgss.scenes.gripper import Gripper
 from rgss.scenes.pad_ribs import PadRibs
@@ -28,6 +29,7 @@ def finger_joint(finger: int) -> str:
     return f"finger_{finger + 1}_joint"
 
 
+@lru_cache(maxsize=16)
 def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = None) -> str:
     """The arm's URDF with the gripper on its flange.
 

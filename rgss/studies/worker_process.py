@@ -54,6 +54,16 @@ class Answer:
     took_s: float
 
 
+def settle() -> None:
+    """Make this process one that makes pieces and nothing else; to be called before an engine or NumPy is loaded."""
+    # The processes share the cores between them; threads within one would only get in their way.
+    for name in _ONE_THREAD:
+        os.environ.setdefault(name, "1")
+    _keep_freed_memory()
+    # Most of the process's objects are those of the engines and stay; they need not be looked through so often.
+    gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
+
+
 def serve(function: bytes, asked: connection.Connection, memory_limit_bytes: int, output: str) -> None:
     """Answer tasks until the other end is closed.
 
@@ -63,15 +73,10 @@ def serve(function: bytes, asked: connection.Connection, memory_limit_bytes: int
         memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
         output: File for what engines print, which nobody may want but who asks why one has crashed.
     """
-    # The processes share the cores between them; threads within one would only get in their way.
-    for name in _ONE_THREAD:
-        os.environ.setdefault(name, "1")
+    settle()
     _redirect_output(output)
     _limit_memory(memory_limit_bytes)
     _end_with_parent()
-    _keep_freed_memory()
-    # Most of the process's objects are those of the engines and stay; they need not be looked through so often.
-    gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
     # From here on engines may be loaded. What is read here was written by the process that started this one.
     try:
         make = pickle.loads(function)  # noqa: S301

@@ -60,6 +60,7 @@ class HandWatch:
         self._world = world
         self._at = 0
         self._held, self._travel_m = self._look()
+        self._earlier = (0, self._held, self._travel_m)
         self._motion: HandMotion | None = None
 
     @property
@@ -71,8 +72,14 @@ class HandWatch:
     def motion(self) -> HandMotion:
         """What happened between the last two looks; nothing, before the second."""
         if self._motion is None:
-            still = (0.0,) * len(self._travel_m)
-            return HandMotion(self._held, self._held, still, self._world.settings.step_s)
+            then, before, travelled_m = self._earlier
+            span_s = (self._at - then) * self._world.settings.step_s
+            if span_s > 0.0:
+                closing = tuple((now - old) / span_s for now, old in zip(self._travel_m, travelled_m, strict=True))
+                self._motion = HandMotion(before, self._held, closing, span_s)
+            else:
+                still = (0.0,) * len(self._travel_m)
+                self._motion = HandMotion(self._held, self._held, still, self._world.settings.step_s)
         return self._motion
 
     def look(self, steps: int) -> Pose:
@@ -86,12 +93,11 @@ class HandWatch:
         """
         if steps == self._at:
             return self._held
-        held, travel_m = self._look()
-        span_s = (steps - self._at) * self._world.settings.step_s
-        closing = tuple((now - then) / span_s for now, then in zip(travel_m, self._travel_m, strict=True))
-        self._motion = HandMotion(self._held, held, closing, span_s)
-        self._held, self._travel_m, self._at = held, travel_m, steps
-        return held
+        # What follows from two looks is worked out only if it is asked for.
+        self._earlier, self._motion = (self._at, self._held, self._travel_m), None
+        self._at = steps
+        self._held, self._travel_m = self._look()
+        return self._held
 
     def _look(self) -> tuple[Pose, tuple[float, ...]]:
         world = self._world

@@ -60,6 +60,9 @@ class Watch:
         self._touches = 0
         self._peak_force_n = 0.0
         self._margin = math.inf
+        # While the hand is empty and moves, the object stands.
+        self._is_empty_handed = carried_at is None
+        self._standing: Contacts | None = None
         self._arm = ArmWatch(kinematics, world.scene.robot, control, world.settings)
         self._grasp = None if carried_at is None else GraspWatch(world, control, carried_at, memory or GraspMemory())
 
@@ -72,8 +75,14 @@ class Watch:
             load_m_s2: Tool acceleration minus gravity, in magnitude.
             target: Where the joints (rad) and the tool (m, in the world) should be; None where the arm is held.
         """
-        contacts = self._world.contacts()
-        self._watch_touching(contacts)
+        contacts = self._world.contacts(self._standing)
+        # What was seen in the step before, and was right then, is right now.
+        if contacts is not self._standing:
+            self._watch_touching(contacts)
+            if self._is_empty_handed and target is not None and not contacts.is_robot_touching:
+                self._standing = contacts
+            else:
+                self._standing = None
         state = self._world.arm_state()
         if target is None:
             self._arm.note(state)

@@ -238,7 +238,7 @@ class ScriptedWorld:
         after = phase in (Phase.PLACE, Phase.MOVE_TO_GRASP_APPROACH)
         self._object = placed if after else scene.workpiece.pose
 
-    def contacts(self):
+    def contacts(self, standing=None):
         force_n = 0.0 if self._released else self.gripper.finger_force_n
         force_n = FORCES_N.get(self.wrong, force_n)
         return Contacts(

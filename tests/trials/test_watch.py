@@ -36,7 +36,7 @@ class ScriptedWorld:
         self.velocity = (0.0, 0.0, 0.0)
         self.reach_m = 1.0
 
-    def contacts(self):
+    def contacts(self, standing=None):
         return self.now
 
     def finger_contacts(self):
