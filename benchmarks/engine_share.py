@@ -115,6 +115,17 @@ def time_engines(sides: Sides) -> None:
         adapter = getattr(base, name)
         # What the planner calls back is ours again.
         setattr(base, name, lambda function, adapter=adapter: adapter(sides.timed(OUTSIDE, function)))
+    from rgss.motion import search
+
+    validator_of = search.motion_validator
+
+    def timed_validator(*given: Any) -> Any:
+        validator = validator_of(*given)
+        kind = type(validator)
+        kind.checkMotion = sides.timed(OUTSIDE, kind.checkMotion)
+        return validator
+
+    search.motion_validator = timed_validator
     for method in ("__init__", "compute_parameterization"):
         algorithm = toppra.algorithm.TOPPRA
         setattr(algorithm, method, sides.timed("toppra", getattr(algorithm, method)))

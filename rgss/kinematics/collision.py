@@ -109,6 +109,22 @@ class CollisionModel:
             float(self._wrist_vertical.dot(self._axis_in_wrist)) >= self._least_upright
         )
 
+    def first_invalid_between(self, qs: Vector) -> int | None:
+        """Index of the first configuration that is invalid; None if all are valid.
+
+        Args:
+            qs: Joint angles in rad, shape (n, 6), each between two configurations that keep the joint ranges and so
+                within these itself.
+        """
+        collide, model, data, manager = self._engine.computeCollisions, self._model, self._data, self._manager
+        least, vertical, axis = self._least_upright, self._wrist_vertical, self._axis_in_wrist
+        for index, q in enumerate(qs):
+            if collide(model, data, manager, q, _STOP_AT_FIRST):
+                return index
+            if least is not None and vertical.dot(axis) < least:
+                return index
+        return None
+
     def contacts(self, q: Sequence[float] | Vector) -> tuple[tuple[str, str], ...]:
         """Name all pairs of parts that touch, or are nearer than the clearance.
 

@@ -16,7 +16,11 @@ Angles = Callable[[Any], tuple[float, ...]]
 
 
 def motion_validator(
-    engine: Engine, information: Any, angles_of: Angles, is_valid: Callable[[Sequence[float]], bool]
+    engine: Engine,
+    information: Any,
+    angles_of: Angles,
+    is_valid: Callable[[Sequence[float]], bool],
+    first_invalid: Callable[[Vector], int | None],
 ) -> Any:
     """A motion validator that finds what the engine's own ``DiscreteMotionValidator`` finds, check for check.
 
@@ -29,6 +33,7 @@ def motion_validator(
         information: Space information of a real vector space; it must outlive the validator.
         angles_of: Reads the joint angles (rad) of a state.
         is_valid: Tells whether joint angles (rad) are valid.
+        first_invalid: Finds the first invalid one among joint angles (n, joints) between the two states.
     """
     space = information.getStateSpace()
 
@@ -41,27 +46,27 @@ def motion_validator(
             if last_valid is not None:
                 return self._is_valid_until(start, end, pieces, last_valid)
             there = angles_of(end)
-            return is_valid(there) and all(map(is_valid, _states(angles_of(start), there, _halving(pieces))))
+            return is_valid(there) and first_invalid(_states(angles_of(start), there, _halving(pieces))) is None
 
         def _is_valid_until(self, start: Any, end: Any, pieces: int, last_valid: Any) -> bool:
             there = angles_of(end)
-            states = [*_states(angles_of(start), there, _rising(pieces)), there]
-            for index, state in enumerate(states):
-                if not is_valid(state):
-                    last_valid.second = index / pieces
-                    if last_valid.first is not None:
-                        space.interpolate(start, end, last_valid.second, last_valid.first)
-                    return False
-            return True
+            states = _states(angles_of(start), there, _rising(pieces))
+            index = first_invalid(states)
+            if index is None:
+                if is_valid(there):
+                    return True
+                index = len(states)
+            last_valid.second = index / pieces
+            if last_valid.first is not None:
+                space.interpolate(start, end, last_valid.second, last_valid.first)
+            return False
 
     return StraightMotion(information)
 
 
-def _states(start: Sequence[float], end: Sequence[float], fractions: Vector) -> list[list[float]]:
-    if not len(fractions):
-        return []
+def _states(start: Sequence[float], end: Sequence[float], fractions: Vector) -> Vector:
     first = np.array(start)
-    states: list[list[float]] = (first + (np.array(end) - first) * fractions).tolist()
+    states: Vector = first + (np.array(end) - first) * fractions
     return states
 
 

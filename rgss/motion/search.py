@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rgss.motion.engine import Engine, load_engine
 from rgss.motion.motion_validation import motion_validator
 from rgss.motion.problem import PlanningProblem
-from rgss.motion.validity import StateValidity
+from rgss.motion.validity import StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
 
@@ -66,13 +66,21 @@ def search(
         checks += 1
         return is_valid_at(angles)
 
+    find = first_invalid_between(validity)
+
+    def first_invalid(states: Vector) -> int | None:
+        nonlocal checks
+        index = find(states) if len(states) else None
+        checks += len(states) if index is None else index + 1
+        return index
+
     # Every random generator of the engine draws its seed from one generator of the process when it is
     # made; seeding that one before anything is made leaves no trace of what ran before.
     engine.util.RNG.setSeed(seed)
     information = _space(engine, problem)
     information.setStateValidityChecker(engine.base.StateValidityCheckerFn(lambda state: is_valid(angles_of(state))))
     # The engine keeps a pointer to it and no count.
-    validator = motion_validator(engine, information, angles_of, is_valid)
+    validator = motion_validator(engine, information, angles_of, is_valid, first_invalid)
     information.setMotionValidator(validator)
     information.setup()
     definition = engine.base.ProblemDefinition(information)

@@ -288,3 +288,22 @@ def test_the_tool_of_arm_and_collision_model_is_the_same(scene, gripper, robot, 
         replace(scene, bodies=(*scene.bodies, probe)), gripper, Situation(opening_m=0.07, carried=Pose())
     )
     assert ("cup", "probe") in model.contacts(q)
+
+
+def test_the_first_invalid_of_many_is_the_first_that_is_invalid(scene, gripper, held):
+    carrying = Situation(opening_m=scene.workpiece.shape.radius_m, carried=held, largest_tilt_rad=math.radians(45.0))
+    model = CollisionModel(scene, gripper, carrying, clearance_m=0.008)
+    rng = np.random.default_rng(2)
+    lower, upper = (
+        np.array([getattr(joint, f"{end}_rad") for joint in scene.robot.joints]) for end in ("lower", "upper")
+    )
+    lengths = []
+    for _ in range(200):
+        start, end = rng.uniform(lower, upper, (2, 6))
+        states = start + (end - start) * np.linspace(0.0, 1.0, 12)[:, None]
+        verdicts = [model.is_valid(state) for state in states]
+        first = next((index for index, valid in enumerate(verdicts) if not valid), None)
+        assert model.first_invalid_between(states) == first
+        lengths.append(len(states) if first is None else first)
+    assert max(lengths) > 2
+    assert min(lengths) == 0

@@ -9,6 +9,7 @@ import pytest
 
 from rgss.motion.engine import load_engine
 from rgss.motion.motion_validation import motion_validator
+from rgss.motion.validity import first_invalid_between
 
 pytestmark = pytest.mark.engine
 
@@ -31,7 +32,7 @@ class Arena:
         self.asked: list[tuple[float, ...]] = []
         self.checker = base.StateValidityCheckerFn(lambda state: self.is_valid(ANGLES(state)))
         self.information.setStateValidityChecker(self.checker)
-        self.ours = motion_validator(self.engine, self.information, ANGLES, self.is_valid)
+        self.ours = motion_validator(self.engine, self.information, ANGLES, self.is_valid, first_invalid_between(self))
         self.information.setup()
         self.theirs = base.DiscreteMotionValidator(self.information)
 
