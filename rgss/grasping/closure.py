@@ -165,7 +165,8 @@ def resistance(
     size = float(np.linalg.norm(load))
     if size == 0.0:
         return ClosureVerdict(holds=True, margin=math.inf)
-    fingers = np.array([np.isin(edges.contacts, members) for members in grasp.fingers()], dtype=float)
+    owners = edges.contacts.tolist()
+    fingers = np.array([[float(owner in members) for owner in owners] for members in grasp.fingers()])
     # Forces count in limits and the load in its own size, so that the numbers are near 1.
     best = maximise(
         np.append(np.zeros(edges.matrix.shape[1]), 1.0),

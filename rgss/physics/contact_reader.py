@@ -57,7 +57,7 @@ class ContactReader:
         if standing is not None and not self._engine.getContactPoints(self._robot, -1, -2, -2, self._client):
             return standing
         forces = [0.0] * len(self._finger_joints)
-        other = fx = fy = fz = 0.0
+        other, frictions = 0.0, []
         robot_bodies: tuple[tuple[str, str], ...] = ()
         workpiece_bodies: tuple[str, ...] = ()
         robot, workpiece = self._robot, self._workpiece
@@ -91,17 +91,14 @@ class ContactReader:
                 continue
             forces[finger] += force
             # The engine gives friction as it acts on body A.
-            first, (ax, ay, az), second, (bx, by, bz) = point[10:14]
-            fx += sign * (first * ax + second * bx)
-            fy += sign * (first * ay + second * by)
-            fz += sign * (first * az + second * bz)
+            frictions.append((sign, *point[10:14]))
         if is_robot_touching:
-            return Contacts(tuple(forces), other, (fx, fy, fz), robot_bodies, workpiece_bodies)
+            return Contacts(tuple(forces), other, tuple(frictions), robot_bodies, workpiece_bodies)
         # So it is for half of the time, with one body under the workpiece or none.
         resting = self._resting.get(workpiece_bodies)
         if resting is None:
             nothing = (0.0,) * len(forces)
-            resting = self._resting[workpiece_bodies] = Contacts(nothing, 0.0, (0.0, 0.0, 0.0), (), workpiece_bodies)
+            resting = self._resting[workpiece_bodies] = Contacts(nothing, 0.0, (), (), workpiece_bodies)
         return resting
 
     def finger_contacts(self, step_s: float) -> tuple[FingerContact, ...]:

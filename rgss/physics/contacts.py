@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+Direction = tuple[float, float, float]
+
 
 @dataclass(frozen=True, slots=True)
 class Contacts:
@@ -12,14 +14,15 @@ class Contacts:
     Attributes:
         finger_forces_n: Normal force of each finger on the workpiece.
         other_force_n: Normal force of every other link of the robot on the workpiece.
-        friction_n: Vector sum of the fingers' friction forces on the workpiece, in the world.
+        frictions: Of each point between finger and workpiece, the sign with which its friction acts on the
+            workpiece, then force (N) and direction in the world along its first tangent, and along its second.
         robot_bodies: Pairs (link, body) of the robot touching the scene.
         workpiece_bodies: Scene bodies that the workpiece touches.
     """
 
     finger_forces_n: tuple[float, ...]
     other_force_n: float
-    friction_n: tuple[float, float, float]
+    frictions: tuple[tuple[float, float, Direction, float, Direction], ...]
     robot_bodies: tuple[tuple[str, str], ...]
     workpiece_bodies: tuple[str, ...]
 
@@ -27,6 +30,16 @@ class Contacts:
     def finger_force_sum_n(self) -> float:
         """Sum of the fingers' normal forces."""
         return sum(self.finger_forces_n)
+
+    @property
+    def friction_n(self) -> tuple[float, float, float]:
+        """Vector sum of the fingers' friction forces on the workpiece, in the world."""
+        x = y = z = 0.0
+        for sign, first, (ax, ay, az), second, (bx, by, bz) in self.frictions:
+            x += sign * (first * ax + second * bx)
+            y += sign * (first * ay + second * by)
+            z += sign * (first * az + second * bz)
+        return x, y, z
 
     @property
     def is_robot_touching(self) -> bool:

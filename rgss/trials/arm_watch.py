@@ -45,16 +45,15 @@ class ArmWatch:
             settings: Length of a step.
         """
         self._kinematics = kinematics
-        self._joints = len(robot.joints)
+        self._joints = robot.joints
         self._limit_m = control.largest_tracking_error_m
         # A joint that is off by an angle moves the tool by at most the angle times the reach.
-        self._near_rad = self._limit_m / (kinematics.reach_m * math.sqrt(self._joints))
+        self._near_rad = self._limit_m / (kinematics.reach_m * math.sqrt(len(robot.joints)))
         self._step_s = settings.step_s
         self._window = max(1, round(control.acceleration_window_s * settings.rate_hz))
-        self._load = JointLoad(robot.joints)
-        self._torques = array("d")
-        self._positions = array("d")
-        self._velocities = array("d")
+        # Torques of the steps in which the arm was held; positions, velocities and torques of those of a move.
+        self._held = array("d")
+        self._followed = array("d")
         self._targets_m = array("d")
 
     def note(self, state: JointState) -> None:
@@ -63,7 +62,7 @@ class ArmWatch:
         Args:
             state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
         """
-        self._torques.extend(state[2])
+        self._held.extend(state[2])
 
     def follow(
         self, state: JointState, target_rad: tuple[float, ...], target_m: tuple[float, float, float]
@@ -79,45 +78,44 @@ class ArmWatch:
             What is wrong, if the tool is farther from there than it may be.
         """
         positions, velocities, torques = state
-        self._torques.extend(torques)
-        self._positions.extend(positions)
-        self._velocities.extend(velocities)
+        self._followed.extend(positions + velocities + torques)
         self._targets_m.extend(target_m)
         if math.dist(positions, target_rad) <= self._near_rad:
             return None
         error = math.dist(self._kinematics.tool_motion([positions], [velocities])[0][0], target_m)
         if error <= self._limit_m:
             return None
-        self._settle_torques()
-        return f"the tool was {error * 1e3:.2f} mm from where it should be{self._load.words()}"
+        return f"the tool was {error * 1e3:.2f} mm from where it should be{self._load().words()}"
 
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit; those of the tool are missing where it did not follow a path."""
-        self._settle_torques()
-        if not self._positions:
+        states = self._states()
+        if not len(states):
             off = 0.0
             speed = acceleration = None
         else:
-            positions, velocities = self._kinematics.tool_motion(
-                self._rows(self._positions), self._rows(self._velocities)
-            )
-            off = float(np.linalg.norm(positions - np.frombuffer(self._targets_m).reshape(-1, 3), axis=1).max())
+            positions, velocities = self._kinematics.tool_motion(states[:, 0], states[:, 1])
+            off = float(np.linalg.norm(positions - np.array(self._targets_m).reshape(-1, 3), axis=1).max())
             speed = float(np.linalg.norm(velocities, axis=1).max())
             # Every move starts from rest.
             padded = np.vstack([np.zeros((self._window, 3)), velocities])
             changes = np.linalg.norm(padded[self._window :] - padded[: -self._window], axis=1)
             acceleration = float(changes.max()) / (self._window * self._step_s)
         return {
-            **self._load.metrics(),
+            **self._load().metrics(),
             "tracking_error_m": off,
             "peak_tool_speed_m_s": speed,
             "peak_tool_acceleration_m_s2": acceleration,
         }
 
-    def _settle_torques(self) -> None:
-        if self._torques:
-            self._load.note_all(self._rows(self._torques), self._step_s)
-            self._torques = array("d")
+    def _states(self) -> Array:
+        """Positions, velocities and torques of the steps of a move, shape (steps, 3, joints)."""
+        return np.array(self._followed).reshape(-1, 3, len(self._joints))
 
-    def _rows(self, numbers: array[float]) -> Array:
-        return np.frombuffer(numbers).reshape(-1, self._joints)
+    def _load(self) -> JointLoad:
+        load = JointLoad(self._joints)
+        # A phase holds the arm or moves it.
+        for torques in (np.array(self._held).reshape(-1, len(self._joints)), self._states()[:, 2]):
+            if len(torques):
+                load.note_all(torques, self._step_s)
+        return load

@@ -18,11 +18,16 @@ def test_sums_and_counts_follow_from_the_forces():
     contacts = Contacts(
         finger_forces_n=(1.5, 0.0, 2.5),
         other_force_n=0.0,
-        friction_n=(0.0, 0.0, 1.0),
+        frictions=(
+            (-1.0, 2.0, (0.0, 0.0, -1.0), 3.0, (0.0, 1.0, 0.0)),
+            (1.0, 1.0, (0.0, 0.0, -1.0), 4.0, (1.0, 0.0, 0.0)),
+        ),
         robot_bodies=(),
         workpiece_bodies=(),
     )
     assert contacts.finger_force_sum_n == 4.0
+    assert contacts.friction_n == (4.0, -3.0, 1.0)
+    assert contacts.is_robot_touching
     assert contacts.fingers_touching == 2
 
 

@@ -347,8 +347,8 @@ class StickyWorld(World):
         self._opened += 1
         super().hold_open()
 
-    def contacts(self):
-        contacts = super().contacts()
+    def contacts(self, standing=None):
+        contacts = super().contacts(standing)
         return replace(contacts, finger_forces_n=(0.1, 0.0)) if self._opened > 1 else contacts
 
 

@@ -244,7 +244,7 @@ class ScriptedWorld:
         return Contacts(
             finger_forces_n=(force_n,) * self.gripper.geometry.fingers,
             other_force_n=1.0 if self.wrong == "the arm presses the object" else 0.0,
-            friction_n=(0.0, 0.0, 0.0),
+            frictions=(),
             robot_bodies=(("forearm", "column"),) if self.wrong == "the arm touches the scene" else (),
             workpiece_bodies=("column",) if self.wrong == "the object touches the scene" else (),
         )

@@ -15,9 +15,7 @@ from rgss.trials.control import ControlSettings
 from rgss.trials.watch import Watch
 
 CONTROL = ControlSettings()
-QUIET = Contacts(
-    finger_forces_n=(0.0, 0.0, 0.0), other_force_n=0.0, friction_n=(0.0, 0.0, 0.0), robot_bodies=(), workpiece_bodies=()
-)
+QUIET = Contacts(finger_forces_n=(0.0, 0.0, 0.0), other_force_n=0.0, frictions=(), robot_bodies=(), workpiece_bodies=())
 TOOL = Pose(position_m=(0.1, 0.2, 0.3), quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
 HELD = Pose(position_m=(0.0, 0.0, 0.01))
 
@@ -72,7 +70,7 @@ def contacts(*forces, other=0.0, robot=(), workpiece=()):
     return Contacts(
         finger_forces_n=forces or (0.0, 0.0),
         other_force_n=other,
-        friction_n=(0.0, 0.0, 0.0),
+        frictions=(),
         robot_bodies=robot,
         workpiece_bodies=workpiece,
     )
