@@ -8,6 +8,10 @@ Run it from the repository's folder:
   changed but the seeds: baseline and present are seeds of the file that no other has. Then the
   same with every quantity worse by exactly its margin, where an alarm is false, but only just;
   and worse by more, where it is right.
+- ``python benchmarks/regression.py decision STORE [PAIRS] [SEEDS]``: so many pairs of decisions among
+  the designs of the guarded decision, each of as many seeds as the guard takes, drawn from a pool of
+  SEEDS kinematic trials of each, which are run if the store does not have them: how often one
+  is called unstable against the other. Then the same with every search of one design slower.
 - ``python benchmarks/regression.py synthetic [RUNS]``: the same with made-up quantities, normal,
   skewed and mostly zero, of which there are as many as one likes.
 """
@@ -19,16 +23,19 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.evidence import EvidenceStore, Fidelity
+from rgss.evidence import EvidenceStore, Fidelity, TrialRecord
 from rgss.regression.comparing import Candidate, Comparison, Guard, Outcome, Subject
+from rgss.regression.comparing_baselines import decision_changes
 from rgss.regression.looking import Settled, settle
 from rgss.regression.observing import observed
 from rgss.studies.project import load_project
+from rgss.studies.regressing_decision import decision_of, explained_by_noise, p_values
 from rgss.studies.regressing_runs import Records, WatchedTrials, guard_of, subjects_of, watched_trials
 from rgss.studies.sweep import sweep
 
@@ -47,6 +54,9 @@ def main() -> int:
         return write_pool(Path(arguments[0]), int(arguments[1]), jobs=int(arguments[2]) if arguments[2:] else 2)
     if command == "null":
         return null(Path(arguments[0]), int(arguments[1]) if arguments[1:] else 200)
+    if command == "decision":
+        store, *counts = arguments
+        return decision(Path(store), *map(int, counts))
     return synthetic(int(arguments[0]) if arguments else 400)
 
 
@@ -104,6 +114,61 @@ def null(path: Path, runs: int) -> int:
         return settle(candidates, looks=run.looks, error_rate=0.05)
 
     return _told(drawn, runs)
+
+
+def decision(path: Path, pairs: int = 200, seeds: int = 60) -> int:
+    """Decide twice by seeds that have none in common."""
+    project = load_project(Path())
+    guard = guard_of(project)
+    watched = next(one for one in watched_trials(project, guard) if one.run.id == guard.decision)
+    watched = replace(watched, project=project.with_fidelity("kinematic"))
+    count, generator = watched.run.replicates, np.random.default_rng(1)
+    with EvidenceStore.open(path) as store:
+        records = Records(store, lambda specs: sweep(specs, store, jobs=2, on_finished=lambda _: None))
+        records.fetch([(watched, seeds)])
+        found = records.of(watched, seeds)
+    slow = decision_of(watched, {v: {s: row[s] for s in list(row)[:count]} for v, row in found.items()}).chosen
+    rates = []
+    for slower_s in (0.0, 4.0):
+        moved = unstable = 0
+        for _ in range(pairs):
+            order = generator.permutation(list(watched.seeds(seeds)))[: 2 * count]
+            old, new = (
+                {
+                    variant: {place: replace(row[int(seed)], seed=place) for place, seed in enumerate(half, start=1)}
+                    for variant, row in found.items()
+                }
+                for half in (order[:count], order[count:])
+            )
+            if slower_s:
+                new[slow] = {place: _slower(record, slower_s) for place, record in new[slow].items()}
+            before, now = decision_of(watched, old), decision_of(watched, new)
+            failing, notes = decision_changes(
+                before,
+                now,
+                explained=explained_by_noise(watched, new, before, now),
+                by_luck=p_values(watched.project, before, now),
+                error_rate=guard.error_rate,
+            )
+            unstable += bool(failing)
+            moved += bool(failing or notes)
+        rates.append(unstable / pairs)
+        sys.stdout.write(
+            f"{count} seeds, each search of variant {slow} slower by {slower_s:g} s: the decision moved in {moved} of "
+            f"{pairs} pairs and was unstable in {unstable}\n"
+        )
+    return int(rates[0] > guard.error_rate + 2.0 * (guard.error_rate * (1 - guard.error_rate) / pairs) ** 0.5)
+
+
+def _slower(record: TrialRecord, by_s: float) -> TrialRecord:
+    """The same trial with each of its searches slower."""
+    times = record.metrics["planning_time_s"]
+    if not isinstance(times, tuple):
+        raise TypeError("planning_time_s is not a row")
+    slower = tuple(None if time_s is None else float(time_s) + by_s for time_s in times)
+    task_s, searches = record.metrics["task_time_s"], sum(time_s is not None for time_s in times)
+    task_s = task_s + searches * by_s if isinstance(task_s, (int, float)) else task_s
+    return replace(record, metrics={**record.metrics, "planning_time_s": slower, "task_time_s": task_s})
 
 
 def synthetic(runs: int) -> int:

@@ -11,7 +11,7 @@ from typing import Any
 from rgss.errors import EvidenceError
 from rgss.evidence.codec import plain_json, read_plain
 
-SCHEMA = 1
+SCHEMA = 2
 """The form of the file."""
 
 LARGEST_FILE_BYTES = 32 * 1024 * 1024
@@ -51,12 +51,14 @@ class DecisionState:
         chosen: The chosen variant; None if none is feasible.
         pareto: The variants on the Pareto front, ascending.
         verdicts: By variant, the verdict on each requirement.
+        measures: By variant and measure that the decision or a verdict rests on, its value by each seed alone.
     """
 
     run: str
     chosen: int | None
     pareto: tuple[int, ...]
     verdicts: Mapping[str, Mapping[str, str]] = field(hash=False)
+    measures: Mapping[str, Mapping[str, tuple[float | None, ...]]] = field(hash=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

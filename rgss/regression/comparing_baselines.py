@@ -110,20 +110,28 @@ def unchanged_phases(
 
 
 def decision_changes(
-    before: DecisionState, now: DecisionState, *, explained: Mapping[str, float], error_rate: float
+    before: DecisionState,
+    now: DecisionState,
+    *,
+    explained: Mapping[str, float],
+    error_rate: float,
+    by_luck: Mapping[str, float] | None = None,
 ) -> tuple[tuple[Failing, ...], tuple[str, ...]]:
     """How the decision moved.
 
-    A choice, a place on the Pareto front or a verdict that is gone is unstable, unless the present
-    evidence's own noise puts it back in more than the error rate's share of its resamples. A
-    verdict may become met.
+    A choice, a place on the Pareto front or a verdict that is gone is unstable, unless what it rests on
+    has not been shown to differ from the baseline by more than the luck of the seeds, or the present
+    evidence's own noise puts it back in more than the error rate's share of its resamples. A verdict may
+    become met.
 
     Args:
         before: The decision of the baseline.
         now: The decision now.
         explained: How probable, over the noise of the present evidence, ``chosen`` as it was is,
             and of each ``pareto N`` and ``verdict N REQUIREMENT`` that changed that it is as it was.
-        error_rate: The share below which noise explains nothing.
+        error_rate: The share below which noise explains nothing; also of false alarms, if there are p-values.
+        by_luck: P-values of what ``chosen``, ``pareto`` and each ``verdict N REQUIREMENT`` rests on, adjusted for
+            there being many; without one, what moved is taken to have moved.
 
     Returns:
         What fails, and what is told.
@@ -153,8 +161,11 @@ def decision_changes(
             else:
                 moves.append((f"verdict {variant} {requirement}", text))
     for what, text in moves:
+        p_value = (by_luck or {}).get("pareto" if what.startswith("pareto ") else what, 0.0)
         share = explained.get(what, 0.0)
-        if share > error_rate:
+        if p_value > error_rate:
+            notes.append(f"{text}; the seeds do not show that it is more than their luck (p = {p_value:.2f})")
+        elif share > error_rate:
             notes.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
         else:
             failing.append(Failing(trouble=Trouble.UNSTABLE, text=text))

@@ -21,7 +21,7 @@ from rgss.regression.comparing_baselines import (
 from rgss.regression.looking import settle
 from rgss.regression.report import Behaviour, ChangedTrial, Failing, RegressionReport, Trouble
 from rgss.studies.project import FOLDERS, Project
-from rgss.studies.regressing_decision import decision_of, explained_by_noise
+from rgss.studies.regressing_decision import decision_of, explained_by_noise, p_values
 from rgss.studies.regressing_runs import (
     Records,
     RunTrials,
@@ -273,7 +273,8 @@ class _Comparing:
         records = self._records.of(trials, count)
         now = decision_of(trials, records)
         explained: Mapping[str, float] = {} if now == before else explained_by_noise(trials, records, before, now)
-        return decision_changes(before, now, explained=explained, error_rate=self._guard.error_rate)
+        by_luck = p_values(trials.project, before, now)
+        return decision_changes(before, now, explained=explained, by_luck=by_luck, error_rate=self._guard.error_rate)
 
     def _what_changed(self) -> list[str]:
         was, here = self._baseline.origin, self._origin

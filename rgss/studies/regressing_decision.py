@@ -11,6 +11,7 @@ from rgss.errors import EvidenceError, TradeoffError
 from rgss.evidence import TrialRecord
 from rgss.measures import Estimate, Verdict, evaluate, judge
 from rgss.regression.baseline import DecisionState
+from rgss.regression.sign_flips import FEWEST_SEEDS, adjusted_p_values
 from rgss.studies.choosing import choose, trade_problem
 from rgss.studies.measuring import VariantMeasures, requirements_with_criteria
 from rgss.studies.project import Project
@@ -75,9 +76,13 @@ def decision_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
         DefinitionError: As for `rgss.studies.choosing.trade_problem`.
     """
     measured = measured_of(trials, records)
-    enumeration = enumerate_alternatives(trade_problem(trials.project, measured))
+    problem = trade_problem(trials.project, measured)
+    enumeration = enumerate_alternatives(problem)
     table = enumeration.table
-    front = pareto_front(single_values(trade_problem(trials.project, measured), table), enumeration.feasible)
+    front = pareto_front(single_values(problem, table), enumeration.feasible)
+    criteria = [requirement.criterion for requirement in requirements_with_criteria(trials.project)]
+    names = {criterion.measure for criterion in criteria if criterion is not None}
+    names |= {*problem.weighting.deciding_measures}
     return DecisionState(
         run=trials.run.id,
         chosen=choose(trials.project, measured).chosen,
@@ -85,7 +90,49 @@ def decision_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
         verdicts={
             str(one.variant.id): {name: verdict.value for name, verdict in one.verdicts.items()} for one in measured
         },
+        measures={str(one.variant.id): _by_seed(trials.project, one, sorted(names)) for one in measured},
     )
+
+
+def p_values(project: Project, before: DecisionState, now: DecisionState) -> dict[str, float]:
+    """How probable it is that what moved in the decision moved by the luck of the seeds.
+
+    A verdict rests on its measure of its variant, a choice and a place on the front on every measure
+    of every variant. Measures are held against those of the baseline, paired by seed.
+
+    Args:
+        project: The study.
+        before: The decision as it was.
+        now: The decision as it is.
+
+    Returns:
+        P-values, adjusted for there being many, by ``chosen``, ``pareto`` and ``verdict N REQUIREMENT``; none if
+        there are too few seeds to tell.
+    """
+    differences: dict[str, list[float]] = {}
+    for variant in before.measures.keys() & now.measures.keys():
+        was, is_now = before.measures[variant], now.measures[variant]
+        for measure in was.keys() & is_now.keys():
+            pairs = zip(was[measure], is_now[measure], strict=False)
+            differences[f"{variant} {measure}"] = [
+                0.0 if old is None or new is None else new - old for old, new in pairs
+            ]
+    if not differences or min(map(len, differences.values())) < FEWEST_SEEDS:
+        return {}
+    by_measure = adjusted_p_values({name: differences[name] for name in sorted(differences)})
+    least = min(by_measure.values())
+    found = {"chosen": least, "pareto": least}
+    for requirement in requirements_with_criteria(project):
+        if requirement.criterion is not None:
+            for variant in now.verdicts:
+                p_value = by_measure.get(f"{variant} {requirement.criterion.measure}", 0.0)
+                found[f"verdict {variant} {requirement.id}"] = p_value
+    return found
+
+
+def _by_seed(project: Project, measured: VariantMeasures, names: Sequence[str]) -> dict[str, tuple[float | None, ...]]:
+    rows = [_judged(project, measured.variant, [record])[0] for record in measured.records]
+    return {name: tuple(row[name].value if name in row else None for row in rows) for name in names}
 
 
 def explained_by_noise(

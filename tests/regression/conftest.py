@@ -67,7 +67,11 @@ def baseline() -> Baseline:
             )
         },
         decision=DecisionState(
-            run="planning", chosen=9, pareto=(9,), verdicts={"9": {"SYS-1": "met"}, "10": {"SYS-1": "not_met"}}
+            run="planning",
+            chosen=9,
+            pareto=(9,),
+            verdicts={"9": {"SYS-1": "met"}, "10": {"SYS-1": "not_met"}},
+            measures={"9": {"t_p": (1.0, None, 2.0)}, "10": {"t_p": (3.0, 4.0, 5.0)}},
         ),
         origin=BaselineOrigin(
             revision="abc", machine="Linux", engines={"ompl": "1"}, code={"plan": "d"}, inputs={"scenes/a.yaml": "e"}

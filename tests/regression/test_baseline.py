@@ -73,8 +73,8 @@ def test_a_reason_is_text_whatever_it_holds(tmp_path, baseline):
         (b"", "the baseline b.json is not JSON: "),
         (b"\xff", "the baseline b.json is not UTF-8 (make it"),
         (b"[]", "b.json is no baseline: it has no 'schema' (make it"),
-        (b'{"schema": 2}', "the baseline b.json has schema 2; 1 is read (make it"),
-        (b'{"schema": 1}', "b.json: baseline lacks 'study' (make it"),
+        (b'{"schema": 3}', "the baseline b.json has schema 3; 2 is read (make it"),
+        (b'{"schema": 2}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 1, "schema": 1}', "the baseline b.json is not JSON: a key stands twice"),
     ],
 )

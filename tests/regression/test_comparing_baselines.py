@@ -120,6 +120,22 @@ def test_noise_explains_a_verdict(baseline, share, is_noise):
     assert notes == ((f"{text}; within the noise, which has it as it was in 5% of the resamples",) if is_noise else ())
 
 
+def test_luck_explains_what_is_not_shown_to_differ(baseline):
+    now = replace(baseline.decision, chosen=10, pareto=(10,), verdicts={"9": {"SYS-1": "not_met"}, "10": {}})
+    by_luck = {"chosen": 0.05, "pareto": 0.2, "verdict 9 SYS-1": 0.06}
+    failing, notes = decision_changes(baseline.decision, now, explained={}, by_luck=by_luck, error_rate=0.05)
+    assert texts(failing) == [
+        "unstable: decision: variant 9 was chosen, now variant 10",
+        "unstable: variant 10: the verdict on SYS-1 was not_met and is none",
+    ]
+    said = "the seeds do not show that it is more than their luck"
+    assert notes == (
+        f"decision: variant 9 left the Pareto front; {said} (p = 0.20)",
+        f"decision: variant 10 joined the Pareto front; {said} (p = 0.20)",
+        f"variant 9: the verdict on SYS-1 was met and is not_met; {said} (p = 0.06)",
+    )
+
+
 def test_a_verdict_that_is_gone(baseline):
     now = replace(baseline.decision, verdicts={"9": {}, "10": {"SYS-1": "not_met"}})
     failing, _ = decision_changes(baseline.decision, now, explained={}, error_rate=0.05)
