@@ -116,6 +116,9 @@ def test_sweep_measure_and_trade_follow_each_other(rgss, folder):
         assert line in text
         text = text.replace(line, "")
     (folder / SPACE).write_text(text, encoding="utf-8")
+    study = folder / "studies/pick_place.yaml"
+    # Its guard watches designs that are no longer there.
+    study.write_text(study.read_text(encoding="utf-8").partition("\nregression:")[0] + "\n", encoding="utf-8")
     options = ["--replicates", 1, "--project", folder]
 
     assert rgss("check", "--project", folder).status == 0
