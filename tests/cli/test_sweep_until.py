@@ -40,7 +40,7 @@ def test_a_cap_below_the_pilot(rgss, untouched):
     assert "a cap of 4, one for verdicts of 16 and a pilot of 8 do not agree" in told.complaint
 
 
-def test_what_came_of_it(rgss, untouched, monkeypatch):
+def test_what_came_of_it(rgss, folder, monkeypatch):
     found = until.UntilDecided(
         reason=Reason.DECIDED,
         variant=2,
@@ -53,8 +53,8 @@ def test_what_came_of_it(rgss, untouched, monkeypatch):
     )
     monkeypatch.setattr(until, "replicate_until_decided", lambda *_, **__: found)
 
-    told = rgss("sweep", "--until", "decided", "--project", untouched)
-    document = rgss("sweep", "--until", "decided", "--json", "--project", untouched).document
+    told = rgss("sweep", "--until", "decided", "--project", folder)
+    document = rgss("sweep", "--until", "decided", "--json", "--project", folder).document
 
     assert told.status == 0
     assert told.output.startswith("variant 2: decided at an error rate of 0.05")
@@ -98,12 +98,12 @@ def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypat
     assert "decided at an error rate of 0.05, 2 of the others may equal it within 0.02, prob" in told.output
 
 
-def test_trials_that_cannot_be_run_are_a_failure_of_the_run(rgss, untouched, monkeypatch):
+def test_trials_that_cannot_be_run_are_a_failure_of_the_run(rgss, folder, monkeypatch):
     failure = RunFailure(key="a" * 64, what="plan", kind=RunFailureKind.CRASHED, detail="killed", attempts=2)
     result = SweepResult(made={}, reused={}, lost=(LostTrials(failure=failure, trials=((1, 1),)),))
     monkeypatch.setattr("rgss.studies.sweep.sweep", lambda *_, **__: result)
 
-    told = rgss("sweep", "--until", "decided", "--project", untouched)
+    told = rgss("sweep", "--until", "decided", "--project", folder)
 
     assert (told.status, told.output) == (3, "")
     assert told.errors.splitlines() == [
