@@ -89,6 +89,10 @@ def test_the_tool_moves_as_the_joints_say(cell, rate_hz):
             expected = cell.arm.tool_jacobian(q)[:3] @ dq
             (where,), (found,) = cell.arm.tool_motion([q], [dq])
             assert found == pytest.approx(expected, abs=1e-12)
+            # And by the engine's own account, which is of the flange's centre of mass.
+            link = world._engine.getLinkState(world._robot, world._flange, 1, 1, physicsClientId=world._client)
+            centre, linear, angular = (np.array(link[place]) for place in (0, 6, 7))
+            assert linear + np.cross(angular, where - centre) == pytest.approx(found, abs=2e-5)
             assert where == pytest.approx(world.tool_pose().position_m, abs=1e-6)
             fastest = max(fastest, float(np.linalg.norm(expected)))
     assert fastest > 0.8
