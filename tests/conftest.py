@@ -7,6 +7,7 @@ requirements into the file, and the run the digests of what was tested; `rgss tr
 
 from __future__ import annotations
 
+import signal
 from pathlib import Path
 from types import ModuleType
 
@@ -22,6 +23,12 @@ PROJECT = Path(__file__).parents[1]
 
 settings.register_profile("repeatable", derandomize=True, database=None, deadline=None)
 settings.load_profile("repeatable")
+
+
+def pytest_configure() -> None:
+    """Let the processes that tests start be interrupted, in the background of a shell that has it ignored too."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

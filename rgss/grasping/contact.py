@@ -99,15 +99,22 @@ class ContactPoint:
                     hint="give a vector that is not along the normal",
                 )
 
-    def axes(self) -> Matrix:
-        """The contact's frame: unit normal and two unit tangents as rows, right-handed, shape (3, 3)."""
+    def unit_normal(self) -> Vector3:
+        """The normal, with the length 1 to the last digit."""
+        return _unit(self.normal)
+
+    def tangents(self) -> tuple[Vector3, Vector3]:
+        """Two unit vectors that make a right-handed frame with the normal before them."""
         # In plain numbers, since a grasp asks for many of these and arrays of three are slow.
-        normal = _unit(self.normal)
-        towards = self.tangent
+        normal, towards = self.unit_normal(), self.tangent
         if towards is None:
             towards = (0.0, 0.0, 1.0) if abs(normal[2]) <= _NEARLY_VERTICAL else (1.0, 0.0, 0.0)
         second = _unit(_cross(normal, towards))
-        return np.array([normal, _cross(second, normal), second])
+        return _cross(second, normal), second
+
+    def axes(self) -> Matrix:
+        """The contact's frame: unit normal and two unit tangents as rows, right-handed, shape (3, 3)."""
+        return np.array([self.unit_normal(), *self.tangents()])
 
 
 def _unit(vector: Vector3) -> Vector3:

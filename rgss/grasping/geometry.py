@@ -10,7 +10,7 @@ from rgss.grasping.contact import ContactPoint
 from rgss.grasping.feasibility import can_balance, positively_span
 from rgss.grasping.grasp import Grasp
 from rgss.grasping.grasp_map import PrimitiveWrenches, grasp_matrix, primitive_wrenches
-from rgss.grasping.quality import ball_radius, q_gii, q_msv, q_voe
+from rgss.grasping.quality import ball_radius, of_ellipsoid
 
 _SAME = 1e-9
 
@@ -50,7 +50,7 @@ class GraspGeometry:
         matrix = grasp_matrix(grasp)
         self.edges: PrimitiveWrenches = primitive_wrenches(grasp, cone_edges=cone_edges)
         self.squeeze, self.force, self.form = _verdicts(grasp, self.edges, with_margins=with_margins)
-        self.q_msv_1, self.q_voe_1, self.q_gii_1 = q_msv(matrix), q_voe(matrix), q_gii(matrix)
+        self.q_msv_1, self.q_voe_1, self.q_gii_1 = of_ellipsoid(matrix)
 
     @cached_property
     def smallest_maximum_1(self) -> float:

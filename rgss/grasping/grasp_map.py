@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -171,10 +172,15 @@ def _edge_forces(contact: ContactPoint, kind: ContactKind, cone_edges: int, plan
     if plane_normal is not None:
         across = contact.friction * np.cross(plane_normal, axes[0])
         return np.array([axes[0] + across, axes[0] - across])
-    angles = 2.0 * math.pi * np.arange(cone_edges) / cone_edges
-    circle = np.column_stack([np.cos(angles), np.sin(angles)])
-    forces: Matrix = axes[0] + contact.friction * circle @ axes[1:]
+    forces: Matrix = axes[0] + contact.friction * _circle(cone_edges) @ axes[1:]
     return forces
+
+
+@lru_cache(maxsize=8)
+def _circle(edges: int) -> Matrix:
+    """Directions evenly round a circle, shape (edges, 2); not to be written to."""
+    angles = 2.0 * math.pi * np.arange(edges) / edges
+    return np.column_stack([np.cos(angles), np.sin(angles)])
 
 
 def _check_plane(grasp: Grasp, plane_normal: Vector3) -> None:

@@ -99,7 +99,7 @@ class ContactMotion:
 
 def recorded_motion(contact: ContactPoint) -> ContactMotion:
     """The motion that a contact carries with it; accelerations stay unknown."""
-    normal, velocity = contact.axes()[0], np.array(contact.relative_velocity_m_s)
+    normal, velocity = np.array(contact.unit_normal()), np.array(contact.relative_velocity_m_s)
     rate = float(normal @ velocity)
     return ContactMotion(
         gap_m=contact.gap_m,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -35,7 +37,8 @@ def maximise(
     # Presolving takes as long as solving. Where coefficients of very different size make the simplex give up, the
     # interior-point method may not.
     for method, presolve in (("simplex", "off"), ("ipm", "on")):
-        solver = highspy.Highs()
+        solver = _solver(threading.get_ident())
+        solver.clear()
         for name, value in (
             ("output_flag", False),
             ("threads", 1),
@@ -57,6 +60,14 @@ def maximise(
         f"the linear program of a grasp was not solved: {solver.modelStatusToString(status)}",
         hint="check that the contacts' coefficients and the limits are of a sensible size",
     )
+
+
+@lru_cache(maxsize=4)
+def _solver(thread: int) -> Any:  # noqa: ARG001 - each thread has its own
+    """A solver, to be cleared before each use: making and ending one takes longer than a small program."""
+    import highspy
+
+    return highspy.Highs()
 
 
 def _program(

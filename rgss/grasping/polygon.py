@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,8 @@ import numpy as np
 from rgss.errors import DefinitionError
 from rgss.grasping.contact import ContactPoint, Matrix, Vector3
 from rgss.grasping.grasp import Grasp
+
+Point = tuple[float, float]
 
 FEWEST_CORNERS = 3
 """Corners of the smallest polygon that has angles."""
@@ -48,24 +51,33 @@ def grasp_polygon(grasp: Grasp, grasp_axis: Vector3 | None = None) -> GraspPolyg
     Raises:
         DefinitionError: The axis has no direction.
     """
+    # In plain numbers, as for the contacts' axes: a polygon has few corners and is asked for at every look at a grasp.
     corners = _finger_points(grasp)
-    mean = corners.mean(axis=0)
-    # The last right singular vector is the direction in which the corners spread least.
-    axis = np.array(_unit(grasp_axis)) if grasp_axis is not None else np.linalg.svd(corners - mean)[2][2]
-    plane = ContactPoint(position_m=(0.0, 0.0, 0.0), normal=tuple(axis.tolist())).axes()[1:]
-    centre = plane @ mean
-    ring = _ring(corners @ plane.T, centre, _COINCIDENT * grasp.characteristic_length_m)
-    middle, is_flat = _centroid(ring, _COINCIDENT * grasp.characteristic_length_m)
-    return GraspPolygon(corners_m=ring, centroid_m=middle @ plane + (axis @ mean) * axis, is_flat=is_flat)
+    count = len(corners)
+    x, y, z = (math.fsum(row) / count for row in zip(*corners, strict=True))
+    mean = (x, y, z)
+    axis = _unit(grasp_axis) if grasp_axis is not None else _axis_of_plane(corners)
+    first, second = plane = ContactPoint(position_m=(0.0, 0.0, 0.0), normal=axis).tangents()
+    tolerance = _COINCIDENT * grasp.characteristic_length_m
+    seen = [(_dot(first, corner), _dot(second, corner)) for corner in corners]
+    ring = _ring(seen, (_dot(first, mean), _dot(second, mean)), tolerance)
+    (across, up), is_flat = _centroid(ring, tolerance)
+    height = _dot(axis, mean)
+    centroid = np.array([across * a + up * b + height * c for a, b, c in zip(*plane, axis, strict=True)])
+    return GraspPolygon(corners_m=np.array(ring), centroid_m=centroid, is_flat=is_flat)
 
 
 def internal_angles(corners_m: Matrix) -> Matrix:
     """Internal angles (rad) of a simple polygon that is given counter-clockwise, shape (k,), each from 0 to 2π."""
-    back = np.roll(corners_m, 1, axis=0) - corners_m
-    ahead = np.roll(corners_m, -1, axis=0) - corners_m
-    cross = ahead[:, 0] * back[:, 1] - ahead[:, 1] * back[:, 0]
-    angles: Matrix = np.arctan2(cross, np.sum(ahead * back, axis=1)) % (2.0 * math.pi)
-    return angles
+    corners = [(x, y) for x, y in np.asarray(corners_m).tolist()]
+    angles = []
+    for (bx, by), (x, y), (ax, ay) in zip(
+        (corners[-1], *corners[:-1]), corners, (*corners[1:], corners[0]), strict=True
+    ):
+        back, ahead = (bx - x, by - y), (ax - x, ay - y)
+        cross = ahead[0] * back[1] - ahead[1] * back[0]
+        angles.append(math.atan2(cross, ahead[0] * back[0] + ahead[1] * back[1]) % (2.0 * math.pi))
+    return np.array(angles)
 
 
 def worst_deviation(corners: int) -> float:
@@ -84,38 +96,66 @@ def _unit(vector: Vector3) -> Vector3:
     return vector[0] / length, vector[1] / length, vector[2] / length
 
 
-def _finger_points(grasp: Grasp) -> Matrix:
-    arms, points = grasp.arms_m(), []
+def _axis_of_plane(corners: Sequence[Vector3]) -> Vector3:
+    """Normal of the plane that fits points best."""
+    points = np.array(corners)
+    # The last right singular vector is the direction in which the points spread least.
+    x, y, z = np.linalg.svd(points - points.mean(axis=0))[2][2].tolist()
+    return x, y, z
+
+
+def _dot(one: Vector3, other: Vector3) -> float:
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+
+
+def _finger_points(grasp: Grasp) -> list[Vector3]:
+    """The mean of each finger's points, from the centre of mass, weighted by their forces where they press."""
+    ox, oy, oz = grasp.centre_of_mass_m
+    points = []
     for members in grasp.fingers():
-        weights = np.array([grasp.contacts[index].normal_force_n for index in members])
-        if not weights.sum() > 0.0:
-            weights = np.ones(len(members))
-        points.append(weights @ arms[list(members)] / weights.sum())
-    return np.array(points)
+        contacts = [grasp.contacts[index] for index in members]
+        weights = [contact.normal_force_n for contact in contacts]
+        total = math.fsum(weights)
+        if not total > 0.0:
+            weights, total = [1.0] * len(contacts), float(len(contacts))
+        x, y, z = (
+            math.fsum(weight * contact.position_m[row] for weight, contact in zip(weights, contacts, strict=True))
+            / total
+            for row in range(3)
+        )
+        points.append((x - ox, y - oy, z - oz))
+    return points
 
 
-def _ring(points: Matrix, centre: Matrix, tolerance: float) -> Matrix:
+def _ring(points: Sequence[Point], centre: Point, tolerance: float) -> list[Point]:
     """The distinct points, counter-clockwise about a centre."""
-    kept: list[Matrix] = []
+    kept: list[Point] = []
     for point in points:
-        if all(np.linalg.norm(point - other) > tolerance for other in kept):
+        if all(math.dist(point, other) > tolerance for other in kept):
             kept.append(point)
-    ring = np.array(kept)
-    spokes = ring - centre
-    order = np.lexsort((np.hypot(spokes[:, 0], spokes[:, 1]), np.arctan2(spokes[:, 1], spokes[:, 0])))
-    ordered: Matrix = ring[order]
-    return ordered
+    cx, cy = centre
+    return sorted(kept, key=lambda point: (math.atan2(point[1] - cy, point[0] - cx), math.dist(point, centre)))
 
 
-def _centroid(ring: Matrix, tolerance: float) -> tuple[Matrix, bool]:
+def _centroid(ring: Sequence[Point], tolerance: float) -> tuple[Point, bool]:
     """Centroid of a polygon's area, or of the segment that it is pressed into, and whether it is."""
-    mean = ring.mean(axis=0)
-    directions = np.linalg.svd(ring - mean)[2]
-    spread = (ring - mean) @ directions.T
-    if len(ring) < FEWEST_CORNERS or np.ptp(spread[:, 1]) <= tolerance:
-        middle: Matrix = mean + (spread[:, 0].min() + spread[:, 0].max()) / 2.0 * directions[0]
-        return middle, True
-    spokes, following = ring - mean, np.roll(ring, -1, axis=0) - mean
-    areas = spokes[:, 0] * following[:, 1] - spokes[:, 1] * following[:, 0]
-    centroid: Matrix = mean + areas @ (spokes + following) / (3.0 * areas.sum())
-    return centroid, False
+    count = len(ring)
+    mx, my = math.fsum(x for x, _ in ring) / count, math.fsum(y for _, y in ring) / count
+    spokes = [(x - mx, y - my) for x, y in ring]
+    # The direction in which the corners spread most, which halves the angle of their second moments.
+    sxx, syy, sxy = (
+        math.fsum(x * x for x, _ in spokes),
+        math.fsum(y * y for _, y in spokes),
+        math.fsum(x * y for x, y in spokes),
+    )
+    turn = math.atan2(2.0 * sxy, sxx - syy) / 2.0
+    ux, uy = math.cos(turn), math.sin(turn)
+    along, across = [x * ux + y * uy for x, y in spokes], [y * ux - x * uy for x, y in spokes]
+    if count < FEWEST_CORNERS or max(across) - min(across) <= tolerance:
+        middle = (min(along) + max(along)) / 2.0
+        return (mx + middle * ux, my + middle * uy), True
+    area = gx = gy = 0.0
+    for (ax, ay), (bx, by) in zip(spokes, (*spokes[1:], spokes[0]), strict=True):
+        part = ax * by - ay * bx
+        area, gx, gy = area + part, gx + part * (ax + bx), gy + part * (ay + by)
+    return (mx + gx / (3.0 * area), my + gy / (3.0 * area)), False

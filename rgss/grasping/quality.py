@@ -31,18 +31,23 @@ def singular_values(matrix: Matrix) -> Matrix:
 
 def q_msv(matrix: Matrix) -> float:
     """Smallest singular value of the grasp matrix (eq. 3.6): 0 if some wrench cannot be resisted, more is better."""
-    return float(singular_values(matrix)[-1])
+    return of_ellipsoid(matrix)[0]
 
 
 def q_voe(matrix: Matrix) -> float:
     """Volume of the ellipsoid of wrenches, √det(G Gᵀ), the product of the singular values (eq. 3.7); more is better."""
-    return float(np.prod(singular_values(matrix)))
+    return of_ellipsoid(matrix)[1]
 
 
 def q_gii(matrix: Matrix) -> float:
     """Isotropy of the ellipsoid of wrenches, σ_min / σ_max (eq. 3.8): from 0, singular, to 1, balanced."""
+    return of_ellipsoid(matrix)[2]
+
+
+def of_ellipsoid(matrix: Matrix) -> tuple[float, float, float]:
+    """What `q_msv`, `q_voe` and `q_gii` say of a grasp matrix, from one decomposition."""
     values = singular_values(matrix)
-    return float(values[-1] / values[0])
+    return float(values[-1]), float(np.prod(values)), float(values[-1] / values[0])
 
 
 def q_gpri(polygon: GraspPolygon) -> float | None:

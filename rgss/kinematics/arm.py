@@ -43,7 +43,9 @@ class Arm:
             )
         )
         self._data = self._model.createData()
-        self._axes = self.joint_axes()
+        directions, steps = self.joint_axes()
+        self._rodrigues = [_rodrigues(direction) for direction in directions]
+        self._points = np.cumsum(steps, axis=0)
 
     @property
     def lower_rad(self) -> Vector:
@@ -66,7 +68,7 @@ class Arm:
     @property
     def reach_m(self) -> float:
         """Length of the arm from its first axis to the tool along the links: no axis is ever farther from the tool."""
-        return float(np.linalg.norm(self._axes[1][1:], axis=1).sum())
+        return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
 
     def tool_position(self, qs: ArrayLike) -> Vector:
         """Positions of the tool centre in the world.
@@ -93,19 +95,18 @@ class Arm:
         return self._tool_motion(rows, rates)
 
     def _tool_motion(self, rows: Vector, rates: Vector | None) -> tuple[Vector, Vector]:
-        directions, steps = self._axes
-        points = np.cumsum(steps, axis=0)
         # The tool is turned about one axis after another as these stand at the zero configuration, the last
         # first (product of exponentials), by Rodrigues' formula: all configurations at once.
-        positions = np.broadcast_to(points[-1], (len(rows), 3))
+        cosines, sines = np.cos(rows), np.sin(rows)
+        positions: Vector = np.tile(self._points[-1], (len(rows), 1))
         velocities = np.zeros((len(rows), 3))
-        for joint in reversed(range(len(directions))):
-            axis, cosine, sine = directions[joint], np.cos(rows[:, joint, None]), np.sin(rows[:, joint, None])
-            cross = _cross_matrix(axis).T
-            arms = _turned(positions - points[joint], axis, cross, cosine, sine)
-            positions = points[joint] + arms
+        for joint in reversed(range(len(self._rodrigues))):
+            point, turn = self._points[joint], self._rodrigues[joint]
+            cosine, sine = cosines[:, joint, None], sines[:, joint, None]
+            arms = _turned(positions - point, turn, cosine, sine)
+            positions = point + arms
             if rates is not None:
-                velocities = _turned(velocities, axis, cross, cosine, sine) + rates[:, joint, None] * (arms @ cross)
+                velocities = _turned(velocities, turn, cosine, sine) + rates[:, joint, None] * (arms @ turn[:, 6:])
         return positions, velocities
 
     def tool_jacobian(self, q: Sequence[float] | Vector) -> Vector:
@@ -175,13 +176,14 @@ class Arm:
         return self._engine.updateFramePlacement(self._model, self._data, self._tool)
 
 
-def _turned(vectors: Vector, axis: Vector, cross: Vector, cosine: Vector, sine: Vector) -> Vector:
-    """Vectors (n, 3), each turned about the axis by its own angle, by Rodrigues' formula."""
-    along = np.outer(vectors @ axis, axis)
-    return along + cosine * (vectors - along) + sine * (vectors @ cross)
+def _turned(vectors: Vector, rodrigues: Vector, cosine: Vector, sine: Vector) -> Vector:
+    """Vectors (n, 3), each turned about an axis by its own angle."""
+    parts = vectors @ rodrigues
+    return parts[:, :3] + cosine * parts[:, 3:6] + sine * parts[:, 6:]
 
 
-def _cross_matrix(axis: Vector) -> Vector:
-    """The matrix whose product with a vector is the axis cross the vector."""
+def _rodrigues(axis: Vector) -> Vector:
+    """Makes of a vector its part along an axis, its part across it, and the axis cross the vector, shape (3, 9)."""
     x, y, z = axis
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    along = np.outer(axis, axis)
+    return np.hstack([along, np.eye(3) - along, np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import MotionError
 from rgss.motion.paths import JointPath, segment_states
-from rgss.motion.validity import StateValidity
+from rgss.motion.validity import StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
 
@@ -68,10 +68,10 @@ class SmoothPath:
         """
         piece = np.clip(np.searchsorted(self.breaks, s, side="right") - 1, 0, len(self.coefficients) - 1)
         local = (s - self.breaks[piece])[:, None]
-        coefficients = self.coefficients[piece]
-        value: Vector = np.zeros((len(piece), coefficients.shape[2]))
+        value: Vector = np.zeros((len(piece), self.coefficients.shape[2]))
         for power in range(5, order - 1, -1):
-            value = value * local + math.perm(power, order) * coefficients[:, power]
+            value *= local
+            value += (math.perm(power, order) * self.coefficients[:, power])[piece]
         return value
 
 
@@ -136,7 +136,7 @@ def blend(
             reaches[index] = _valid_reach(corners[index], incoming, outgoing, reach, counted, resolution_rad)
         stops += int(reaches[index] == 0.0)
     smooth = _assemble(corners, directions, lengths, reaches)
-    valid = all(counted.is_valid(state) for state in _straight_states(corners, lengths, reaches, resolution_rad))
+    valid = counted.are_valid(_straight_states(corners, lengths, reaches, resolution_rad))
     return BlendedPath(
         path=smooth, is_valid=valid, blended=max(len(corners) - 2, 0) - stops, stops=stops, checks=counted.checks
     )
@@ -144,12 +144,13 @@ def blend(
 
 class _Counter:
     def __init__(self, validity: StateValidity) -> None:
-        self._validity = validity
+        self._first_invalid = first_invalid_between(validity)
         self.checks = 0
 
-    def is_valid(self, state: Vector) -> bool:
-        self.checks += 1
-        return self._validity.is_valid(state)
+    def are_valid(self, states: Vector) -> bool:
+        index = self._first_invalid(states)
+        self.checks += len(states) if index is None else index + 1
+        return index is None
 
 
 def _distinct(points: Vector) -> Vector:
@@ -165,7 +166,8 @@ def _valid_reach(
         piece = _blend_piece(corner, incoming, outgoing, reach)
         count = max(2, math.ceil(2 * reach / (resolution_rad / _BLEND_DENSITY))) + 1
         powers = np.linspace(0.0, 2 * reach, count)[:, None] ** np.arange(6)
-        if all(counted.is_valid(state) for state in powers @ piece):
+        # A blend stays in the triangle of its corner, and so within the joints' ranges.
+        if counted.are_valid(powers @ piece):
             return reach
         reach /= 2
     return 0.0

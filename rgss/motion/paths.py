@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -78,19 +77,14 @@ def coarse_to_fine(count: int) -> tuple[int, ...]:
     return tuple(order)
 
 
-def is_path_valid(
-    points: Vector, is_valid: Callable[[Vector], bool], resolution_rad: float, *, density: int = 1
-) -> bool:
-    """Tell whether every state along a polyline is valid.
+def path_states(points: Vector, resolution_rad: float, *, density: int = 1) -> Vector:
+    """The states along a polyline at which it is checked, from its first corner to its last, shape (n, joints).
 
     Args:
-        points: Corners, shape (n, joints).
-        is_valid: Tells whether a state is valid.
-        resolution_rad: Greatest Euclidean distance between the states that are checked, at density 1.
-        density: How many times as many states to check.
+        points: Corners, shape (corners, joints).
+        resolution_rad: Greatest Euclidean distance between neighbours, at density 1.
+        density: How many times as many states to give.
     """
-    return is_valid(points[0]) and all(
-        is_valid(state)
-        for start, end in itertools.pairwise(points)
-        for state in segment_states(start, end, resolution_rad, density=density)
-    )
+    segments = itertools.pairwise(points)
+    states = [segment_states(start, end, resolution_rad, density=density) for start, end in segments]
+    return np.vstack([points[:1], *states])

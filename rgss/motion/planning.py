@@ -84,7 +84,7 @@ def plan(
     if simplification_checks:
         corners, simplification = shorten(
             found.corners,
-            validity.is_valid,
+            validity,
             generator=np.random.default_rng(_derived_seed(seed, _SIMPLIFICATION_STREAM)),
             budget_checks=simplification_checks,
             resolution_rad=problem.resolution_rad,

@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.motion.paths import coarse_to_fine, is_path_valid, path_length, segment_states
+from rgss.motion.paths import coarse_to_fine, path_length, path_states, segment_states
+from rgss.motion.validity import StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
-IsValid = Callable[[Vector], bool]
 
 _ROPE_STRETCHES = 20
 _SMALLEST_ROPE_GAIN = 0.05
@@ -22,7 +22,12 @@ _FINAL_DENSITY = 4
 
 
 def shorten(
-    points: Vector, is_valid: IsValid, *, generator: np.random.Generator, budget_checks: int, resolution_rad: float
+    points: Vector,
+    validity: StateValidity,
+    *,
+    generator: np.random.Generator,
+    budget_checks: int,
+    resolution_rad: float,
 ) -> tuple[Vector, int]:
     """Shorten a valid polyline by replacing stretches of it with straight segments.
 
@@ -37,7 +42,7 @@ def shorten(
 
     Args:
         points: Corners of a valid path in rad, shape (n, joints).
-        is_valid: Tells whether a state is valid.
+        validity: Tells valid states from invalid ones.
         generator: Source of the random choices.
         budget_checks: Greatest number of validity checks; those of the final check come on top.
         resolution_rad: Greatest distance between the states that are checked.
@@ -45,13 +50,13 @@ def shorten(
     Returns:
         The corners of the shorter path and the number of checks that it took.
     """
-    check = _CheckBudget(is_valid, budget_checks)
+    check = _CheckBudget(validity, budget_checks)
     paths = [points]
     # What is found before the budget is spent is kept.
     with contextlib.suppress(_BudgetSpentError):
         paths.extend(_improvements(points, check, generator, resolution_rad))
-    final = _CheckBudget(is_valid, None)
-    while len(paths) > 1 and not is_path_valid(paths[-1], final, resolution_rad, density=_FINAL_DENSITY):
+    final = _CheckBudget(validity, None)
+    while len(paths) > 1 and not final.are_valid(path_states(paths[-1], resolution_rad, density=_FINAL_DENSITY)):
         paths.pop()
     return paths[-1], check.spent + final.spent
 
@@ -63,24 +68,34 @@ class _BudgetSpentError(Exception):
 class _CheckBudget:
     """Counts validity checks and refuses those beyond a budget."""
 
-    def __init__(self, is_valid: IsValid, budget: int | None) -> None:
-        self._is_valid = is_valid
+    def __init__(self, validity: StateValidity, budget: int | None) -> None:
+        self._first_invalid = first_invalid_between(validity)
         self._budget = budget
         self.spent = 0
 
-    def __call__(self, state: Vector) -> bool:
-        if self._budget is not None and self.spent >= self._budget:
+    def are_valid(self, states: Vector) -> bool:
+        """Whether all states are valid, which lie between valid ones; checked in order up to the first that is not.
+
+        Raises:
+            _BudgetSpentError: The budget ends before that is known.
+        """
+        affordable = len(states) if self._budget is None else min(len(states), self._budget - self.spent)
+        index = self._first_invalid(states[:affordable])
+        if index is not None:
+            self.spent += index + 1
+            return False
+        self.spent += affordable
+        if affordable < len(states):
             raise _BudgetSpentError
-        self.spent += 1
-        return self._is_valid(state)
+        return True
 
 
 def _improvements(
-    points: Vector, is_valid: IsValid, generator: np.random.Generator, resolution_rad: float
+    points: Vector, check: _CheckBudget, generator: np.random.Generator, resolution_rad: float
 ) -> Iterator[Vector]:
     def joined(start: Vector, end: Vector) -> bool:
         states = segment_states(start, end, resolution_rad)
-        return all(is_valid(states[number]) for number in coarse_to_fine(len(states)))
+        return check.are_valid(states[list(coarse_to_fine(len(states)))])
 
     path = points
     for stage in (_skip_corners, _pull_rope):

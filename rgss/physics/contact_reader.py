@@ -57,7 +57,7 @@ class ContactReader:
         if standing is not None and not self._engine.getContactPoints(self._robot, -1, -2, -2, self._client):
             return standing
         forces = [0.0] * len(self._finger_joints)
-        other, frictions = 0.0, []
+        other, pressed = 0.0, []
         robot_bodies: tuple[tuple[str, str], ...] = ()
         workpiece_bodies: tuple[str, ...] = ()
         robot, workpiece = self._robot, self._workpiece
@@ -91,9 +91,9 @@ class ContactReader:
                 continue
             forces[finger] += force
             # The engine gives friction as it acts on body A.
-            frictions.append((sign, *point[10:14]))
+            pressed.append((sign, point))
         if is_robot_touching:
-            return Contacts(tuple(forces), other, tuple(frictions), robot_bodies, workpiece_bodies)
+            return Contacts(tuple(forces), other, tuple(pressed), robot_bodies, workpiece_bodies)
         # So it is for half of the time, with one body under the workpiece or none.
         resting = self._resting.get(workpiece_bodies)
         if resting is None:
@@ -109,7 +109,7 @@ class ContactReader:
         """
         found = []
         transform = self._workpiece_pose_before(step_s).inverse()
-        turn = Pose(quaternion_xyzw=transform.quaternion_xyzw)
+        tx, ty, tz = transform.position_m
         for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
             bodies = (point[1], point[2])
             if self._workpiece not in bodies or self._robot not in bodies or point[9] <= 0.0:
@@ -122,14 +122,15 @@ class ContactReader:
             sign = 1.0 if workpiece_is_a else -1.0
             nx, ny, nz = point[7]
             first, (ax, ay, az), second, (bx, by, bz) = sign * point[10], point[11], sign * point[12], point[13]
+            px, py, pz = transform.rotate(point[5 if workpiece_is_a else 6])
             found.append(
                 FingerContact(
                     finger,
-                    (transform @ Pose(position_m=point[5 if workpiece_is_a else 6])).position_m,
-                    turn.rotate((sign * nx, sign * ny, sign * nz)),
+                    (tx + px, ty + py, tz + pz),
+                    transform.rotate((sign * nx, sign * ny, sign * nz)),
                     point[8],
                     point[9],
-                    turn.rotate((first * ax + second * bx, first * ay + second * by, first * az + second * bz)),
+                    transform.rotate((first * ax + second * bx, first * ay + second * by, first * az + second * bz)),
                 )
             )
         return tuple(sorted(found, key=lambda point: (point.finger, point.position_m[2])))

@@ -17,6 +17,7 @@ from rgss.errors import SimulationError
 from rgss.physics.contact_reader import ContactReader
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
+from rgss.physics.hand_view import HandView
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Box, Gripper, Pose, Scene, Shape
 from rgss.scenes.assembly import assembled_urdf, finger_joint
@@ -175,7 +176,7 @@ class World:
     def finger_travel_m(self) -> tuple[float, ...]:
         """How far each finger has closed from its open end."""
         states = self._engine.getJointStates(self._robot, self._finger_joints, self._client)
-        return tuple(state[0] for state in states)
+        return tuple([state[0] for state in states])
 
     def workpiece_pose(self) -> Pose:
         """Transform of the workpiece to the world."""
@@ -189,11 +190,13 @@ class World:
 
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world as the arm really stands."""
+        return self.hand_view().tool
+
+    def hand_view(self) -> HandView:
+        """A glance at the object, the tool and the fingers as they really stand."""
+        position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
         state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
-        flange = Pose(position_m=state[4], quaternion_xyzw=state[5])
-        # The grasp centre is shifted against the flange and not turned.
-        (x, y, z), (dx, dy, dz) = flange.position_m, flange.rotate(self._grasp_centre_m)
-        return Pose(position_m=(x + dx, y + dy, z + dz), quaternion_xyzw=flange.quaternion_xyzw)
+        return HandView(position, orientation, state[4], state[5], self._grasp_centre_m, self.finger_travel_m())
 
     def contacts(self, standing: Contacts | None = None) -> Contacts:
         """What touches what after the last step.

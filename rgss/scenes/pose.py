@@ -36,13 +36,12 @@ class Pose:
     def rotate(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
         """Express a direction of this frame in the outer frame."""
         x, y, z, w = self.quaternion_xyzw
-        vx, vy, vz = vector
-        tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
-        return (
-            vx + w * tx + y * tz - z * ty,
-            vy + w * ty + z * tx - x * tz,
-            vz + w * tz + x * ty - y * tx,
-        )
+        return _turned(x, y, z, w, vector)
+
+    def turned_back(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
+        """Express a direction of the outer frame in this frame."""
+        x, y, z, w = self.quaternion_xyzw
+        return _turned(-x, -y, -z, w, vector)
 
     def __matmul__(self, inner: Pose) -> Pose:
         """Chain two transforms: ``transform_b_to_a @ transform_c_to_b`` is ``transform_c_to_a``."""
@@ -63,9 +62,8 @@ class Pose:
     def inverse(self) -> Pose:
         """The transform the other way round."""
         x, y, z, w = self.quaternion_xyzw
-        turned = Pose(quaternion_xyzw=(-x, -y, -z, w))
-        px, py, pz = turned.rotate(self.position_m)
-        return Pose(position_m=(-px, -py, -pz), quaternion_xyzw=turned.quaternion_xyzw)
+        px, py, pz = self.turned_back(self.position_m)
+        return Pose(position_m=(-px, -py, -pz), quaternion_xyzw=(-x, -y, -z, w))
 
     def seen_from(self, frame: Pose) -> Pose:
         """``frame.inverse() @ self``, in one go: this pose in another frame that is given in the same outer frame."""
@@ -97,3 +95,14 @@ class Pose:
     def tilt_rad(self) -> float:
         """Angle between this frame's z axis and the outer frame's z axis."""
         return math.acos(max(-1.0, min(1.0, self.rotate((0.0, 0.0, 1.0))[2])))
+
+
+def _turned(x: float, y: float, z: float, w: float, vector: tuple[float, float, float]) -> tuple[float, float, float]:
+    """A vector turned by a unit quaternion."""
+    vx, vy, vz = vector
+    tx, ty, tz = 2 * (y * vz - z * vy), 2 * (z * vx - x * vz), 2 * (x * vy - y * vx)
+    return (
+        vx + w * tx + y * tz - z * ty,
+        vy + w * ty + z * tx - x * tz,
+        vz + w * tz + x * ty - y * tx,
+    )

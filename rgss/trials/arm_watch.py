@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from array import array
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -34,7 +35,13 @@ class ArmWatch:
     """Notes the joints step by step; what follows from them is worked out when it is asked for, all steps at once."""
 
     def __init__(
-        self, kinematics: ToolKinematics, robot: Robot, control: ControlSettings, settings: PhysicsSettings
+        self,
+        kinematics: ToolKinematics,
+        robot: Robot,
+        control: ControlSettings,
+        settings: PhysicsSettings,
+        *,
+        path_m: Sequence[Sequence[float]] | Array = (),
     ) -> None:
         """Begin at rest.
 
@@ -43,6 +50,8 @@ class ArmWatch:
             robot: The arm.
             control: How far the tool may stray, and how its acceleration is averaged.
             settings: Length of a step.
+            path_m: Where the tool should be in the world, at the start of a move and after each of its steps; empty
+                where the arm is held.
         """
         self._kinematics = kinematics
         self._joints = robot.joints
@@ -54,7 +63,7 @@ class ArmWatch:
         # Torques of the steps in which the arm was held; positions, velocities and torques of those of a move.
         self._held = array("d")
         self._followed = array("d")
-        self._targets_m = array("d")
+        self._path_m = path_m
 
     def note(self, state: JointState) -> None:
         """Add a step in which the arm is held where it is.
@@ -64,24 +73,21 @@ class ArmWatch:
         """
         self._held.extend(state[2])
 
-    def follow(
-        self, state: JointState, target_rad: tuple[float, ...], target_m: tuple[float, float, float]
-    ) -> str | None:
+    def follow(self, state: JointState, target_rad: Sequence[float]) -> str | None:
         """Add a step of a move.
 
         Args:
             state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
             target_rad: Where the joints should be.
-            target_m: Where the tool should be, in the world.
 
         Returns:
-            What is wrong, if the tool is farther from there than it may be.
+            What is wrong, if the tool is farther from where it should be than it may be.
         """
         positions, velocities, torques = state
         self._followed.extend(positions + velocities + torques)
-        self._targets_m.extend(target_m)
         if math.dist(positions, target_rad) <= self._near_rad:
             return None
+        target_m = self._path_m[len(self._followed) // (3 * len(positions))]
         error = math.dist(self._kinematics.tool_motion([positions], [velocities])[0][0], target_m)
         if error <= self._limit_m:
             return None
@@ -95,7 +101,8 @@ class ArmWatch:
             speed = acceleration = None
         else:
             positions, velocities = self._kinematics.tool_motion(states[:, 0], states[:, 1])
-            off = float(np.linalg.norm(positions - np.array(self._targets_m).reshape(-1, 3), axis=1).max())
+            targets = np.asarray(self._path_m[1 : len(states) + 1])
+            off = float(np.linalg.norm(positions - targets, axis=1).max())
             speed = float(np.linalg.norm(velocities, axis=1).max())
             # Every move starts from rest.
             padded = np.vstack([np.zeros((self._window, 3)), velocities])
@@ -110,12 +117,12 @@ class ArmWatch:
 
     def _states(self) -> Array:
         """Positions, velocities and torques of the steps of a move, shape (steps, 3, joints)."""
-        return np.array(self._followed).reshape(-1, 3, len(self._joints))
+        return np.frombuffer(self._followed).reshape(-1, 3, len(self._joints))
 
     def _load(self) -> JointLoad:
         load = JointLoad(self._joints)
         # A phase holds the arm or moves it.
-        for torques in (np.array(self._held).reshape(-1, len(self._joints)), self._states()[:, 2]):
+        for torques in (np.array(self._held).reshape(-1, len(self._joints)), np.array(self._states()[:, 2])):
             if len(torques):
                 load.note_all(torques, self._step_s)
         return load

@@ -16,7 +16,7 @@ from rgss.trials.hand_motion import HandWatch
 from rgss.trials.observer import StepObserver
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.program import run_program
-from rgss.trials.reference import Reference
+from rgss.trials.reference import Array, Reference
 from rgss.trials.watch import Watch
 
 CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
@@ -53,6 +53,7 @@ class Execution:
         self._kinematics = kinematics
         self._observer = observer
         self._checkpoint = checkpoint
+        self._is_alone = observer is None and checkpoint is None
         self._step_s = world.settings.step_s
         self._held_at: Pose | None = None
         self._memory = GraspMemory()
@@ -75,18 +76,24 @@ class Execution:
         world = self._world
         carried_at = self._held_at if phase in CARRYING else None
         self._tightenings = 0
-        watch = self._watch(carried_at, self._resting_on(phase))
+        watch = self._watch(carried_at, self._resting_on(phase), reference.tool_m)
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
-        loads, tool = reference.load_m_s2.tolist(), reference.tool_m.tolist()
-        steps = 0
+        steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
         world.solve_freely(free=carried_at is None)
-        for index in range(reference.steps):
-            world.command_arm(positions[index], velocities[index])
+        # What surrounds a step costs a tenth of it: nothing is looked up here that can be had before.
+        for position, velocity, target, load in zip(
+            positions, velocities, positions[1:], reference.load_m_s2.tolist(), strict=False
+        ):
+            world.command_arm(position, velocity)
             world.step()
             steps += 1
-            self._observe(phase, watch, loads[index], (positions[index + 1], tool[index + 1]))
+            contacts = watch.after_step(load, target)
+            if not is_alone:
+                self._show(phase, watch, contacts)
             if carried_at is not None:
-                self._keep_grip(watch)
+                self._since_tightening_s += self._step_s
+                if watch.grip_margin is not None and watch.grip_margin < least_margin:
+                    self._keep_grip()
             if watch.failure is not None:
                 break
         world.solve_freely(free=False)
@@ -136,7 +143,7 @@ class Execution:
         forces: tuple[float, ...] = (0.0,) * fingers
         while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(Phase.GRASP, watch, scene.gravity_m_s2, None)
+            contacts = self._observe(Phase.GRASP, watch, scene.gravity_m_s2)
             steps += 1
             if steps % look_every == 0:
                 hand.look(steps)
@@ -149,7 +156,7 @@ class Execution:
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 shown = ", ".join(f"{force:.2f}" for force in forces)
                 watch.fail(Failure.NO_FIRM_GRASP, f"fingers press with {shown} N, each needs {needed_n:.2f} N")
-        self._held_at = hand.look(steps)
+        self._held_at = hand.look(steps).held
         metrics = watch.metrics()
         metrics["finger_force_n"] = forces
         metrics["finger_force_needed_n"] = needed_n
@@ -169,7 +176,7 @@ class Execution:
         contacts = world.contacts()
         while max(world.finger_travel_m()) > _OPEN_TOLERANCE_M and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(Phase.PLACE, watch, 0.0, None)
+            contacts = self._observe(Phase.PLACE, watch, 0.0)
             steps += 1
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 open_m = max(world.finger_travel_m())
@@ -179,7 +186,7 @@ class Execution:
         still_s, waited_s, stood_at = 0.0, 0.0, world.workpiece_pose()
         while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(Phase.PLACE, watch, 0.0, None)
+            contacts = self._observe(Phase.PLACE, watch, 0.0)
             steps += 1
             waited_s += self._step_s
             still_s += self._step_s
@@ -220,15 +227,9 @@ class Execution:
                 f"the object is {error * 1e3:.1f} mm from the place and {height_error * 1e3:.1f} mm off its height",
             )
 
-    def _keep_grip(self, watch: Watch) -> None:
+    def _keep_grip(self) -> None:
         """Close further where friction is short of what the load needs."""
-        self._since_tightening_s += self._step_s
-        margin = watch.grip_margin
-        if (
-            margin is not None
-            and margin < self._control.tighten_below
-            and self._since_tightening_s >= self._control.force_window_s
-        ):
+        if self._since_tightening_s >= self._control.force_window_s:
             self._tighten()
 
     def _tighten(self) -> None:
@@ -245,30 +246,31 @@ class Execution:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
         self._world.step()
 
-    def _watch(self, carried_at: Pose | None, resting_on: str) -> Watch:
+    def _watch(self, carried_at: Pose | None, resting_on: str, path_m: Sequence[Sequence[float]] | Array = ()) -> Watch:
         return Watch(
             self._world,
             self._kinematics,
             self._control,
             carried_at=carried_at,
             resting_on=resting_on,
+            path_m=path_m,
             memory=self._memory,
         )
 
-    def _observe(
-        self,
-        phase: Phase,
-        watch: Watch,
-        load_m_s2: float,
-        target: tuple[tuple[float, ...], tuple[float, float, float]] | None,
-    ) -> Contacts:
-        contacts = watch.after_step(load_m_s2, target)
+    def _observe(self, phase: Phase, watch: Watch, load_m_s2: float) -> Contacts:
+        """Look at a step in which the arm is held."""
+        contacts = watch.after_step(load_m_s2, None)
+        if not self._is_alone:
+            self._show(phase, watch, contacts)
+        return contacts
+
+    def _show(self, phase: Phase, watch: Watch, contacts: Contacts) -> None:
+        """Let others look at the step, and wait or end the task."""
         if self._observer is not None:
             force_n = self._grip_n if phase is Phase.GRASP or phase in CARRYING else None
             self._observer.after_step(self._world, phase, contacts, watch.grip_margin, force_n)
         if self._checkpoint is not None:
             self._checkpoint()
-        return contacts
 
     def _result(self, phase: Phase, watch: Watch, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
         pose = self._world.workpiece_pose()

@@ -116,14 +116,13 @@ def grasp_metrics(
     friction = gripper.friction * workpiece.friction
     points = [_point(one, workpiece.shape, friction, motion, closing[one.finger]) for one in contacts]
     weight_n = workpiece.mass_kg * world.scene.gravity_m_s2
-    to_object = Pose(quaternion_xyzw=world.workpiece_pose().inverse().quaternion_xyzw)
     found = analyse_grasp(
         points,
         centre_of_mass_m=(0.0, 0.0, 0.0),
         finger_force_limit_n=gripper.finger_force_n,
         grasp_axis=(0.0, 0.0, 1.0),
         characteristic_length_m=workpiece.shape.radius_m,
-        external_wrench=Wrench(force_n=to_object.rotate((0.0, 0.0, -weight_n))),
+        external_wrench=Wrench(force_n=world.workpiece_pose().turned_back((0.0, 0.0, -weight_n))),
         cone_edges=_CONE_EDGES,
         with_margins=False,
         with_strength=strength,
@@ -184,8 +183,7 @@ def _wall_normal(contact: FingerContact, shape: Cylinder) -> Vector3:
 
 def _closing_velocity(azimuth_rad: float, speed_m_s: float, motion: HandMotion) -> Vector3:
     """Velocity of a closing finger in the object's frame; fingers close across the tool's axis."""
-    turn = Pose(quaternion_xyzw=motion.held.inverse().quaternion_xyzw)
-    return turn.rotate((-speed_m_s * math.cos(azimuth_rad), -speed_m_s * math.sin(azimuth_rad), 0.0))
+    return motion.held.turned_back((-speed_m_s * math.cos(azimuth_rad), -speed_m_s * math.sin(azimuth_rad), 0.0))
 
 
 def _kinematics(points: Sequence[ContactPoint]) -> dict[str, Metric]:

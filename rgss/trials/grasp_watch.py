@@ -79,8 +79,7 @@ class GraspWatch:
         }
 
     def _look(self) -> float:
-        held = self._hand.look(self._steps)
-        slip = math.dist(held.position_m, self._held_at.position_m)
+        slip = math.dist(self._hand.look(self._steps).held_at_m, self._held_at.position_m)
         self.slip_m = max(self.slip_m, slip)
         return slip
 

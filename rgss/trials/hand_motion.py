@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.physics import World
+from rgss.physics import HandView, World
 from rgss.scenes import Pose
 
 _Triple = tuple[float, float, float]
@@ -31,11 +31,11 @@ class HandMotion:
 
     def velocity_at(self, point_m: _Triple) -> _Triple:
         """Velocity (m/s) in the hand of a point of the object, which is given and answered in the object's frame."""
-        now = (self.held @ Pose(position_m=point_m)).position_m
-        then = (self.before @ Pose(position_m=point_m)).position_m
-        x, y, z = (one - other for one, other in zip(now, then, strict=True))
-        turn = Pose(quaternion_xyzw=self.held.inverse().quaternion_xyzw)
-        return turn.rotate((x / self.span_s, y / self.span_s, z / self.span_s))
+        (ax, ay, az), (bx, by, bz) = self.held.rotate(point_m), self.before.rotate(point_m)
+        (px, py, pz), (qx, qy, qz) = self.held.position_m, self.before.position_m
+        span_s = self.span_s
+        motion = ((px + ax) - (qx + bx)) / span_s, ((py + ay) - (qy + by)) / span_s, ((pz + az) - (qz + bz)) / span_s
+        return self.held.turned_back(motion)
 
     def twist(self) -> tuple[_Triple, _Triple]:
         """Velocity (m/s) of the object's centre and angular velocity (rad/s) of the object, in the hand's frame."""
@@ -59,46 +59,38 @@ class HandWatch:
         """
         self._world = world
         self._at = 0
-        self._held, self._travel_m = self._look()
-        self._earlier = (0, self._held, self._travel_m)
+        self._view = world.hand_view()
+        self._earlier = (0, self._view)
         self._motion: HandMotion | None = None
-
-    @property
-    def held(self) -> Pose:
-        """Transform of the object to the grasp centre at the last look."""
-        return self._held
 
     @property
     def motion(self) -> HandMotion:
         """What happened between the last two looks; nothing, before the second."""
+        # What follows from two looks is worked out only if it is asked for.
         if self._motion is None:
-            then, before, travelled_m = self._earlier
+            (then, before), now = self._earlier, self._view
             span_s = (self._at - then) * self._world.settings.step_s
             if span_s > 0.0:
-                closing = tuple((now - old) / span_s for now, old in zip(self._travel_m, travelled_m, strict=True))
-                self._motion = HandMotion(before, self._held, closing, span_s)
+                closing = tuple(
+                    (end - start) / span_s for end, start in zip(now.travel_m, before.travel_m, strict=True)
+                )
+                self._motion = HandMotion(before.held, now.held, closing, span_s)
             else:
-                still = (0.0,) * len(self._travel_m)
-                self._motion = HandMotion(self._held, self._held, still, self._world.settings.step_s)
+                still = (0.0,) * len(now.travel_m)
+                self._motion = HandMotion(now.held, now.held, still, self._world.settings.step_s)
         return self._motion
 
-    def look(self, steps: int) -> Pose:
+    def look(self, steps: int) -> HandView:
         """Look again.
 
         Args:
             steps: Steps since the first look.
 
         Returns:
-            Transform of the object to the grasp centre now.
+            What is seen now.
         """
-        if steps == self._at:
-            return self._held
-        # What follows from two looks is worked out only if it is asked for.
-        self._earlier, self._motion = (self._at, self._held, self._travel_m), None
-        self._at = steps
-        self._held, self._travel_m = self._look()
-        return self._held
-
-    def _look(self) -> tuple[Pose, tuple[float, ...]]:
-        world = self._world
-        return world.workpiece_pose().seen_from(world.tool_pose()), world.finger_travel_m()
+        if steps != self._at:
+            self._earlier, self._motion = (self._at, self._view), None
+            self._at = steps
+            self._view = self._world.hand_view()
+        return self._view

@@ -6,6 +6,7 @@ import hashlib
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -138,8 +139,12 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
     return TaskPlan(moves=moves, lift_rad=lift, clock=settings.clock)
 
 
-def _configurations(cell: Workcell) -> tuple[dict[Waypoint, Array], Array | None]:
-    """One configuration for each waypoint: collision-free in every move that meets there, least travel."""
+@lru_cache(maxsize=4)
+def _configurations(cell: Workcell) -> tuple[Mapping[Waypoint, Array], Array | None]:
+    """One configuration for each waypoint: collision-free in every move that meets there, least travel.
+
+    They are the same for every planner and seed, and so worked out once for a workcell.
+    """
     models = cell.planning
     inverse = InverseKinematics(cell.arm)
     poses = waypoint_poses(cell.scene)
@@ -163,6 +168,7 @@ def _configurations(cell: Workcell) -> tuple[dict[Waypoint, Array], Array | None
         del stops[Waypoint.LIFT]
         return stops, None
     stops[Waypoint.LIFT] = lift[-1]
+    lift.setflags(write=False)
     return stops, lift
 
 

@@ -19,8 +19,8 @@ class SampledTrajectory(Protocol):
     def duration_s(self) -> float:
         """Its length in time."""
 
-    def sample(self, times_s: Array) -> tuple[Array, Array, Array]:
-        """Joint positions, velocities and accelerations, each (n, 6), at times (n,)."""
+    def positions(self, times_s: Array) -> Array:
+        """Joint positions (n, 6) at times (n,)."""
 
 
 class ToolPositions(Protocol):
@@ -70,7 +70,7 @@ def reference_of(
     """
     steps = max(1, math.ceil(trajectory.duration_s / step_s - 1e-9))
     times = np.minimum(np.arange(steps + 1) * step_s, trajectory.duration_s)
-    positions, _, _ = trajectory.sample(times)
+    positions = trajectory.positions(times)
     velocities = np.diff(positions, axis=0) / step_s
     tool_m = np.asarray(tool.tool_position(positions))
     tool_velocity = np.diff(tool_m, axis=0) / step_s

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Sequence
 
 from rgss.evidence import Failure, Metric
 from rgss.grasping import GraspMemory
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
-from rgss.trials.arm_watch import ArmWatch, ToolKinematics
+from rgss.trials.arm_watch import ArmWatch, Array, ToolKinematics
 from rgss.trials.control import ControlSettings
 from rgss.trials.grasp_watch import GraspWatch
 
@@ -33,6 +34,7 @@ class Watch:
         *,
         carried_at: Pose | None,
         resting_on: str,
+        path_m: Sequence[Sequence[float]] | Array = (),
         memory: GraspMemory | None = None,
     ) -> None:
         """Begin to watch.
@@ -44,6 +46,8 @@ class Watch:
             carried_at: Transform of the object to the grasp centre when it was grasped; None
                 when it is not carried.
             resting_on: The body that the object may touch in this phase; empty for none.
+            path_m: Where the tool should be in the world, at the start of a move and after each of its steps; empty
+                where the arm is held.
             memory: Remembers the analysis of a carried object's grasp from one phase to the next.
         """
         self.failure: Failure | None = None
@@ -55,7 +59,10 @@ class Watch:
         self._friction = world.gripper.friction * world.scene.workpiece.friction
         self._mass_kg = world.scene.workpiece.mass_kg
         self._step_s = world.settings.step_s
-        self._forces_n: deque[float] = deque(maxlen=max(1, round(control.force_window_s * world.settings.rate_hz)))
+        self._window = max(1, round(control.force_window_s * world.settings.rate_hz))
+        self._forces_n: deque[float] = deque(maxlen=self._window)
+        self._as_it_may = ((), (resting_on,))
+        self._limit_n = world.scene.workpiece.force_limit_n
         self._lost_s = 0.0
         self._touches = 0
         self._peak_force_n = 0.0
@@ -63,34 +70,32 @@ class Watch:
         # While the hand is empty and moves, the object stands.
         self._is_empty_handed = carried_at is None
         self._standing: Contacts | None = None
-        self._arm = ArmWatch(kinematics, world.scene.robot, control, world.settings)
+        self._arm = ArmWatch(kinematics, world.scene.robot, control, world.settings, path_m=path_m)
         self._grasp = None if carried_at is None else GraspWatch(world, control, carried_at, memory or GraspMemory())
 
-    def after_step(
-        self, load_m_s2: float, target: tuple[tuple[float, ...], tuple[float, float, float]] | None
-    ) -> Contacts:
+    def after_step(self, load_m_s2: float, target_rad: Sequence[float] | None) -> Contacts:
         """Observe the world after a step.
 
         Args:
             load_m_s2: Tool acceleration minus gravity, in magnitude.
-            target: Where the joints (rad) and the tool (m, in the world) should be; None where the arm is held.
+            target_rad: Where the joints should be; None where the arm is held.
         """
-        contacts = self._world.contacts(self._standing)
+        world = self._world
+        contacts = world.contacts(self._standing)
         # What was seen in the step before, and was right then, is right now.
         if contacts is not self._standing:
             self._watch_touching(contacts)
-            if self._is_empty_handed and target is not None and not contacts.is_robot_touching:
-                self._standing = contacts
-            else:
-                self._standing = None
-        state = self._world.arm_state()
-        if target is None:
-            self._arm.note(state)
-        elif (stray := self._arm.follow(state, *target)) is not None:
+            is_standing = self._is_empty_handed and target_rad is not None and not contacts.is_robot_touching
+            self._standing = contacts if is_standing else None
+        if target_rad is None:
+            self._arm.note(world.arm_state())
+        elif (stray := self._arm.follow(world.arm_state(), target_rad)) is not None:
             self.fail(Failure.TRACKING_ERROR, stray)
         if self._grasp is not None:
-            self._watch_grip(contacts, load_m_s2)
-            self._watch_slip(self._grasp.after_step())
+            self._watch_grip(contacts.finger_forces_n, load_m_s2)
+            slip_m = self._grasp.after_step()
+            if slip_m is not None:
+                self._watch_slip(slip_m)
         return contacts
 
     def finish(self) -> None:
@@ -116,40 +121,47 @@ class Watch:
         }
 
     def _watch_touching(self, contacts: Contacts) -> None:
-        if contacts.robot_bodies:
+        forces_n, other_n, _, robot_bodies, workpiece_bodies = contacts
+        force_n = max(forces_n)
+        if force_n > self._peak_force_n:
+            self._peak_force_n = force_n
+        # Mostly there is nothing to tell.
+        if not robot_bodies and other_n <= 0.0 and workpiece_bodies in self._as_it_may and force_n <= self._limit_n:
+            return
+        if robot_bodies:
             self._touches += 1
-            link, body = contacts.robot_bodies[0]
+            link, body = robot_bodies[0]
             self.fail(Failure.ARM_COLLISION, f"{link} touched {body}")
-        if contacts.other_force_n > 0.0:
-            self.fail(Failure.OBJECT_COLLISION, f"the arm pressed the object with {contacts.other_force_n:.2f} N")
-        for body in contacts.workpiece_bodies:
+        if other_n > 0.0:
+            self.fail(Failure.OBJECT_COLLISION, f"the arm pressed the object with {other_n:.2f} N")
+        for body in workpiece_bodies:
             if body != self._resting_on:
                 self.fail(Failure.OBJECT_COLLISION, f"the object touched {body}")
-        force = max(contacts.finger_forces_n)
-        if force > self._peak_force_n:
-            self._peak_force_n = force
-        limit = self._world.scene.workpiece.force_limit_n
-        if force > limit:
-            self.fail(Failure.OBJECT_DAMAGED, f"a finger pressed with {force:.2f} N, the object bears {limit:g} N")
+        if force_n > self._limit_n:
+            self.fail(
+                Failure.OBJECT_DAMAGED, f"a finger pressed with {force_n:.2f} N, the object bears {self._limit_n:g} N"
+            )
 
-    def _watch_grip(self, contacts: Contacts, load_m_s2: float) -> None:
-        needed = self._mass_kg * load_m_s2
-        self._forces_n.append(contacts.finger_force_sum_n)
-        if len(self._forces_n) == self._forces_n.maxlen:
-            margin = self._friction * math.fsum(self._forces_n) / len(self._forces_n) / needed
+    def _watch_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:
+        window = self._forces_n
+        window.append(sum(forces_n))
+        if len(window) == self._window:
+            margin = self._friction * math.fsum(window) / self._window / (self._mass_kg * load_m_s2)
             self.grip_margin = margin
-            self._margin = min(self._margin, margin)
+            if margin < self._margin:
+                self._margin = margin
         # Mostly all of them press, which is told at once.
-        if min(contacts.finger_forces_n) > 0.0 or contacts.fingers_touching >= _FEWEST_FINGERS:
+        if min(forces_n) > 0.0:
+            self._lost_s = 0.0
+            return
+        touching = sum(force > 0.0 for force in forces_n)
+        if touching >= _FEWEST_FINGERS:
             self._lost_s = 0.0
             return
         self._lost_s += self._step_s
         if self._lost_s >= self._control.lost_contact_s:
-            self.fail(
-                Failure.OBJECT_DROPPED,
-                f"{contacts.fingers_touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms",
-            )
+            self.fail(Failure.OBJECT_DROPPED, f"{touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms")
 
-    def _watch_slip(self, slip_m: float | None) -> None:
-        if slip_m is not None and slip_m > self._control.largest_slip_m:
+    def _watch_slip(self, slip_m: float) -> None:
+        if slip_m > self._control.largest_slip_m:
             self.fail(Failure.OBJECT_DROPPED, f"the object slipped {slip_m * 1e3:.1f} mm in the gripper")

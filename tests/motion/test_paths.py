@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rgss.motion import JointPath, path_length, segment_states
-from rgss.motion.paths import coarse_to_fine, is_path_valid
+from rgss.motion.paths import coarse_to_fine, path_states
 
 
 def test_length_is_the_sum_of_the_steps():
@@ -52,20 +52,14 @@ def test_coarse_to_fine_finds_the_middle_early():
     assert coarse_to_fine(8)[:4] == (7, 3, 1, 5)
 
 
-def test_every_state_of_a_path_is_tried():
-    tried = []
+def test_the_states_of_a_path_are_its_first_corner_and_those_of_its_segments():
     points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
-    assert is_path_valid(points, lambda q: tried.append(tuple(np.round(q, 6))) is None, 0.25)
-    assert tried == [(0, 0), *((x, 0) for x in (0.25, 0.5, 0.75, 1.0)), *((1, y) for y in (0.25, 0.5, 0.75, 1.0))]
+    states = [tuple(state) for state in path_states(points, 0.25).tolist()]
+    assert states == [(0, 0), *((x, 0) for x in (0.25, 0.5, 0.75, 1.0)), *((1, y) for y in (0.25, 0.5, 0.75, 1.0))]
+    assert path_states(points[:1], 0.25).tolist() == [[0.0, 0.0]]
 
 
-@pytest.mark.parametrize("bad", [(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 1.0)])
-def test_one_bad_state_makes_a_path_invalid(bad):
-    points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
-    assert not is_path_valid(points, lambda q: not np.allclose(q, bad), 0.25)
-
-
-def test_a_thin_thing_is_found_by_a_denser_check():
-    points = np.array([[0.0, 0.0], [1.0, 0.0]])
-    assert is_path_valid(points, lambda q: not 0.55 < q[0] < 0.7, 0.25)
-    assert not is_path_valid(points, lambda q: not 0.55 < q[0] < 0.7, 0.25, density=2)
+def test_denser_states_of_a_path_hold_the_others():
+    points = np.array([[0.0, 0.0], [1.0, 0.3], [0.2, 1.0]])
+    coarse, fine = path_states(points, 0.25), path_states(points, 0.25, density=3)
+    assert fine[::3] == pytest.approx(coarse, abs=1e-15)

@@ -16,7 +16,7 @@ import pytest
 from rgss.errors import MotionError
 from rgss.evidence.outcomes import PlanOutcome
 from rgss.motion import PLANNERS, ClockKind, PlanningClock, outcome_within, plan
-from rgss.motion.paths import is_path_valid
+from rgss.motion.paths import path_states
 
 pytestmark = pytest.mark.engine
 
@@ -45,7 +45,7 @@ def test_a_path_leads_from_start_to_goal_and_is_valid_throughout(planned, throug
     assert result.outcome is PlanOutcome.SOLVED
     assert tuple(points[0]) == through_the_doorway.start
     assert tuple(points[-1]) == through_the_doorway.goal
-    assert is_path_valid(points, wall.is_valid, through_the_doorway.resolution_rad)
+    assert all(map(wall.is_valid, path_states(points, through_the_doorway.resolution_rad)))
     assert np.all(np.abs(points) <= 2.0)
 
 
@@ -53,7 +53,7 @@ def test_a_path_leads_from_start_to_goal_and_is_valid_throughout(planned, throug
 def test_without_simplification_the_path_is_valid_too(planned, through_the_doorway, wall, planner):
     for seed in range(5):
         result = planned(planner, seed=seed)
-        assert is_path_valid(result.path.points_rad, wall.is_valid, through_the_doorway.resolution_rad)
+        assert all(map(wall.is_valid, path_states(result.path.points_rad, through_the_doorway.resolution_rad)))
         assert result.simplification_checks == 0
 
 

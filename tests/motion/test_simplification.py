@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rgss.motion import path_length
-from rgss.motion.paths import is_path_valid
+from rgss.motion.paths import path_states
 from rgss.motion.simplification import shorten
 
 RESOLUTION = 0.05
@@ -25,7 +25,7 @@ def wandering(seed, corners=8):
 def shortened(wall, path, *, seed=0, budget=1000):
     return shorten(
         path,
-        wall.is_valid,
+        wall,
         generator=np.random.default_rng(seed),
         budget_checks=budget,
         resolution_rad=RESOLUTION,
@@ -36,10 +36,30 @@ def shortened(wall, path, *, seed=0, budget=1000):
 def test_the_result_is_valid_shorter_and_keeps_its_ends(wall, seed):
     path = wandering(seed)
     result, _ = shortened(wall, path, seed=seed)
-    assert is_path_valid(result, wall.is_valid, RESOLUTION, density=4)
+    assert all(map(wall.is_valid, path_states(result, RESOLUTION, density=4)))
     assert path_length(result) < 0.6 * path_length(path)
     assert np.array_equal(result[0], path[0])
     assert np.array_equal(result[-1], path[-1])
+
+
+class Batched:
+    """A validity that answers for many states at once."""
+
+    def __init__(self, validity):
+        self._validity = validity
+
+    def is_valid(self, q):
+        raise AssertionError("one state at a time")
+
+    def first_invalid_between(self, qs):
+        return next((index for index, q in enumerate(qs) if not self._validity.is_valid(q)), None)
+
+
+@pytest.mark.parametrize("budget", [3, 40, 500, 2500])
+def test_many_states_at_once_give_what_one_after_another_gives(wall, budget):
+    one, other = shortened(wall, wandering(6), budget=budget), shortened(Batched(wall), wandering(6), budget=budget)
+    assert np.array_equal(one[0], other[0])
+    assert one[1] == other[1]
 
 
 @pytest.mark.parametrize("budget", [0, 1, 17, 200, 1000, 5000])
@@ -93,9 +113,8 @@ def test_a_shortcut_that_touches_between_the_checked_states_is_taken_back():
 
     path = np.array([[0.0, 0.0], [0.3, 0.6], [0.7, 0.6], [1.0, 0.0]])
     post = ThinPost()
-    assert is_path_valid(np.array([path[0], path[-1]]), post.is_valid, 0.031)
-    assert not is_path_valid(np.array([path[0], path[-1]]), post.is_valid, 0.031, density=4)
-    result, _ = shorten(
-        path, post.is_valid, generator=np.random.default_rng(0), budget_checks=2000, resolution_rad=0.031
-    )
-    assert is_path_valid(result, post.is_valid, 0.031, density=4)
+    straight = path[[0, -1]]
+    assert all(map(post.is_valid, path_states(straight, 0.031)))
+    assert not all(map(post.is_valid, path_states(straight, 0.031, density=4)))
+    result, _ = shorten(path, post, generator=np.random.default_rng(0), budget_checks=2000, resolution_rad=0.031)
+    assert all(map(post.is_valid, path_states(result, 0.031, density=4)))

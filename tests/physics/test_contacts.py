@@ -11,6 +11,8 @@ from rgss.physics import Contacts, PhysicsSettings, World
 from rgss.scenes import Pose
 from rgss.scenes.assembly import assembled_urdf
 
+# What the engine tells of a point before its friction.
+NOT_ASKED = (None,) * 10
 ELSEWHERE = Pose(position_m=(-1.8, 1.8, 0.05))
 
 
@@ -18,9 +20,9 @@ def test_sums_and_counts_follow_from_the_forces():
     contacts = Contacts(
         finger_forces_n=(1.5, 0.0, 2.5),
         other_force_n=0.0,
-        frictions=(
-            (-1.0, 2.0, (0.0, 0.0, -1.0), 3.0, (0.0, 1.0, 0.0)),
-            (1.0, 1.0, (0.0, 0.0, -1.0), 4.0, (1.0, 0.0, 0.0)),
+        pressed=(
+            (-1.0, (*NOT_ASKED, 2.0, (0.0, 0.0, -1.0), 3.0, (0.0, 1.0, 0.0))),
+            (1.0, (*NOT_ASKED, 1.0, (0.0, 0.0, -1.0), 4.0, (1.0, 0.0, 0.0))),
         ),
         robot_bodies=(),
         workpiece_bodies=(),

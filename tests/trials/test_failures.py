@@ -349,7 +349,7 @@ class StickyWorld(World):
 
     def contacts(self, standing=None):
         contacts = super().contacts(standing)
-        return replace(contacts, finger_forces_n=(0.1, 0.0)) if self._opened > 1 else contacts
+        return contacts._replace(finger_forces_n=(0.1, 0.0)) if self._opened > 1 else contacts
 
 
 @pytest.mark.verifies("SYS-008")

@@ -30,9 +30,8 @@ class Along:
         self.configurations_rad = np.array(configurations_rad)
         self.duration_s = (len(configurations_rad) - 1) / RATE_HZ
 
-    def sample(self, times_s):
-        rows = self.configurations_rad[np.rint(np.asarray(times_s) * RATE_HZ).astype(int)]
-        return rows, rows, rows
+    def positions(self, times_s):
+        return self.configurations_rad[np.rint(np.asarray(times_s) * RATE_HZ).astype(int)]
 
 
 class Notes:

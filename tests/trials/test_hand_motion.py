@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from rgss.physics import PhysicsSettings
+from rgss.physics import HandView, PhysicsSettings
 from rgss.scenes import Pose
 from rgss.trials.hand_motion import HandMotion, HandWatch
 
@@ -65,30 +67,31 @@ class Hand:
         self.workpiece = self.tool @ HELD
         self.travel = (0.0, 0.0)
 
-    def tool_pose(self):
-        return self.tool
-
-    def workpiece_pose(self):
-        return self.workpiece
-
-    def finger_travel_m(self):
-        return self.travel
+    def hand_view(self):
+        return HandView(
+            self.workpiece.position_m,
+            self.workpiece.quaternion_xyzw,
+            self.tool.position_m,
+            self.tool.quaternion_xyzw,
+            (0.0, 0.0, 0.0),
+            self.travel,
+        )
 
 
 def test_the_last_two_looks_make_a_motion():
     hand = Hand()
     watch = HandWatch(hand)
-    assert watch.held.position_m == pytest.approx(HELD.position_m)
+    assert watch.look(0).held.position_m == pytest.approx(HELD.position_m)
     assert watch.motion.closing_m_s == (0.0, 0.0)
     assert watch.motion.before == watch.motion.held
 
     hand.travel = (0.001, 0.002)
     hand.workpiece = hand.tool @ shifted(HELD, 0.0, 0.0, 0.003)
-    held = watch.look(10)
+    held = watch.look(10).held
     assert watch.motion.span_s == pytest.approx(0.1)
     assert watch.motion.closing_m_s == pytest.approx((0.01, 0.02))
     assert watch.motion.twist()[0] == pytest.approx((0.0, 0.0, 0.03))
-    assert held == watch.held == watch.motion.held
+    assert held == watch.motion.held
 
     # The arm takes the object with it: nothing moves in the hand.
     hand.tool = Pose.from_roll_pitch_yaw((0.0, 1.0, 2.0), (0.3, 0.2, 0.1))
@@ -107,3 +110,23 @@ def test_looking_twice_at_the_same_time_changes_nothing():
     watch.look(5)
 
     assert watch.motion is before
+
+
+@given(angles=st.tuples(*[st.floats(-3.0, 3.0)] * 6), places=st.tuples(*[st.floats(-2.0, 2.0)] * 9))
+def test_where_the_object_is_held_is_told_to_the_bit_as_by_the_transform(angles, places):
+    flange, workpiece = (
+        Pose.from_roll_pitch_yaw(places[:3], angles[:3]),
+        Pose.from_roll_pitch_yaw(places[3:6], angles[3:]),
+    )
+    centre = Pose(position_m=places[6:])
+    view = HandView(
+        workpiece.position_m,
+        workpiece.quaternion_xyzw,
+        flange.position_m,
+        flange.quaternion_xyzw,
+        centre.position_m,
+        (),
+    )
+    assert view.held_at_m == view.held.position_m
+    assert view.tool.position_m == pytest.approx((flange @ centre).position_m)
+    assert view.held_at_m == pytest.approx(((flange @ centre).inverse() @ workpiece).position_m, abs=1e-9)

@@ -16,7 +16,7 @@ import pytest
 
 from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, PlanOutcome
 from rgss.motion import PlanningClock, TimingOutcome
-from rgss.physics import Contacts, PhysicsSettings
+from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.requirements import StateKind, load_requirements
 from rgss.scenes import Pose
 from rgss.trials import timing
@@ -244,7 +244,7 @@ class ScriptedWorld:
         return Contacts(
             finger_forces_n=(force_n,) * self.gripper.geometry.fingers,
             other_force_n=1.0 if self.wrong == "the arm presses the object" else 0.0,
-            frictions=(),
+            pressed=(),
             robot_bodies=(("forearm", "column"),) if self.wrong == "the arm touches the scene" else (),
             workpiece_bodies=("column",) if self.wrong == "the object touches the scene" else (),
         )
@@ -263,8 +263,16 @@ class ScriptedWorld:
             return replace(self._object, quaternion_xyzw=(math.sin(half), 0.0, 0.0, math.cos(half)))
         return self._object
 
-    def tool_pose(self):
-        return self.scene.grasp
+    def hand_view(self):
+        workpiece, tool = self.workpiece_pose(), self.scene.grasp
+        return HandView(
+            workpiece.position_m,
+            workpiece.quaternion_xyzw,
+            tool.position_m,
+            tool.quaternion_xyzw,
+            (0.0, 0.0, 0.0),
+            self.finger_travel_m(),
+        )
 
     @property
     def reach_m(self):

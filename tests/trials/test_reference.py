@@ -22,9 +22,9 @@ class Scaled:
     duration_s: float
     angle_at: Any
 
-    def sample(self, times_s):
+    def positions(self, times_s):
         angles = self.angle_at(np.asarray(times_s))
-        return np.repeat(angles[:, None], 6, axis=1), None, None
+        return np.repeat(angles[:, None], 6, axis=1)
 
 
 class Slider:

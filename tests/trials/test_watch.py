@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from rgss.evidence import Failure
-from rgss.physics import Contacts, PhysicsSettings
+from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.scenes import Pose
 from rgss.trials.control import ControlSettings
 from rgss.trials.watch import Watch
 
 CONTROL = ControlSettings()
-QUIET = Contacts(finger_forces_n=(0.0, 0.0, 0.0), other_force_n=0.0, frictions=(), robot_bodies=(), workpiece_bodies=())
+QUIET = Contacts(finger_forces_n=(0.0, 0.0, 0.0), other_force_n=0.0, pressed=(), robot_bodies=(), workpiece_bodies=())
 TOOL = Pose(position_m=(0.1, 0.2, 0.3), quaternion_xyzw=(1.0, 0.0, 0.0, 0.0))
 HELD = Pose(position_m=(0.0, 0.0, 0.01))
 
@@ -43,8 +43,16 @@ class ScriptedWorld:
     def finger_travel_m(self):
         return (0.0,) * self.gripper.geometry.fingers
 
-    def tool_pose(self):
-        return self.tool
+    def hand_view(self):
+        workpiece, tool = self.workpiece_pose(), self.tool
+        return HandView(
+            workpiece.position_m,
+            workpiece.quaternion_xyzw,
+            tool.position_m,
+            tool.quaternion_xyzw,
+            (0.0, 0.0, 0.0),
+            self.finger_travel_m(),
+        )
 
     def workpiece_pose(self):
         return self.workpiece
@@ -63,14 +71,16 @@ def world(spec_of):
 
 
 def watch_of(world, *, carried=False, resting_on=""):
-    return Watch(world, world, CONTROL, carried_at=HELD if carried else None, resting_on=resting_on)
+    world.path_m = [TOOL.position_m]
+    held = HELD if carried else None
+    return Watch(world, world, CONTROL, carried_at=held, resting_on=resting_on, path_m=world.path_m)
 
 
 def contacts(*forces, other=0.0, robot=(), workpiece=()):
     return Contacts(
         finger_forces_n=forces or (0.0, 0.0),
         other_force_n=other,
-        frictions=(),
+        pressed=(),
         robot_bodies=robot,
         workpiece_bodies=workpiece,
     )
@@ -231,7 +241,8 @@ def test_a_sample_at_the_end_is_not_counted_twice(world):
 
 def follow(world, watch, commanded, steps=1):
     for _ in range(steps):
-        watch.after_step(9.81, ((*commanded, 0.0, 0.0, 0.0), commanded))
+        world.path_m.append(commanded)
+        watch.after_step(9.81, (*commanded, 0.0, 0.0, 0.0))
 
 
 def test_a_tool_that_strays_is_a_failure(world):
