@@ -117,11 +117,15 @@ class CollisionModel:
                 within these itself.
         """
         collide, model, data, manager = self._engine.computeCollisions, self._model, self._data, self._manager
-        least, vertical, axis = self._least_upright, self._wrist_vertical, self._axis_in_wrist
+        least = self._least_upright
+        if least is None:
+            for index, q in enumerate(qs):
+                if collide(model, data, manager, q, _STOP_AT_FIRST):
+                    return index
+            return None
+        tilt, axis = self._wrist_vertical.dot, self._axis_in_wrist
         for index, q in enumerate(qs):
-            if collide(model, data, manager, q, _STOP_AT_FIRST):
-                return index
-            if least is not None and vertical.dot(axis) < least:
+            if collide(model, data, manager, q, _STOP_AT_FIRST) or tilt(axis) < least:
                 return index
         return None
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-from collections.abc import Callable, Iterator
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,7 +97,7 @@ def _improvements(
 ) -> Iterator[Vector]:
     def joined(start: Vector, end: Vector) -> bool:
         states = segment_states(start, end, resolution_rad)
-        return check.are_valid(states[list(coarse_to_fine(len(states)))])
+        return check.are_valid(states[_coarse_to_fine(len(states))])
 
     path = points
     for stage in (_skip_corners, _pull_rope):
@@ -119,7 +121,7 @@ def _skip_corners(path: Vector, joined: Callable[[Vector, Vector], bool]) -> Ite
 def _pull_rope(path: Vector, joined: Callable[[Vector, Vector], bool]) -> Iterator[Vector]:
     while True:
         rope = _subdivided(path, _ROPE_STRETCHES)
-        along = _arc_lengths(rope)
+        along = np.array(_arc_lengths(rope))
         direct = np.linalg.norm(rope[:, None] - rope[None], axis=2)
         starts, ends = np.triu_indices(len(rope), 2)
         gains = (along[ends] - along[starts]) - direct[starts, ends]
@@ -137,13 +139,11 @@ def _pull_rope(path: Vector, joined: Callable[[Vector, Vector], bool]) -> Iterat
 def _random_shortcuts(
     path: Vector, joined: Callable[[Vector, Vector], bool], generator: np.random.Generator
 ) -> Iterator[Vector]:
-    fruitless = 0
+    fruitless, along = 0, _arc_lengths(path)
     while fruitless < _LARGEST_FRUITLESS_RUN:
         fruitless += 1
-        along = _arc_lengths(path)
-        first, last = np.sort(generator.random(2)) * along[-1]
-        start = int(np.searchsorted(along, first, side="right"))
-        stop = int(np.searchsorted(along, last, side="left"))
+        first, last = sorted(part * along[-1] for part in generator.random(2).tolist())
+        start, stop = bisect_right(along, first), bisect_left(along, last)
         if start >= stop:
             continue
         entry, leave = _at(path, along, start - 1, first), _at(path, along, stop - 1, last)
@@ -152,16 +152,23 @@ def _random_shortcuts(
             joined(one, other) for one, other in ((entry, leave), (path[start - 1], entry), (leave, path[stop]))
         ):
             path = _without_straight_corners(np.vstack([path[:start], entry, leave, path[stop:]]))
-            fruitless = 0
+            fruitless, along = 0, _arc_lengths(path)
             yield path
 
 
-def _arc_lengths(path: Vector) -> Vector:
-    steps: Vector = np.linalg.norm(np.diff(path, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+def _arc_lengths(path: Vector) -> list[float]:
+    """How far each corner is from the first along the path."""
+    steps = np.linalg.norm(np.diff(path, axis=0), axis=1).tolist()
+    return list(itertools.accumulate(steps, initial=0.0))
 
 
-def _at(path: Vector, along: Vector, segment: int, distance: float) -> Vector:
+@lru_cache(maxsize=1024)
+def _coarse_to_fine(count: int) -> NDArray[np.int64]:
+    """`coarse_to_fine` as what picks rows; not to be written to."""
+    return np.array(coarse_to_fine(count), dtype=np.int64)
+
+
+def _at(path: Vector, along: Sequence[float], segment: int, distance: float) -> Vector:
     fraction = (distance - along[segment]) / (along[segment + 1] - along[segment])
     point: Vector = path[segment] + fraction * (path[segment + 1] - path[segment])
     return point

@@ -216,8 +216,8 @@ class World:
     def _renew_contacts_after_rotation(self) -> None:
         _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
         if not self._to_renew:
-            cosine = abs(sum(a * b for a, b in zip(turned, self._renewed_at, strict=True)))
-            if cosine >= _RENEWAL_COSINE:
+            (ax, ay, az, aw), (bx, by, bz, bw) = turned, self._renewed_at
+            if abs(ax * bx + ay * by + az * bz + aw * bw) >= _RENEWAL_COSINE:
                 return
             self._renewed_at = turned
             self._to_renew = list(self._finger_joints)
