@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rgss.findings import printable
 
+_PIECES_AT_ONCE = 100_000
+
 
 def print_json(value: Any) -> None:
-    """Print one JSON document."""
-    print(json.dumps(value, indent=2, allow_nan=False, ensure_ascii=False))
+    """Print one JSON document, as it is written: a hundred megabytes need no second copy in memory."""
+    pieces = json.JSONEncoder(indent=2, allow_nan=False, ensure_ascii=False).iterencode(value)
+    while text := "".join(itertools.islice(pieces, _PIECES_AT_ONCE)):
+        print(text, end="")
+    print()
 
 
 def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = ()) -> None:

@@ -162,23 +162,31 @@ def _make(order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: Tria
             with _progress(len(film)) as advance:
                 write_film(
                     files["gif"],
-                    lambda index: captioned(film, index),
+                    lambda index: captioned(film, index, record),
                     count=len(film),
                     rate_hz=order.rate_hz,
                     on_frame=advance,
                 )
 
 
-def captioned(film: Film, index: int) -> CaptionedPicture:
-    """A frame of a film with its time and phase written into it."""
+def captioned(film: Film, index: int, record: TrialRecord) -> CaptionedPicture:
+    """A frame of a film with its time and phase written into it, and in the last how the trial ended."""
     from rgss.evidence import Phase
     from rgss.reports.film import CaptionedPicture
     from rgss.reports.lettering import words
 
+    def titled(phase: Phase) -> str:
+        return f"{list(Phase).index(phase) + 1} {words(phase.value)}"
+
     frame = film.frame(index)
     phase = frame.span.phase
-    number = list(Phase).index(phase) + 1
-    return CaptionedPicture(picture=frame.picture, caption=f"{frame.time_s:.2f} s   {number} {words(phase.value)}")
+    caption = f"{frame.time_s:.2f} s   {titled(phase)}"
+    if index == len(film) - 1:
+        # A state that nothing moved in has no frame of its own.
+        if record.failed_phase not in (None, phase):
+            caption += f"; {titled(record.failed_phase)}"
+        caption += f": {'done' if record.failure is None else words(record.failure.value)}"
+    return CaptionedPicture(picture=frame.picture, caption=caption)
 
 
 def _require_packages() -> None:

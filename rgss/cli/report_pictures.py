@@ -112,7 +112,8 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
     strip, film = (b"", b"") if trace is None else _drawn(spec, one, trace, look)
     label = project.study.label
     named = "" if label == DEFAULT_STUDY else f" --study {shlex.quote(label)}"
-    end = "It succeeded." if one.record.success else f"{one.record.failure_detail}."
+    detail = one.record.failure_detail
+    end = "It succeeded." if one.record.success else f"{detail[:1].upper()}{detail[1:]}."
     return TrialPictures(
         title=f"Variant {one.record.variant}, seed {one.record.seed}: {one.why}",
         note=end if same else f"{end} Run again, it did not give the same bits.",
@@ -143,5 +144,5 @@ def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook
     ):
         strip, gif = Path(folder) / "strip.png", Path(folder) / "film.gif"
         write_filmstrip(strip, one.record, {frame.span.phase: frame.picture for frame in film.ends_of_phases()})
-        write_film(gif, lambda index: captioned(film, index), count=len(film), rate_hz=look.rate_hz)
+        write_film(gif, lambda index: captioned(film, index, one.record), count=len(film), rate_hz=look.rate_hz)
         return strip.read_bytes(), gif.read_bytes()

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rgss.studies.measuring import VariantMeasures
     from rgss.studies.project import Project
     from rgss.studies.recorded_verdicts import VerdictRecord
+    from rgss.tradeoff import Decision
 
 HELP = "write the decision and everything that it stands on as one HTML page"
 EXAMPLE = "rgss report --out report.html"
@@ -62,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.evidence import EvidenceStore
     from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
     from rgss.reports.report_page import study_report_to_html
-    from rgss.studies.choosing import choose
+    from rgss.studies.choosing import choose, trade_problem
     from rgss.studies.measuring import require_complete
     from rgss.studies.recorded_verdicts import read_record
     from rgss.studies.report_document import report_document
@@ -83,9 +84,10 @@ def run(options: argparse.Namespace) -> int:
             require_complete(measured)
         except EvidenceError as error:
             raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
-        decision = choose(project, measured)
-        trace = _trace(project, measured, recorded, options.junit)
-        found = analyse_robustness(project, measured, decision)
+        problem = trade_problem(project, measured)
+        decision = choose(project, measured, problem=problem)
+        trace = _trace(project, measured, decision, recorded, options.junit)
+        found = analyse_robustness(project, measured, decision, problem=problem)
         document = report_document(
             project,
             measured,
@@ -134,7 +136,11 @@ def _sweep_command(options: argparse.Namespace) -> str:
 
 
 def _trace(
-    project: Project, measured: Sequence[VariantMeasures], recorded: VerdictRecord, junit: Path | None
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    decision: Decision,
+    recorded: VerdictRecord,
+    junit: Path | None,
 ) -> TraceReport:
     from rgss.errors import DefinitionError
     from rgss.reports.trace_report import trace_report
@@ -147,7 +153,7 @@ def _trace(
         raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
     return trace_report(
         build_trace_model(project.requirements, project.measure_traces),
-        trace_evidence(project, measured, state),
+        trace_evidence(project, measured, state, decision=decision),
         title=f"Traceability of the study {project.study.id}",
         definitions=project.measures,
     )

@@ -34,7 +34,8 @@ def run(options: argparse.Namespace) -> int:
     """List the variants."""
     import sys
 
-    from rgss.cli.output import print_json, print_table
+    from rgss.cli.output import print_json
+    from rgss.cli.variants_table import print_variants
     from rgss.designs import picked, variants_csv
 
     designs = chosen_project(options).designs
@@ -44,12 +45,7 @@ def run(options: argparse.Namespace) -> int:
     elif options.format == "csv":
         sys.stdout.write(variants_csv(variants))
     else:
-        titles = ["id", *variants[0].columns()] if variants else ["id"]
-        rows = [
-            [str(variant.id), *(f"{v:g}" if isinstance(v, float) else str(v) for v in variant.columns().values())]
-            for variant in variants
-        ]
-        print_table(titles, rows, right=range(len(titles)))
+        print_variants(designs, variants)
     for line in _left_out(designs):
         print(f"rgss: {line}", file=sys.stderr)
     return 0

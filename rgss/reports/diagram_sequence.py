@@ -125,20 +125,28 @@ def _draw_bounds(
 ) -> float:
     """Write each bound beside its messages, in a column of its own; returns the new right edge."""
     places = {row.message.id: row.y for row in rows}
-    for timing in interaction.timings:
-        first, last = sorted((places[timing.first], places[timing.last]))
-        x = right + 18
-        lines = tuple(line for text in _bound(timing, bounds) for line in wrapped(text, _BOUND, SMALL))
+    texts = [
+        tuple(line for text in _bound(timing, bounds) for line in wrapped(text, _BOUND, SMALL))
+        for timing in interaction.timings
+    ]
+    columns = []
+    for lines in texts:
+        columns.append(right + 18)
+        right = columns[-1] + 8 + max(text_width(line, SMALL) for line in lines)
+    ends = [sorted((places[timing.first], places[timing.last])) for timing in interaction.timings]
+    # The lines of all come first, so that those of one bound strike through no words of another.
+    for x, heights in zip(columns, ends, strict=True):
+        for y in heights:
+            canvas.line([(_MARGIN, y), (x - 8, y)], "line dotted thin")
+    for timing, x, (first, last), lines in zip(interaction.timings, columns, ends, texts, strict=True):
         with canvas.group(" ".join(_bound(timing, bounds))):
             for y in (first, last):
                 canvas.line([(x - 8, y), (x + 8, y)], "line thin")
-                canvas.line([(_MARGIN, y), (x - 8, y)], "line dotted thin")
             canvas.line([(x, first), (x, last)], "line")
             canvas.arrow((x, first), (x, last), "open")
             canvas.arrow((x, last), (x, first), "open")
             top = (first + last) / 2 - LINE * SMALL * len(lines) / 2
             canvas.lines(x + 8, top, lines, SMALL, "label", anchor="start")
-        right = x + 8 + max(text_width(line, SMALL) for line in lines)
     return right
 
 

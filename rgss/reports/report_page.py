@@ -34,6 +34,7 @@ LARGEST_PLAIN = 2_000_000
 """A longer document is packed."""
 
 _MOST_REPLAYS = 5
+_COLUMNS = ("value", "low", "high", "n")
 
 _SECTIONS = (
     ("decision", "Decision"),
@@ -96,9 +97,12 @@ def study_report_to_html(
     Raises:
         DefinitionError: The package ``jinja2`` or ``plotly`` is not installed.
     """
-    script = '"use strict";\nconst rgssReport = (data) => {\n' + "\n".join(map(template_text, SCRIPTS)) + "\n};\n"
+    script = (
+        '"use strict";\nconst rgssReport = (data, later) => {\n' + "\n".join(map(template_text, SCRIPTS)) + "\n};\n"
+    )
     plain = embedded_json(document)
     packed = len(plain) > LARGEST_PLAIN
+    first, later = parted(document) if packed else (document, {})
     return render_page(
         "report.html.j2",
         styles=[template_text("report.css")],
@@ -113,13 +117,36 @@ def study_report_to_html(
         report_sections=_SECTIONS,
         pictures=[_picture(one) for one in pictures],
         pictures_notice=pictures_notice,
-        data=_markup(packed_json(plain) if packed else plain),
+        data=_markup(packed_json(embedded_json(first)) if packed else plain),
+        later=_markup(packed_json(embedded_json(later))),
         packed=packed,
         refused=_refused(document["decision"]["refused"]),
         words=value_in_words,
         share=share_in_words,
         **trace_context(trace, drawings=drawings, drawings_notice=drawings_notice),
     )
+
+
+def parted(document: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """A document without the columns of the measures that nothing weighs or demands, and these columns.
+
+    A page with many variants stands sooner without them, and adds them when it does.
+
+    Args:
+        document: What the report shows.
+
+    Returns:
+        The document, and the columns that were taken from it by the measure's id.
+    """
+    wanted = {requirement["measure"] for requirement in document["requirements"]}
+    measures, later = [], {}
+    for measure in document["measures"]:
+        decisive = measure["kind"] == "moe" or measure["weight"] is not None or measure["id"] in wanted
+        columns = {} if decisive else {name: measure[name] for name in _COLUMNS if isinstance(measure.get(name), list)}
+        measures.append({name: value for name, value in measure.items() if name not in columns})
+        if columns:
+            later[measure["id"]] = columns
+    return {**document, "measures": measures}, later
 
 
 def embedded_json(document: Any) -> str:

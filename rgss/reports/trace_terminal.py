@@ -164,7 +164,8 @@ def _short(text: str) -> str:
 def _folded(text: str) -> list[str]:
     import textwrap
 
-    return textwrap.wrap(_safe(" ".join(text.split())), width=100)
+    # An id or the name of a test is whole, so that it can be copied.
+    return textwrap.wrap(_safe(" ".join(text.split())), width=100, break_on_hyphens=False, break_long_words=False)
 
 
 def _safe(text: str) -> str:

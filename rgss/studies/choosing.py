@@ -75,8 +75,13 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
     )
 
 
-def choose(project: Project, measured: Sequence[VariantMeasures]) -> Decision:
+def choose(project: Project, measured: Sequence[VariantMeasures], *, problem: TradeProblem | None = None) -> Decision:
     """Decide which variant is best.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its estimates.
+        problem: What `trade_problem` gives for them, where it is there already.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -84,7 +89,8 @@ def choose(project: Project, measured: Sequence[VariantMeasures]) -> Decision:
         DefinitionError: As for `trade_problem`.
     """
     margin = project.study.trade_off.practical_margin
-    return decide(trade_problem(project, measured), margin=margin, seed=project.study.seed)
+    asked = trade_problem(project, measured) if problem is None else problem
+    return decide(asked, margin=margin, seed=project.study.seed)
 
 
 def double_counting(project: Project) -> tuple[Overlap, ...]:

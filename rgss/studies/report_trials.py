@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rgss.evidence import Failure, Phase, TrialRecord
+from rgss.evidence import Failure, Phase, PhaseOutcome, TrialRecord
 from rgss.studies.measuring import VariantMeasures
 from rgss.studies.report_numbers import Plain, condensed, plain_number, plain_numbers
 from rgss.trace.verdict_evidence import KEY_DIGITS
@@ -33,8 +33,9 @@ def notable_trials(measured: Sequence[VariantMeasures], chosen: int | None) -> t
     """The deciding trial, and one of each kind of failure.
 
     The deciding trial is the first success of the chosen variant in the order of the seeds, or its
-    first trial if none succeeded. A kind of failure is shown by its first trial in the order of
-    variants and seeds.
+    first trial if none succeeded. A kind of failure is shown by its first trial, in the order of
+    variants and seeds, in which a state was completed, so that there is something to see; by its
+    first trial at all if there is none.
 
     Args:
         measured: Every variant with its trials, by ascending id.
@@ -49,9 +50,13 @@ def notable_trials(measured: Sequence[VariantMeasures], chosen: int | None) -> t
     first: dict[Failure, NotableTrial] = {}
     for entry in measured:
         for key, record in zip(entry.trials, entry.records, strict=True):
-            if record.failure is not None and record.failure not in first:
-                why = f"a failure of the kind “{_words(record.failure.value)}”"
-                first[record.failure] = NotableTrial(key=key, record=record, why=why)
+            failure = record.failure
+            if failure is None:
+                continue
+            there = first.get(failure)
+            if there is None or (_moved(record) and not _moved(there.record)):
+                why = f"a failure of the kind “{_words(failure.value)}”"
+                first[failure] = NotableTrial(key=key, record=record, why=why)
     return (*found, *(first[failure] for failure in Failure if failure in first))
 
 
@@ -92,6 +97,10 @@ def trial_columns(measured: Sequence[VariantMeasures], notable: Sequence[Notable
         },
         "every_timeline": every,
     }
+
+
+def _moved(record: TrialRecord) -> bool:
+    return any(phase.outcome is PhaseOutcome.COMPLETED for phase in record.phases)
 
 
 def _timeline(record: TrialRecord) -> Plain:

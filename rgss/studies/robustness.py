@@ -121,7 +121,13 @@ class Robustness:
     refused: Mapping[str, str]
 
 
-def analyse_robustness(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> Robustness:
+def analyse_robustness(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    decision: Decision,
+    *,
+    problem: TradeProblem | None = None,
+) -> Robustness:
     """Question a decision from every side.
 
     Nothing is simulated; randomness comes from the study's seed alone, so that the same evidence
@@ -131,13 +137,14 @@ def analyse_robustness(project: Project, measured: Sequence[VariantMeasures], de
         project: The project with its study.
         measured: Every variant with its estimates and records, by ascending id.
         decision: What was decided.
+        problem: What `trade_problem` gives for them, where it is there already.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
         TradeoffError: The choice is ill posed.
         DefinitionError: As for `trade_problem`.
     """
-    problem = trade_problem(project, measured)
+    problem = trade_problem(project, measured) if problem is None else problem
     enumeration = enumerate_alternatives(problem)
     table, feasible = enumeration.table, enumeration.feasible
     refused: dict[str, str] = {}

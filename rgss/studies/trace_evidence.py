@@ -13,10 +13,16 @@ from rgss.studies.measuring import VariantMeasures
 from rgss.studies.project import Project
 from rgss.trace.evidence_state import EvidenceState
 from rgss.trace.verdict_evidence import TraceEvidence, TrialEvidence, VariantEvidence
+from rgss.tradeoff import Decision
 
 
 def trace_evidence(
-    project: Project, measured: Sequence[VariantMeasures], state: EvidenceState, *, variant: int | None = None
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    state: EvidenceState,
+    *,
+    variant: int | None = None,
+    decision: Decision | None = None,
 ) -> TraceEvidence:
     """What is known of a project beyond its files.
 
@@ -25,11 +31,12 @@ def trace_evidence(
         measured: Every variant with its estimates.
         state: The verdicts of all variants, and what the tests say.
         variant: The variant to show; the one that the trade-off chooses by default.
+        decision: What the trade-off chooses, where it is there already.
 
     Raises:
         DefinitionError: There is no such variant.
     """
-    shown, choice = _chosen(project, measured, variant)
+    shown, choice = _chosen(project, measured, variant, decision)
     entry = next((one for one in measured if one.variant.id == shown), None)
     return TraceEvidence(
         shown=None if entry is None else variant_evidence(project, entry),
@@ -67,11 +74,13 @@ def variant_evidence(project: Project, entry: VariantMeasures) -> VariantEvidenc
     )
 
 
-def _chosen(project: Project, measured: Sequence[VariantMeasures], variant: int | None) -> tuple[int | None, str]:
+def _chosen(
+    project: Project, measured: Sequence[VariantMeasures], variant: int | None, decision: Decision | None
+) -> tuple[int | None, str]:
     if variant is not None:
         return project.designs.variant(variant).id, f"variant {variant}, as asked for"
     try:
-        decision = choose(project, measured)
+        decision = choose(project, measured) if decision is None else decision
     except RgssError as error:
         return None, f"no variant is chosen: {error}"
     if decision.chosen is None:

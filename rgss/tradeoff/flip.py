@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rgss.tradeoff.alternatives import Array, Mask, checked_values, checked_weights, classes
 from rgss.tradeoff.polytope import Polytope
 from rgss.tradeoff.values import TIE_TOLERANCE
-from rgss.tradeoff.weight_region import never_best, rivals_of, winning_polytope
+from rgss.tradeoff.weight_region import never_best, rivals_of, shared_region_keys, winning_polytope
 from rgss.tradeoff.weight_set import WeightSet
 
 
@@ -81,8 +81,16 @@ def weight_shifts(
     admitted = among or WeightSet.simplex(distinct.shape[1])
     shifts = []
     rivals = rivals_of(distinct)
+    shared: dict[bytes, tuple[Array, Array] | None] = {}
+    keys = shared_region_keys(distinct, rivals)
     for kind in np.flatnonzero(~never_best(distinct, rivals)):
-        found = _shift(winning_polytope(distinct, int(kind), admitted, rivals), here)
+        key = keys[kind]
+        if key is None or key not in shared:
+            found = _shift(winning_polytope(distinct, int(kind), admitted, rivals), here)
+        else:
+            found = shared[key]
+        if key is not None:
+            shared[key] = found
         if found is not None:
             members = tuple(int(row) for row in rows[membership == kind])
             shifts.append(

@@ -99,6 +99,31 @@ def never_best(values: Array, rivals: Array | None) -> Mask:
     return beaten
 
 
+def shared_region_keys(values: Array, rivals: Array | None) -> tuple[bytes | None, ...]:
+    """What tells alternatives apart that can only tie: those with the same key win at the same weights.
+
+    Where a rival is equal in some measures and clearly better in all others, only weights that
+    leave these others out let the alternative draw level. Of such weights all that counts is which
+    measures have none, and the alternative's values in the rest. Ten thousand designs with few
+    different costs or success rates so have a handful of regions between them.
+
+    Args:
+        values: The single values of distinct alternatives, shape (n, m).
+        rivals: What `rivals_of` gives for them; of None nothing is said.
+
+    Returns:
+        A key for each alternative; None where none is known.
+    """
+    lost = np.zeros(values.shape, dtype=np.bool_)
+    for rival in () if rivals is None else rivals:
+        lead = rival - values
+        better = lead > _CLEARLY
+        ties = (better | (lead == 0.0)).all(axis=1) & better.any(axis=1)
+        lost |= better & ties[:, None]
+    kept = np.where(lost, np.nan, values)
+    return tuple(kept[row].tobytes() if lost[row].any() else None for row in range(len(values)))
+
+
 def winning_regions(
     values: Array, feasible: Mask, weights: WeightSet, *, generator: np.random.Generator
 ) -> tuple[WeightRegion, ...]:
@@ -127,7 +152,15 @@ def winning_regions(
     whole = _whole(weights)
     rivals = rivals_of(distinct)
     never = never_best(distinct, rivals)
-    found = [_EMPTY if never[row] else _region(distinct, row, weights, whole, rivals) for row in range(len(distinct))]
+    shared: dict[bytes | None, WeightRegion] = {}
+    found = []
+    for place, key in enumerate(shared_region_keys(distinct, rivals)):
+        region = _EMPTY if never[place] else shared.get(key)
+        if region is None:
+            region = _region(distinct, place, weights, whole, rivals)
+        if key is not None and not never[place]:
+            shared[key] = region
+        found.append(region)
     if any(math.isnan(region.share) for region in found):
         found = _sampled_shares(found, distinct, weights, generator)
     for row, kind in zip(np.flatnonzero(feasible), membership, strict=True):

@@ -9,7 +9,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-from rgss.reports.report_page import study_report_to_html
+from rgss.reports.report_page import parted, study_report_to_html
 
 pytestmark = pytest.mark.browser
 
@@ -300,7 +300,7 @@ def test_a_study_without_a_choice_says_so(reader, study, tmp_path):
     assert reader.rows("#ranking-table") == []
 
 
-def test_ten_thousand_variants_can_be_used(reader, large_page):
+def test_ten_thousand_variants_can_be_used(reader, large_page, study):
     reader.open(large_page)
     reader.see_all_plots()
 
@@ -315,6 +315,21 @@ def test_ten_thousand_variants_can_be_used(reader, large_page):
         ".filter((one) => one.type !== 'histogram2d').reduce((sum, one) => sum + one.x.length, 0))"
     )
     assert max(points) < 5000
+    # Measures that nothing weighs came after the page stood, and are there like any other.
+    late = next(iter(parted(study.document)[1]))
+    reader.script(
+        "const choice = document.getElementById('measure-choice');"
+        "document.getElementById('measures-plot').scrollIntoView();"
+        "choice.value = arguments[0]; choice.dispatchEvent(new Event('change'))",
+        late,
+    )
+    assert reader.script("return document.getElementById('measure-choice').value") == late
+    reader.until(
+        "return document.getElementById('measures-plot').layout.yaxis.title.text.startsWith(arguments[0])", late
+    )
+    assert late in reader.script(
+        "return Array.from(document.querySelectorAll('#variant-evidence tr[data-key]')).map((row) => row.dataset.key)"
+    )
     search = reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table input")
     search.send_keys("9999")
     reader.until("return document.querySelectorAll('#verdict-table tbody tr').length === 1")

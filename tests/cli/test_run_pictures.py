@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from PIL import Image
 
 from rgss.cli.main import main
-from rgss.cli.picture_options import made_pictures
+from rgss.cli.picture_options import captioned, made_pictures
+from rgss.evidence import Failure, Phase
 
 REPOSITORY = Path(__file__).parents[2]
 RUN = ["run", "65", "--seed", "1", "--project", str(REPOSITORY)]
@@ -80,6 +82,37 @@ def test_a_file_that_cannot_be_written_after_all(capsys, tmp_path, monkeypatch):
 
 def test_nothing_is_drawn_where_nothing_moved():
     assert made_pictures(None, None, None, None) == ("No pictures: the trial ended before anything moved.",)
+
+
+class Still:
+    """A film of three frames, all of one state."""
+
+    def __init__(self, phase):
+        self.phase = phase
+
+    def __len__(self):
+        return 3
+
+    def frame(self, index):
+        return SimpleNamespace(time_s=0.5 * index, picture=None, span=SimpleNamespace(phase=self.phase))
+
+
+@pytest.mark.parametrize(
+    ("failure", "failed_phase", "end"),
+    [
+        (None, None, "1.00 s   3 lift: done"),
+        (Failure.OBJECT_DROPPED, Phase.LIFT, "1.00 s   3 lift: object dropped"),
+        (
+            Failure.PLANNING_LIMIT,
+            Phase.MOVE_TO_GRASP_DEPARTURE,
+            "1.00 s   3 lift; 4 move to grasp departure: planning limit",
+        ),
+    ],
+)
+def test_the_last_frame_says_how_the_trial_ended(failure, failed_phase, end):
+    record = SimpleNamespace(failure=failure, failed_phase=failed_phase)
+    said = [captioned(Still(Phase.LIFT), index, record).caption for index in range(3)]
+    assert said == ["0.00 s   3 lift", "0.50 s   3 lift", end]
 
 
 @pytest.mark.usefixtures("no_trial")

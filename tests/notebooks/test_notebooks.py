@@ -27,6 +27,8 @@ METADATA = {
 }
 ALLOWED = {"rgss", "pandas", "matplotlib.pyplot", "pathlib", "shutil", "tempfile"}
 LONGEST = 26
+WIDEST = 88
+"""Longer lines of code are cut, or need to be scrolled, where notebooks are shown as pages."""
 
 
 def notebook(path):
@@ -84,6 +86,7 @@ def test_they_are_short_and_explained(path):
     assert cells[0].source.startswith("# ")
     assert len(cells) <= LONGEST
     assert max(len(source.splitlines()) for source in codes(path)) <= LONGEST
+    assert max(len(line) for source in codes(path) for line in source.splitlines()) <= WIDEST
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

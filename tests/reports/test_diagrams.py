@@ -131,6 +131,22 @@ def test_nothing_reaches_beyond_the_paper(drawings):
             assert 0 <= float(text.get("y")) <= drawing.height, (drawing.name, text.text)
 
 
+def test_lines_of_a_bound_strike_through_no_words_of_another(drawings):
+    """A label hides what was drawn before it, so that every line comes before the first label of a bound."""
+    seen = 0
+    for drawing in drawings.values():
+        if not drawing.name.startswith("sequence-"):
+            continue
+        parts = drawing.to_svg().splitlines()
+        lines = [place for place, part in enumerate(parts) if "line dotted thin" in part]
+        labels = [place for place, part in enumerate(parts) if 'class="label"' in part and ">{" in part]
+        assert len(lines) == 2 * len(labels)
+        if len(labels) > 1:
+            seen += 1
+            assert max(lines) < min(labels), drawing.name
+    assert seen >= 4
+
+
 def test_no_two_boxes_overlap(drawings):
     for drawing in drawings.values():
         root = ET.fromstring(drawing.to_svg())  # noqa: S314 - our own

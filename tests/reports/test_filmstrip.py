@@ -1,12 +1,14 @@
-"""The filmstrip: eight panels, each where it belongs."""
+"""The filmstrip: a panel for each state that was entered, each where it belongs."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from rgss.evidence import Phase
+from rgss.evidence import Failure, Phase
 from rgss.reports.filmstrip import filmstrip, write_filmstrip
 
 WIDTH, HEIGHT = 200, 150
@@ -41,14 +43,48 @@ def test_panels_are_in_the_order_of_the_states(succeeded):
     assert panels(image) == [(20 * index, 100, 200) for index in range(8)]
 
 
-def test_states_that_did_not_run_have_no_picture(failed):
+def test_states_that_were_not_entered_are_named_below(succeeded, failed):
     image = filmstrip(failed, pictures(PHASES[:3]))
-    grey = {pixel for _, pixel in image.getcolors(1 << 20)}
+    whole = filmstrip(succeeded, pictures(PHASES))
+    there = {pixel for _, pixel in image.getcolors(1 << 20)}
 
-    assert (0, 100, 200) in grey
-    assert (40, 100, 200) in grey
-    assert (60, 100, 200) not in grey
-    assert (236, 238, 241) in grey
+    assert {(0, 100, 200), (20, 100, 200), (40, 100, 200)} <= there
+    assert (236, 238, 241) not in there
+    # One row of three panels, and below it the lines with the names of the other five.
+    assert 3 * WIDTH < image.width < 4 * WIDTH
+    assert HEIGHT < image.height < whole.height / 1.5
+    lowest = np.asarray(image.convert("L"))[-40:]
+    assert lowest.min() < 140
+    assert np.asarray(whole.convert("L"))[-5:].min() > 200
+
+
+def test_the_headline_and_the_names_of_states_that_were_not_entered_fit(failed):
+    for width in (200, 333, 640):
+        ended = replace(
+            failed,
+            variant=10_000,
+            failure=Failure.TRAJECTORY_IN_COLLISION,
+            failed_phase=PHASES[4],
+            phases=(
+                replace(failed.phases[2], phase=PHASES[0]),
+                *(replace(failed.phases[3], phase=phase) for phase in PHASES[1:]),
+            ),
+        )
+        image = np.asarray(filmstrip(ended, {PHASES[0]: np.zeros((width, width, 3), dtype=np.uint8)}).convert("L"))
+        gap = (image.shape[1] - 3 * width) // 4
+        assert image[:, -gap:].min() > 200, width
+
+
+def test_the_state_that_failed_has_a_red_frame_even_if_nothing_moved(failed):
+    for there in (PHASES[:3], PHASES[:2]):
+        image = filmstrip(failed, pictures(there))
+        gap = (image.width - 3 * WIDTH) // 4
+        left = gap + 2 * (WIDTH + gap)
+        edge = [image.getpixel((left, row)) for row in range(image.height)]
+        assert edge.count((190, 38, 32)) == HEIGHT
+        assert [image.getpixel((gap, row)) for row in range(image.height)].count((190, 38, 32)) == 0
+    # Without a picture the panel says so.
+    assert (236, 238, 241) in {pixel for _, pixel in image.getcolors(1 << 20)}
 
 
 def test_outcomes_have_their_colours(succeeded, failed):

@@ -11,7 +11,7 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.reports.page import render_page, script_hash
-from rgss.reports.report_page import embedded_json, packed_json, plotting_library
+from rgss.reports.report_page import embedded_json, packed_json, parted, plotting_library
 
 HOSTILE = "</script><!--<script>alert(1)</script> & \u2028\u2029 \"'` =SUM(1) 🤖 ]]>"
 
@@ -37,6 +37,30 @@ def test_packed_json_is_the_same_text_and_the_same_bytes():
     assert gzip.decompress(base64.b64decode(packed)).decode("ascii") == text
     assert packed_json(text) == packed
     assert len(packed) < len(text)
+
+
+def test_what_nothing_weighs_or_demands_comes_later():
+    column = [1.0, 2.0]
+
+    def measure(name, *, kind="mop", weight=None, value=column):
+        return {"id": name, "kind": kind, "weight": weight, "value": value, "low": column, "high": column, "n": 3}
+
+    measures = [
+        measure("effective", kind="moe"),
+        measure("weighed", weight=0.2),
+        measure("demanded"),
+        measure("other"),
+        measure("alike", value=4.0) | {"low": 3.0, "high": 5.0},
+    ]
+    document = {"measures": measures, "requirements": [{"measure": "demanded"}], "rest": 1}
+    before = json.dumps(document)
+    first, later = parted(document)
+
+    assert later == {"other": {"value": column, "low": column, "high": column}}
+    assert first["measures"][3] == {"id": "other", "kind": "mop", "weight": None, "n": 3}
+    assert [*first["measures"][:3], first["measures"][4]] == [*measures[:3], measures[4]]
+    assert first["rest"] == 1
+    assert json.dumps(document) == before
 
 
 def test_the_plotting_library_cannot_end_its_element():

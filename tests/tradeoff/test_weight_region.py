@@ -212,3 +212,42 @@ def test_of_many_alternatives_only_those_that_none_dominates_count(monkeypatch):
             assert one.high == pytest.approx(other.high, abs=1e-7)
     assert [one.rows for one in fewer] == [one.rows for one in shifts]
     assert [one.distance for one in fewer] == pytest.approx([one.distance for one in shifts], abs=1e-7)
+
+
+def test_alternatives_that_can_only_tie_at_the_same_weights_are_solved_once(monkeypatch):
+    """Equal in the first measure, beaten in the others: only all weight on the first lets them draw level."""
+    generator = np.random.default_rng(3)
+    costs = np.repeat([0.2, 0.6, 1.0], 20)
+    values = np.column_stack([costs, 0.9 * generator.random((60, 2))])
+    values = np.vstack([values, [1.0, 0.95, 0.95], [0.3, 1.0, 1.0]])
+    here, all_of_them = np.array([0.2, 0.4, 0.4]), np.ones(len(values), dtype=bool)
+    every, shifts = regions_of(values), weight_shifts(values, all_of_them, here)
+    monkeypatch.setattr(weight_region, "ALL_RIVALS_TO", 10)
+    solved = []
+    region = weight_region._region
+    monkeypatch.setattr(
+        weight_region, "_region", lambda values, row, *rest: solved.append(row) or region(values, row, *rest)
+    )
+    shared, fewer = regions_of(values), weight_shifts(values, all_of_them, here)
+
+    # The two that win, and one of the twenty that tie where all weight is on the first measure.
+    assert solved == [40, 60, 61]
+    assert [one.kind for one in shared] == [one.kind for one in every]
+    assert sum(one.kind is RegionKind.TIES for one in shared) == 20
+    for one in shared[40:60]:
+        assert (one.low, one.high) == (pytest.approx([1.0, 0.0, 0.0], abs=1e-7), pytest.approx([1, 0, 0], abs=1e-7))
+    assert [one.share for one in shared] == pytest.approx([one.share for one in every], abs=1e-9)
+    assert [one.rows for one in fewer] == [one.rows for one in shifts]
+    assert [one.distance for one in fewer] == pytest.approx([one.distance for one in shifts], abs=1e-7)
+
+
+def test_what_differs_by_a_hair_shares_no_region():
+    values = np.array([[1.0, 0.5], [1.0, 0.2], [1.0 - 1e-9, 0.2], [0.4, 0.1]])
+    keys = weight_region.shared_region_keys(values, values[:1])
+
+    assert keys[0] is None
+    assert keys[1] is not None
+    assert keys[2] is None
+    # Beaten in both: no weights are left, whatever the values.
+    assert keys[3] == np.full(2, np.nan).tobytes()
+    assert weight_region.shared_region_keys(values, None) == (None,) * 4

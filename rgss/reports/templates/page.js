@@ -59,14 +59,15 @@
 
   // ------------------------- what is scrolled to must not end below sticky heads
   const makeRoom = () => {
-    for (const box of all(".scroll")) {
+    // All are measured before any is changed, so that the page is laid out once.
+    const rooms = all(".scroll").map((box) => {
       const table = box.querySelector("table");
       const first = table.classList.contains("matrix") ? table.tBodies[0].querySelector("th") : null;
-      const left = first === null ? 0 : first.offsetWidth;
-      box.style.scrollPadding = `${table.tHead.offsetHeight}px 0 0 ${left}px`;
-    }
+      return [box, `${table.tHead.offsetHeight}px 0 0 ${first === null ? 0 : first.offsetWidth}px`];
+    });
+    for (const [box, room] of rooms) box.style.scrollPadding = room;
   };
-  makeRoom();
+  setTimeout(makeRoom);
   addEventListener("resize", makeRoom);
 
   // -------------------------------------------------- cells by the arrow keys

@@ -69,11 +69,16 @@ const shownMask = new Uint8Array(total).fill(1);
 let shownPlaces = Array.from(shownMask.keys());
 const watchers = [];
 const onShown = (watcher) => watchers.push(watcher);
+// Who is told when measures arrive that were not there to begin with.
+const arrivals = [];
 let waiting = false;
-const tellShown = () => {
+const countShown = () => {
   const all = shownPlaces.length === total;
   byId("shown").textContent = all ? `All ${total} variants are shown` : `${shownPlaces.length} of ${total} variants are shown`;
   byId("clear").disabled = brushes.size === 0;
+};
+const tellShown = () => {
+  countShown();
   if (waiting) return;
   waiting = true;
   requestAnimationFrame(() => {

@@ -2,10 +2,19 @@
 (() => {
   const holder = document.getElementById("report-data");
   if (holder.type === "application/json") {
-    rgssReport(JSON.parse(holder.textContent));
+    rgssReport(JSON.parse(holder.textContent), null);
     return;
   }
-  const bytes = Uint8Array.from(atob(holder.textContent), (sign) => sign.charCodeAt(0));
-  const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  new Response(unpacked).json().then(rgssReport);
+  const unpacked = (text) => {
+    const signs = atob(text);
+    const bytes = new Uint8Array(signs.length);
+    for (let place = 0; place < signs.length; place += 1) bytes[place] = signs.charCodeAt(place);
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).json();
+  };
+  // What no plot needs to begin with is unpacked once the page stands.
+  const later = () => new Promise((tell) => {
+    const whenIdle = window.requestIdleCallback ?? setTimeout;
+    whenIdle(() => tell(unpacked(document.getElementById("report-later").textContent)));
+  });
+  unpacked(holder.textContent).then((document) => rgssReport(document, later));
 })();

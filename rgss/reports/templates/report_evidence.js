@@ -138,6 +138,7 @@ const startEvidence = () => {
     const link = event.target.closest?.('a[href^="#variant-"]');
     if (link && link.hash === location.hash) { event.preventDefault(); fromAddress(); }
   });
+  arrivals.push(() => tables[1]());
   showVariant(placeOf.get(data.decision.chosen ?? variants.id[0]) ?? 0);
   fromAddress();
 };

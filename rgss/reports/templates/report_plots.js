@@ -72,9 +72,16 @@ const markerOf = (kind, size = 9) => ({ color: KINDS[kind].colour, symbol: KINDS
 
 // ------------------------------------------------------------ measures with intervals
 const startMeasures = () => {
-  const shownMeasures = data.measures.filter((measure) => Array.isArray(measure.value) ? measure.value.some(known) : known(measure.value));
   const choice = byId("measure-choice");
-  options(choice, shownMeasures.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
+  const fill = () => {
+    const there = data.measures.filter((measure) => Array.isArray(measure.value) ? measure.value.some(known) : known(measure.value));
+    const before = choice.value;
+    options(choice, there.map((measure) => [measure.id, `${measure.id}: ${measure.name}`]));
+    if (before) choice.value = before;
+    return there;
+  };
+  const shownMeasures = fill();
+  arrivals.push(fill);
   const current = () => measureOf.get(choice.value);
   const ordered = () => {
     const measure = current();
@@ -87,16 +94,16 @@ const startMeasures = () => {
     if (!places.length) return null;
     const texts = (list) => list.map((place) => plotText(`variant ${variants.id[place]}: ${estimate(measure, place)}`));
     const traces = [];
+    const index = new Map(places.map((place, position) => [place, position + 1]));
     if (places.length > MOST_POINTS) {
       const every = Math.ceil(places.length / 1000);
       const kept = places.filter((_, index) => index % every === 0 || index === places.length - 1);
-      const across = kept.map((place) => places.indexOf(place) + 1);
+      const across = kept.map((place) => index.get(place));
       const value = (place) => at(measure.value, place);
       traces.push({ x: across, y: kept.map((place) => at(measure.low, place) ?? value(place)), mode: "lines", line: { width: 0 }, showlegend: false, hoverinfo: "skip" });
       traces.push({ x: across, y: kept.map((place) => at(measure.high, place) ?? value(place)), mode: "lines", line: { width: 0 }, fill: "tonexty", fillcolor: "rgba(0,114,178,0.3)", name: "interval", hoverinfo: "skip" });
       traces.push({ x: across, y: kept.map(value), mode: "lines", line: { color: KINDS[FRONT].colour }, name: "estimate", text: texts(kept), hoverinfo: "text", meta: kept.map((place) => variants.id[place]) });
     }
-    const index = new Map(places.map((place, position) => [place, position + 1]));
     for (const kind of [INFEASIBLE, FEASIBLE, FRONT, CHOSEN]) {
       const mine = places.filter((place) => kindOf[place] === kind);
       if (!mine.length || (places.length > MOST_POINTS && kind < FRONT)) continue;

@@ -1,6 +1,6 @@
 // ------------------------------------------------------------------------------ start
 drawLegends();
-applyBrushes();
+countShown();
 onShown(parallel.draw);
 onShown(verdictsTable());
 onShown(tableIn("parallel-table", {
@@ -39,4 +39,13 @@ addEventListener("afterprint", () => {
   }
 });
 performance.mark("rgss-report");
-document.documentElement.dataset.ready = "yes";
+const ready = () => { document.documentElement.dataset.ready = "yes"; };
+// Measures that nothing weighs or demands come last where there are many variants.
+if (later === null) ready();
+else {
+  later().then((columns) => {
+    for (const [id, column] of Object.entries(columns)) Object.assign(measureOf.get(id), column);
+    for (const fill of arrivals) fill();
+    ready();
+  });
+}
