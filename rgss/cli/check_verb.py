@@ -17,7 +17,7 @@ EXAMPLE = "rgss check --explain wording.R7"
 MORE_EXAMPLES = (
     ("rgss check", "files, wording and traceability of the project"),
     ("rgss check --evidence", "the stored evidence and the result of the tests too"),
-    ("rgss check --review SYS-005", "stamp a requirement as reviewed"),
+    ("rgss check --review all", "stamp every requirement as reviewed; or name some, such as SYS-005 SYS-009"),
 )
 
 
@@ -53,7 +53,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from rgss.cli.main import BAD_INPUT, CLEAN, FINDINGS
+    from rgss.cli.command_parser import BAD_INPUT
+    from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.errors import DocumentError
     from rgss.findings import Severity
@@ -147,7 +148,8 @@ def _review(options: argparse.Namespace) -> int:
     if options.json:
         print_json({"reviewed": list(ids), "reviewer": reviews[ids[0]].reviewer if ids else "", "file": path})
     else:
-        print(f"Reviewed {len(ids)} elements; {path} has {len(reviews)} reviews.")
+        elements = "1 element" if len(ids) == 1 else f"{len(ids)} elements"
+        print(f"Reviewed {elements}; {path} has {len(reviews)} {'review' if len(reviews) == 1 else 'reviews'}.")
     return CLEAN
 
 

@@ -8,9 +8,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rgss.cli.options import add_fidelity, add_replicates, chosen_project
+
 if TYPE_CHECKING:
     from rgss.evidence.collection import Garbage
     from rgss.evidence.contents import Contents, TrialName
+    from rgss.evidence.trial_rows import StoredTrial
     from rgss.evidence.verification import Verification
     from rgss.studies.named_trials import NamingStudy
 
@@ -27,6 +30,7 @@ HELP = "tell what the evidence store holds, check it, export it or clear it up"
 EXAMPLE = "rgss evidence export trials.parquet"
 MORE_EXAMPLES = (
     ("rgss evidence", "what is stored"),
+    ("rgss evidence export trials.csv studies/pick_place.yaml", "the trials of one study, as it is now"),
     ("rgss evidence verify", "whether every byte is what was written"),
     ("rgss evidence gc", "what clearing up would remove"),
 )
@@ -36,15 +40,22 @@ _SHOWN = 12
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's actions."""
     actions = parser.add_subparsers(dest="action", metavar="ACTION")
-    verify = _action(actions, "verify", "check every page, digest, seal and reference (--mend takes damage away)")
+    verify = _action(actions, "verify", "", "check every page, digest, seal and reference (--mend takes damage away)")
     verify.add_argument(
         "--mend",
         action="store_true",
         help="take damaged rows away, so that the next sweep makes them anew; save the sound rows of a damaged file",
     )
-    export = _action(actions, "export", "write one row a trial to FILE.parquet or FILE.csv")
+    export = _action(
+        actions, "export", "trials.csv studies/pick_place.yaml", "write one row a trial to FILE.parquet or FILE.csv"
+    )
     export.add_argument("file", type=Path, metavar="FILE", help="a file whose name ends in .parquet or .csv")
-    gc = _action(actions, "gc", "show what no study names (--apply removes it; --strict keeps less)")
+    export.add_argument(
+        "study", nargs="?", metavar="STUDY", help="only the trials of this study (default: all that are stored)"
+    )
+    add_replicates(export)
+    add_fidelity(export)
+    gc = _action(actions, "gc", "--apply", "show what no study names (--apply removes it; --strict keeps less)")
     gc.add_argument(
         "--strict",
         action="store_true",
@@ -55,9 +66,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     doing.add_argument("--dry-run", action="store_true", help="only show it, which is the default")
 
 
-def _action(actions: Any, name: str, text: str) -> argparse.ArgumentParser:
+def _action(actions: Any, name: str, words: str, text: str) -> argparse.ArgumentParser:
+    example = f"Example: rgss evidence {name} {words}".rstrip()
     parser: argparse.ArgumentParser = actions.add_parser(
-        name, help=text, description=text[:1].upper() + text[1:] + ".", epilog=f"Example: rgss evidence {name}"
+        name, help=text, description=text[:1].upper() + text[1:] + ".", epilog=example
     )
     # Without a default, which would take the place of what stands before the action.
     parser.add_argument("--project", type=Path, metavar="DIR", default=argparse.SUPPRESS, help="the project's folder")
@@ -168,10 +180,12 @@ def _verify(options: argparse.Namespace, store: _Store) -> int:
         print(mended or _how_to_mend(found))
         return FINDINGS
     print(f"Sound: {sound}.")
-    if found.orphaned_pieces or found.orphaned_inputs:
+    idle = {"pieces": found.orphaned_pieces, "inputs": found.orphaned_inputs}
+    if any(idle.values()):
+        which = " and ".join(f"{count} of the {name}" for name, count in idle.items() if count)
         print(
-            f"No trial refers to {found.orphaned_pieces} of the pieces and {found.orphaned_inputs} of the inputs, "
-            "which is no damage; the next sweep uses them, or 'rgss evidence gc' shows them."
+            f"No trial refers to {which}, which is no damage; the next sweep uses what it can, "
+            "or 'rgss evidence gc' shows what is left."
         )
     return CLEAN
 
@@ -202,14 +216,25 @@ def _export(options: argparse.Namespace, store: _Store) -> int:
     from rgss.cli.output import print_json
     from rgss.evidence import EvidenceStore
     from rgss.evidence.exporting import export_trials, require_exportable
+    from rgss.studies.named_trials import asked_of
 
     require_exportable(options.file)
+    limited = any(choice is not None for choice in (options.study, options.replicates, options.fidelity))
+    project = chosen_project(options) if limited else None
+    missing = 0
     with EvidenceStore.open(store.path, create=False, label=store.label) as evidence:
-        count = export_trials(evidence.iterate(), options.file)
+        trials: Iterable[StoredTrial] = evidence.iterate()
+        if project is not None:
+            asked = asked_of(project, evidence)
+            missing = len(asked) - len(evidence.has(asked))
+            trials = (trial for trial in trials if trial.key in asked)
+        count = export_trials(trials, options.file)
     if options.json:
-        print_json({"evidence": store.label, "file": str(options.file), "trials": count})
-    else:
-        print(f"{count} {_plural('trial', count)} written to {options.file}")
+        print_json({"evidence": store.label, "file": str(options.file), "trials": count, "missing": missing})
+        return CLEAN
+    print(f"{count} {_plural('trial', count)} written to {options.file}")
+    if missing:
+        print(f"{missing} more {'has' if missing == 1 else 'have'} no evidence yet; 'rgss sweep' makes it.")
     return CLEAN
 
 

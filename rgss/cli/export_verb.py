@@ -15,14 +15,20 @@ HELP = "write the project or its evidence in the format of another tool"
 EXAMPLE = "rgss export reqif -o requirements.reqif"
 MORE_EXAMPLES = (
     ("rgss export sysml -o model.sysml", "SysML v2"),
-    ("rgss export ompl -o planners.db", "the evidence, for OMPL's planner comparison"),
+    ("rgss export ompl -o planners.db", "the searches of the study, for OMPL's planner comparison"),
+    ("rgss export ompl -o planners.db studies/pick_place.yaml", "those of a study that is named"),
 )
 FORMATS = ("reqif", "sysml", "csv", "xlsx", "ompl")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    parser.add_argument("format", choices=FORMATS, metavar="FORMAT", help=f"one of {', '.join(FORMATS)}")
+    parser.add_argument(
+        "format",
+        choices=FORMATS,
+        metavar="FORMAT",
+        help=f"one of {', '.join(FORMATS)}; 'rgss evidence export' writes the trials as a table",
+    )
     add_study(parser)
     add_replicates(parser)
     add_fidelity(parser)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import gc
 import importlib
 import os
@@ -10,8 +11,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import NoReturn
 
+from rgss.cli.command_parser import BAD_INPUT, CommandParser
 from rgss.errors import DocumentError, MotionError, RgssError, SimulationError, StorageError
 from rgss.findings import printable
 
@@ -34,7 +35,9 @@ VERBS = (
     "completion",
 )
 _OBJECTS_BETWEEN_COLLECTIONS = 50_000
-CLEAN, FINDINGS, BAD_INPUT, RUN_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+CLEAN, FINDINGS, RUN_FAILED, INTERRUPTED = 0, 1, 3, 130
+
+_UNWRITABLE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -75,21 +78,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return CLEAN
     except OSError as error:
         _discard_output()
-        _complain(f"rgss: {error}")
+        # A file says its name; what is printed has none.
+        printed = error.filename is None and error.errno in _UNWRITABLE
+        _complain(f"rgss: the output cannot be written: {error.strerror}" if printed else f"rgss: {error}")
         return RUN_FAILED
-
-
-class _Parser(argparse.ArgumentParser):
-    """A parser that says what is wrong in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        _complain(f"{self.prog}: {' '.join(message.split())} (see '{self.prog} --help')")
-        self.exit(BAD_INPUT)
 
 
 def command_line() -> argparse.ArgumentParser:
     """The parser of the whole command line, with a parser for each verb."""
-    parser = _Parser(
+    parser = CommandParser(
         prog="rgss",
         description="Choose a robot design by evidence: requirements, simulated trials, a certified trade-off.",
         epilog="Begin with 'rgss init my_project'; every verb has examples under --help. "

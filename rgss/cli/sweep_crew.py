@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rgss.studies.dask_cluster import DaskCluster
     from rgss.studies.keeping import Origin
+    from rgss.studies.lasting_pool import LastingPool
     from rgss.studies.sweep import Maker, WorkerLimits
     from rgss.studies.workers import Workers
 
@@ -23,16 +24,16 @@ class Crew:
 
     Attributes:
         jobs: Number of processes, if this machine does.
-        limits: What a worker may use for one task.
-        cluster: The cluster that does; None if this machine does.
+        staff: The processes of this machine, or the cluster, that give each sweep its workers.
+        machine: The machines of the cluster; None if this machine does.
     """
 
     jobs: int
-    limits: WorkerLimits
-    cluster: DaskCluster | None = None
+    staff: LastingPool | DaskCluster
+    machine: str | None = None
 
     def workers(self, maker: Maker) -> Workers:
-        """Workers for one sweep.
+        """Workers for one sweep; engines that they load are kept for the next.
 
         Args:
             maker: What carries out a task.
@@ -40,12 +41,7 @@ class Crew:
         Raises:
             SimulationError: The cluster has gone.
         """
-        from rgss.studies.workers import WorkerPool
-
-        if self.cluster is not None:
-            return self.cluster.workers(maker)
-        limits = self.limits
-        return WorkerPool(maker, size=self.jobs, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes)
+        return self.staff.workers(maker)
 
     def origin(self, folder: Path) -> Origin:
         """Where trials come from that this crew runs.
@@ -59,7 +55,7 @@ class Crew:
         from rgss.studies.keeping import origin_of
 
         origin = origin_of(folder)
-        return origin if self.cluster is None else replace(origin, machine=self.cluster.machine)
+        return origin if self.machine is None else replace(origin, machine=self.machine)
 
 
 def jobs_of(options: argparse.Namespace) -> int:
@@ -94,11 +90,14 @@ def crew_of(options: argparse.Namespace, limits: WorkerLimits) -> Iterator[Crew]
     Raises:
         DefinitionError: The number of processes is none, or the cluster cannot be used.
     """
+    from rgss.studies.lasting_pool import LastingPool
+
     jobs = jobs_of(options)
     if options.dask is None:
-        yield Crew(jobs=jobs, limits=limits)
+        with LastingPool(size=jobs, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes) as pool:
+            yield Crew(jobs=jobs, staff=pool)
         return
     from rgss.studies.dask_cluster import dask_cluster
 
     with dask_cluster(options.dask, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes) as cluster:
-        yield Crew(jobs=jobs, limits=limits, cluster=cluster)
+        yield Crew(jobs=jobs, staff=cluster, machine=cluster.machine)

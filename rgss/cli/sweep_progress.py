@@ -30,13 +30,16 @@ class SweepProgress:
             return self
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+        from rich.table import Column
 
         self._progress = Progress(
             TextColumn("Trials"),
-            BarColumn(),
-            MofNCompleteColumn(),
+            BarColumn(bar_width=12),
+            MofNCompleteColumn(table_column=Column(no_wrap=True)),
             TextColumn("{task.fields[outcomes]}"),
-            TextColumn("{task.fields[course]}"),
+            # In a narrow terminal the end of these words gives way, not the numbers before them.
+            TextColumn("{task.fields[course]}", table_column=Column(no_wrap=True, ratio=1)),
+            expand=True,
             console=Console(file=sys.stderr),
         )
         self._progress.start()

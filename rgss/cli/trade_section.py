@@ -112,7 +112,8 @@ def _deciding(decision: Decision, found: Robustness) -> Iterator[str]:
     )
     if decision.excluded_better:
         requirements = ", ".join(f"{one.requirement} ({one.excluded})" for one in decision.deciding_requirements)
-        yield f"{decision.counts.excluded_better} better variants miss a requirement: {requirements}."
+        better = decision.counts.excluded_better
+        yield f"{better} better {'variant misses' if better == 1 else 'variants miss'} a requirement: {requirements}."
     else:
         yield "No requirement excludes a better variant."
     weighting = found.weighting

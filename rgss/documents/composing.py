@@ -79,10 +79,16 @@ class Composer:
                 mark: Any = error.problem_mark or error.context_mark
                 place = self._position(mark_of(mark.line, mark.column))
                 problem = " ".join(str(part) for part in (error.context, error.problem) if part)
-                self._report("syntax", f"not valid YAML: {problem}", place)
+                hint = "indent with spaces, not tabs" if self._character_at(mark) == "\t" else ""
+                self._report("syntax", f"not valid YAML: {problem}", place, hint)
         if self._findings:
             raise self._error()
         return data, places
+
+    def _character_at(self, mark: Any) -> str:
+        """The character at a place; empty at the end of a line."""
+        lines = self._text.split("\n", mark.line + 1)
+        return lines[mark.line][mark.column : mark.column + 1] if mark.line < len(lines) else ""
 
     def end(self) -> Position:
         """Line and column of the end of the text.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import sqlite3
 import sys
 from collections.abc import Iterable, Iterator, Mapping
@@ -101,18 +102,27 @@ class Database:
             self.connection.close()
 
 
-def connect(path: Path, *, though_damaged: bool = False) -> sqlite3.Connection:
+def is_writable(path: Path) -> bool:
+    """Whether a file can be written, and the logs beside it that SQLite needs for that."""
+    effective = os.access in os.supports_effective_ids
+    return all(os.access(place, os.W_OK, effective_ids=effective) for place in (path, path.parent))
+
+
+def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False) -> sqlite3.Connection:
     """Open a database file so that a commit outlasts a loss of power and nothing in the file can act.
 
     Args:
         path: The file.
         though_damaged: Also if it is shorter than it says that it is; only for reading.
+        read_only: Make no file beside it and change nothing, where nothing can be written.
 
     Raises:
         sqlite3.Error: It cannot be opened.
     """
     # In autocommit mode, so that transactions begin and end where the store says.
-    connection = sqlite3.connect(path, timeout=BUSY_TIMEOUT_S, isolation_level=None)
+    connection = sqlite3.connect(
+        _read_only_name(path) if read_only else path, timeout=BUSY_TIMEOUT_S, isolation_level=None, uri=read_only
+    )
     # A text that is not Unicode is damage of one row, which the row's digests will tell.
     connection.text_factory = lambda content: content.decode("utf-8", "surrogateescape")
     try:
@@ -138,6 +148,13 @@ def connect(path: Path, *, though_damaged: bool = False) -> sqlite3.Connection:
         connection.close()
         raise
     return connection
+
+
+def _read_only_name(path: Path) -> str:
+    """The file as SQLite is asked to read it: without its logs, unless another user is writing now."""
+    log = path.with_name(f"{path.name}-wal")
+    in_use = log.exists() and log.stat().st_size > 0
+    return f"{path.resolve().as_uri()}?{'mode=ro' if in_use else 'immutable=1'}"
 
 
 def problem_of(error: Exception) -> str:

@@ -85,6 +85,19 @@ def prepare(connection: sqlite3.Connection, name: str) -> None:
     _log_ahead(connection)
 
 
+def require_present(connection: sqlite3.Connection, name: str) -> None:
+    """Check that a database is a store of this schema, where it cannot be brought to it.
+
+    Raises:
+        EvidenceError: It is none, or one of another schema.
+        sqlite3.Error: It is no database, or damaged.
+    """
+    if _version(connection, name) != SCHEMA_VERSION:
+        hint = "make the file and its folder writable, so that it can be brought to the present schema"
+        raise EvidenceError(f"{name} has the older schema 1 and cannot be written", hint=hint)
+    require_own_schema(connection, name)
+
+
 def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
     """Make sure that a database has the tables of a store and nothing else.
 

@@ -8,13 +8,13 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from rgss.errors import EvidenceError
-from rgss.evidence.connection import Database, Row, connect, in_our_words
+from rgss.evidence.connection import Database, Row, connect, in_our_words, is_writable
 from rgss.evidence.outcomes import Fidelity
 from rgss.evidence.pieces import Piece, piece_row
 from rgss.evidence.provenance import Provenance
 from rgss.evidence.records import TrialRecord
 from rgss.evidence.run_failures import RunFailure, failure_row
-from rgss.evidence.schema import prepare, require_sound_pages
+from rgss.evidence.schema import prepare, require_present, require_sound_pages
 from rgss.evidence.tables import FAILURES, INPUTS, PIECES, TRIALS, Table, brief
 from rgss.evidence.trial_inputs import inputs_row
 from rgss.evidence.trial_rows import StoredTrial, require_key, trial_row
@@ -46,7 +46,8 @@ class EvidenceStore:
 
         Args:
             path: The file.
-            create: Make the file and its folder if they are not there.
+            create: Make the file and its folder if they are not there. Without it, a file that cannot be
+                written is opened for reading alone.
             label: The file's name in messages; the path itself by default.
 
         Raises:
@@ -56,15 +57,16 @@ class EvidenceStore:
         name = label if label is not None else str(path)
         if not create and not path.exists():
             raise EvidenceError(f"there is no evidence in {name}", hint="run the sweep first")
+        read_only = not create and not is_writable(path)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             hint = "choose a folder that can be written"
             raise EvidenceError(f"the folder of {name} cannot be made: {error.strerror}", hint=hint) from error
         with in_our_words(name):
-            connection = connect(path)
+            connection = connect(path, read_only=read_only)
             try:
-                prepare(connection, name)
+                (require_present if read_only else prepare)(connection, name)
                 require_sound_pages(connection, name)
             except BaseException:
                 connection.close()

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from rgss.errors import EvidenceError
-from rgss.evidence.connection import PROBLEMS, Database, Row, connect, in_our_words, problem_of
-from rgss.evidence.schema import prepare, require_own_schema
+from rgss.evidence.connection import PROBLEMS, Database, Row, connect, in_our_words, is_writable, problem_of
+from rgss.evidence.schema import prepare, require_own_schema, require_present
 from rgss.evidence.tables import INPUTS, PIECES, TABLES, TRIALS, Table, brief
 from rgss.evidence.trial_rows import StoredTrial
 
@@ -100,9 +100,13 @@ def _opened(path: Path, label: str) -> Iterator[tuple[sqlite3.Connection | None,
 def _attempt(path: Path, label: str, *, though_damaged: bool) -> tuple[sqlite3.Connection | None, str]:
     with ExitStack() as opened:
         try:
-            connection = opened.enter_context(closing(connect(path, though_damaged=though_damaged)))
+            read_only = not is_writable(path)
+            connection = connect(path, though_damaged=though_damaged, read_only=read_only)
+            opened.enter_context(closing(connection))
             if though_damaged:
                 require_own_schema(connection, label)
+            elif read_only:
+                require_present(connection, label)
             else:
                 prepare(connection, label)
         except PROBLEMS as error:

@@ -32,5 +32,6 @@ class Hints:
         if len(names) > self._left:
             return ""
         self._left -= len(names)
-        near = difflib.get_close_matches(name, list(names), n=1)
+        near = [one for one in names if one.casefold() == name.casefold()]
+        near = near or difflib.get_close_matches(name, list(names), n=1)
         return f"did you mean {near[0]!r}?" if near else ""

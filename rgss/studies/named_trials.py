@@ -12,7 +12,7 @@ from rgss.findings import Finding
 from rgss.studies.document import MOST_REPLICATES
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
-from rgss.studies.screening import screen, screening_specs, surviving_specs
+from rgss.studies.screening import ScreeningResult, screen, screening_specs, surviving_specs
 from rgss.studies.sweep import trials_of
 from rgss.trials.spec import TrialSpec
 
@@ -86,9 +86,30 @@ def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[s
         EvidenceError: The store is damaged.
     """
     screened = screen(study.project, store)
-    if screened is None:
-        return study.own.trials
-    specs = (*screening_specs(study.project), *surviving_specs(study.project, screened))
+    return study.own.trials if screened is None else _keys(_screened_specs(study.project, screened))
+
+
+def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
+    """The keys of the trials that a sweep of a project would see to, without looking at its other studies.
+
+    Args:
+        project: The project with its study, its number of replicates and its fidelity.
+        store: The evidence, which says what a screening screens out.
+
+    Raises:
+        EvidenceError: The store is damaged.
+    """
+    screened = screen(project, store)
+    return _keys(
+        (*trial_specs(project), *screening_specs(project)) if screened is None else _screened_specs(project, screened)
+    )
+
+
+def _screened_specs(project: Project, screened: ScreeningResult) -> tuple[TrialSpec, ...]:
+    return (*screening_specs(project), *surviving_specs(project, screened))
+
+
+def _keys(specs: Sequence[TrialSpec]) -> frozenset[str]:
     return frozenset(trial.key for trial in trials_of(specs))
 
 

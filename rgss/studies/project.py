@@ -145,6 +145,7 @@ def load_project(folder: Path, study: str | None = None) -> Project:
 
     Raises:
         DocumentError: Files are wrong; with every problem in all of them.
+        DefinitionError: No study is named, and those of the project have other names than the default.
     """
     return _Reader(folder).read(study)
 
@@ -218,7 +219,12 @@ class _Reader:
     def _study_file(self, name: str | None) -> tuple[Path, str]:
         if name is None:
             # That of another project, in which this process may have been started, is never meant.
-            return self._folder / DEFAULT_STUDY, DEFAULT_STUDY
+            path = self._folder / DEFAULT_STUDY
+            others = [] if path.exists() else sorted((self._folder / "studies").glob("*.yaml"))
+            if others:
+                hint = f"name the study, such as studies/{others[0].name}"
+                raise DefinitionError(f"the project has no {DEFAULT_STUDY}, which is the default", hint=hint)
+            return path, DEFAULT_STUDY
         path = self._folder / name
         try:
             if not path.is_file() and Path(name).is_file():

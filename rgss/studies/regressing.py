@@ -243,7 +243,7 @@ class _Comparing:
 
     def _behaviour(self) -> Behaviour:
         if not self._same_platform:
-            was, here = (f"{one.machine}; {_engines(one)}" for one in (self._baseline.origin, self._origin))
+            was, here = _differences(self._baseline.origin, self._origin)
             return Behaviour(
                 compared=0, changed=(), platform=f"the baseline is of another platform ({was}), here {here}"
             )
@@ -335,8 +335,20 @@ def _record_schema() -> dict[str, str]:
     }
 
 
-def _engines(origin: BaselineOrigin) -> str:
-    return ", ".join(f"{name} {version}" for name, version in sorted(origin.engines.items()))
+def _differences(one: BaselineOrigin, other: BaselineOrigin) -> tuple[str, str]:
+    """What tells each of two platforms from the other."""
+    of_one, of_other = _parts(one), _parts(other)
+    told = (
+        ", ".join(part for part in parts if part not in others)
+        for parts, others in ((of_one, of_other), (of_other, of_one))
+    )
+    first, second = (parts or "the same without it" for parts in told)
+    return first, second
+
+
+def _parts(origin: BaselineOrigin) -> list[str]:
+    engines = (f"{name} {version}" for name, version in sorted(origin.engines.items()))
+    return [*origin.machine.split(", "), *engines]
 
 
 def _order(subject: Subject) -> tuple[str, str, int]:

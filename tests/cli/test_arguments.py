@@ -38,13 +38,17 @@ def test_version(rgss):
     [
         ([], "rgss: the following arguments are required: VERB (see 'rgss --help')"),
         (["decide"], "rgss: argument VERB: invalid choice: 'decide' (choose from "),
-        (["check", "a.yaml", "b.yaml"], "rgss: unrecognized arguments: b.yaml (see 'rgss --help')"),
+        (["tradee"], "rgss: argument VERB: invalid choice: 'tradee' (did you mean 'trade'?) (see 'rgss --help')"),
+        (["sweep", "--replicate=3", "--fidelty=contact"], "rgss sweep: unrecognized arguments: --fidelty=contact (did"),
+        (["schema", "gripers"], "rgss schema: argument DOCUMENT: invalid choice: 'gripers' (did you mean 'gripper'?)"),
+        (["check", "a.yaml", "b.yaml"], "rgss check: unrecognized arguments: b.yaml (see 'rgss check --help')"),
         (["run"], "rgss run: the following arguments are required: ID (see 'rgss run --help')"),
-        (["run", "first"], "rgss run: argument ID: invalid int value: 'first' (see 'rgss run --help')"),
+        (["run", "first"], "rgss run: argument ID: 'first' is no whole number (see 'rgss run --help')"),
         (["variants", "--format", "xml"], "rgss variants: argument --format: invalid choice: 'xml' (choose from"),
-        (["sweep", "--jobs", "all"], "rgss sweep: argument --jobs: invalid int value: 'all' (see 'rgss sweep --help')"),
+        (["sweep", "--jobs", "all"], "rgss sweep: argument --jobs: 'all' is no whole number (see 'rgss sweep --help')"),
         (["measure", "--fidelity", "high"], "rgss measure: argument --fidelity: invalid choice: 'high' (choose from"),
-        (["check", "--a\nb"], "rgss: unrecognized arguments: --a b (see 'rgss --help')"),
+        (["check", "--x\ny"], "rgss check: unrecognized arguments: --x y (see 'rgss check --help')"),
+        (["export", "csv", "-o", "a", "b.yaml", "c.yaml"], "rgss export: unrecognized arguments: b.yaml c.yaml (see"),
     ],
 )
 def test_words_that_are_not_understood(rgss, words, complaint):
@@ -105,3 +109,30 @@ def test_a_study_that_is_not_there(rgss, untouched, study):
 
     assert (told.status, told.output) == (2, "")
     assert ":1:1: error: " in told.complaint
+
+
+def test_the_study_may_stand_after_the_options(rgss, folder, tmp_path):
+    (folder / "studies" / "other.yaml").write_bytes(
+        (folder / "studies" / "pick_place.yaml").read_bytes().replace(b"study: pick_place", b"study: other", 1)
+    )
+    before = rgss("export", "sysml", "studies/other.yaml", "--project", folder, "-o", tmp_path / "before.sysml")
+    after = rgss("export", "sysml", "--project", folder, "-o", tmp_path / "after.sysml", "studies/other.yaml")
+    without = rgss("export", "sysml", "--project", folder, "-o", tmp_path / "without.sysml")
+
+    assert [told.status for told in (before, after, without)] == [0, 0, 0]
+    assert (tmp_path / "before.sysml").read_bytes() == (tmp_path / "after.sysml").read_bytes()
+    assert (tmp_path / "without.sysml").read_bytes() != (tmp_path / "after.sysml").read_bytes()
+    missing = rgss("export", "sysml", "--project", folder, "-o", tmp_path / "none.sysml", "studies/none.yaml")
+    assert missing.complaint.startswith("studies/none.yaml:1:1: error: no such file")
+
+
+def test_a_study_that_has_not_the_default_name_is_to_be_named(rgss, folder):
+    (folder / "studies" / "pick_place.yaml").rename(folder / "studies" / "serving.yaml")
+    told = rgss("variants", "--project", folder)
+
+    assert (told.status, told.output) == (2, "")
+    assert told.complaint == (
+        "rgss: the project has no studies/pick_place.yaml, which is the default "
+        f"(name the study, such as studies/{min(path.name for path in (folder / 'studies').glob('*.yaml'))})"
+    )
+    assert rgss("variants", "studies/serving.yaml", "--project", folder).status == 0

@@ -96,6 +96,8 @@ def test_a_review_is_stamped_and_then_suspect(rgss, folder, edit):
     line = (folder / GRIPPER).read_text(encoding="utf-8").splitlines()[suspect[1]["line"] - 1]
     assert line[suspect[1]["column"] - 1 :].startswith("STK-010")
 
+    told = rgss("check", "--review", "STK-010", "--reviewer", "B", "--project", folder)
+    assert told.output.startswith("Reviewed 1 element; ")
     rgss("check", "--review", "STK-010", "SYS-012", "--reviewer", "B", "--project", folder)
     assert rgss("check", "--project", folder).status == 0
 
@@ -125,6 +127,7 @@ def test_without_a_name_the_login_name_is_the_reviewer(rgss, folder, monkeypatch
     ("words", "complaint"),
     [
         (["SYS-0011"], "rgss: 'SYS-0011' is no element of the requirements (did you mean 'SYS-011'?)"),
+        (["sys-011"], "rgss: 'sys-011' is no element of the requirements (did you mean 'SYS-011'?)"),
         (["SYS-001", "--reviewer", "\x1b[2J"], "rgss: a reviewer is named by 1 to 80 printable characters"),
     ],
 )

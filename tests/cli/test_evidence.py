@@ -6,6 +6,7 @@ import csv
 import shutil
 import sqlite3
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -131,7 +132,7 @@ def test_what_no_trial_refers_to_is_told_but_no_damage(rgss, spoilt):
     told = rgss("evidence", "verify", "--project", spoilt)
 
     assert told.status == 0
-    assert "No trial refers to 0 of the pieces and 1 of the inputs, which is no damage" in told.output
+    assert "No trial refers to 1 of the inputs, which is no damage" in told.output
 
 
 def test_damaged_rows_are_told_line_by_line_and_mended(rgss, spoilt):
@@ -193,6 +194,38 @@ def test_an_export_has_a_row_for_each_trial(rgss, with_evidence, tmp_path, endin
             assert row["motion_time_s"] == pytest.approx(trial.record.metrics["motion_time_s"], rel=1e-15)
     assert [path.name for path in tmp_path.iterdir()] == [target.name]
     assert rgss("evidence", "export", target, "--json", "--project", with_evidence).document["trials"] == 216
+
+
+def test_an_export_of_a_study_has_its_trials_alone(rgss, spoilt, tmp_path):
+    project = load_project(spoilt)
+    with EvidenceStore.open(spoilt / EVIDENCE) as store:
+        other = trial_specs(project.with_replicates(4))[3]
+        record = replace(next(store.iterate()).record, variant=other.variant, seed=other.seed)
+        store.put(key_of(other), record, Provenance(inputs={}, versions={}))
+    change(spoilt, "DELETE FROM trials WHERE variant = 7 AND seed = 2")
+    target = tmp_path / "trials.csv"
+
+    def exported(*words):
+        told = rgss("evidence", "export", target, *words, "--project", spoilt)
+        assert (told.status, told.errors) == (0, "")
+        with target.open(encoding="utf-8-sig") as file:
+            return told.output.splitlines(), sum(1 for _ in file) - 1
+
+    assert other.seed == 4
+    assert exported() == ([f"216 trials written to {target}"], 216)
+    assert exported("studies/pick_place.yaml") == (
+        [f"215 trials written to {target}", "1 more has no evidence yet; 'rgss sweep' makes it."],
+        215,
+    )
+    assert exported("--replicates", "4")[1] == 216
+    assert exported("--fidelity", "kinematic") == (
+        [f"0 trials written to {target}", "216 more have no evidence yet; 'rgss sweep' makes it."],
+        0,
+    )
+    told = rgss("evidence", "export", "--json", target, "studies/pick_place.yaml", "--project", spoilt).document
+    assert (told["trials"], told["missing"]) == (215, 1)
+    complaint = rgss("evidence", "export", target, "studies/none.yaml", "--project", spoilt).complaint
+    assert complaint.startswith("studies/none.yaml:1:1: error: no such file")
 
 
 def test_an_export_to_another_ending(rgss, with_evidence, tmp_path):
@@ -300,7 +333,7 @@ def test_a_store_in_use_is_not_cleared_up(rgss, spoilt, monkeypatch):
         (["nope"], "rgss evidence: argument ACTION: invalid choice: 'nope'"),
         (["export"], "rgss evidence export: the following arguments are required: FILE"),
         (["gc", "--apply", "--dry-run"], "rgss evidence gc: argument --dry-run: not allowed with argument --apply"),
-        (["verify", "--apply"], "rgss: unrecognized arguments: --apply"),
+        (["verify", "--apply"], "rgss evidence verify: unrecognized arguments: --apply"),
     ],
 )
 def test_words_that_are_not_understood(rgss, words, complaint):

@@ -33,18 +33,19 @@ def test_a_reader_of_one_line(untouched):
     )
 
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.split()[:2] == ["id", "d1_gripper_fingers"]
+    assert done.stdout.startswith("id ")
+    assert len(done.stdout.splitlines()) == 1
 
 
-@pytest.mark.parametrize("words", [["variants"], ["check"]])
+@pytest.mark.parametrize("words", [["variants"], ["check"], ["--help"], ["--version"], ["sweep", "--help"]])
 def test_a_full_disk_is_told_in_one_line(untouched, words):
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [*RGSS, *words, "--project", str(untouched)], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+            [*RGSS, *words], cwd=untouched, stdout=full, stderr=subprocess.PIPE, text=True, check=False
         )
 
     assert done.returncode == 3
-    assert done.stderr == "rgss: [Errno 28] No space left on device\n"
+    assert done.stderr == "rgss: the output cannot be written: No space left on device\n"
 
 
 def test_bad_input_and_help_by_exit_status(rgss_process, tmp_path):

@@ -95,8 +95,19 @@ def test_variants_as_json(rgss, untouched):
 def test_variants_as_a_table(rgss, untouched):
     head, _, *rows = rgss("variants", "--project", untouched).output.splitlines()
 
-    assert head.split()[:2] == ["id", "d1_gripper_fingers"]
-    assert [int(row.split()[0]) for row in rows] == list(range(1, 73))
+    assert head == "id  d1  d2 [kg]  d3 [kg]  d7 [m/s]      d8  d9 [s]"
+    assert [int(row.split()[0]) for row in rows[:72]] == list(range(1, 73))
+    header, *written = (line.split(",") for line in TABLE.read_text(encoding="utf-8").splitlines())
+    varying = [place for place, name in enumerate(header) if name[:2] in {"de", "d1", "d2", "d3", "d7", "d8", "d9"}]
+    assert [row.split() for row in rows[:72]] == [[row[place] for place in varying] for row in written]
+    assert rows[72:] == [
+        "",
+        "d1 gripper fingers, d2 finger mass, d3 gripper base mass, d7 max manipulator velocity, d8 planner,",
+        "  d9 max planning time",
+        "The same in all designs: d4 max finger velocity 0.04 m/s, d5 max gripper force 10 N,",
+        "  d6 friction coefficient 0.7",
+    ]
+    assert max(map(len, (head, *rows))) <= 100
 
 
 @pytest.mark.verifies("SYS-036")

@@ -88,7 +88,7 @@ def test_a_broken_file_keeps_all_as_they_are(rgss, folder):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        (["sceen"], "rgss schema: argument DOCUMENT: invalid choice: 'sceen' (choose from"),
+        (["sceen"], "rgss schema: argument DOCUMENT: invalid choice: 'sceen' (did you mean 'scene'?)"),
         (["--headers"], "rgss: --headers goes with --out and no DOCUMENT (rgss schema --out schemas --headers)"),
         (["scene", "--out", "x", "--headers"], "rgss: --headers goes with --out and no DOCUMENT (rgss schema"),
         (["--project", "x"], "rgss: --project goes with --headers (leave it away; schemas are alike in all projects)"),

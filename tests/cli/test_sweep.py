@@ -216,6 +216,19 @@ def test_progress_is_shown_on_a_terminal_and_nowhere_else(capsys, monkeypatch):
     assert "0:03 left; 6 made, 30 to make" in errors
 
 
+def test_a_narrow_terminal_keeps_the_numbers_of_the_progress(capsys, monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "60")
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    with SweepProgress(2160) as progress:
+        progress.finished({"run": 1044, "kept": 0, "succeeded": 1040, "failed": 4})
+        progress.state(state(remaining_s=3.0))
+    errors = capsys.readouterr().err
+
+    assert "1044/2160" in errors
+    assert "1040 succeeded, 4 failed" in errors
+
+
 def test_json_of_a_sweep_is_one_document(sweep):
     assert {*json.loads(sweep("--dry-run", "--json").output)} == {
         "trials",

@@ -133,6 +133,15 @@ def test_csv_into_a_folder(rgss, with_evidence, tmp_path):
     assert (folder / "coverage.csv").read_bytes().startswith(b"\xef\xbb\xbf")
 
 
+def test_ids_are_whole_wherever_a_line_ends(rgss, with_evidence):
+    told = rgss("trace", "--project", with_evidence, "SYS-005", "--impact")
+    document = rgss("trace", "--project", with_evidence, "SYS-005", "--impact", "--json").document
+
+    assert "SEQ-move-to-grasp-departure" in json.dumps(document)
+    assert "SEQ-move-to-grasp-departure" in told.output
+    assert not [line for line in told.output.splitlines() if line.endswith("-")]
+
+
 def test_a_chain_and_an_impact_as_files_in_a_folder(rgss, with_evidence, tmp_path):
     rgss("trace", "--project", with_evidence, "10/1", "--format", "html", "-o", tmp_path)
     rgss("trace", "--project", with_evidence, "SYS-005", "--impact", "--format", "text", "-o", tmp_path)

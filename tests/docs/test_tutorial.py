@@ -132,6 +132,12 @@ class Reader:
             path.write_text(changed(text, step.text), encoding="utf-8")
 
 
+def verdicts(table: list[str]) -> dict[str, dict[str, str]]:
+    """What `rgss measure` prints: each variant's cells by the head of their columns."""
+    head, _, *rows = ([cell.strip() for cell in re.split(r" {2,}", line.strip())] for line in table)
+    return {row[0]: dict(zip(head, row, strict=True)) for row in rows}
+
+
 @pytest.mark.engine
 def test_the_tutorial_word_for_word(tmp_path):
     clone = tmp_path / "rgss"
@@ -164,6 +170,11 @@ def test_the_tutorial_word_for_word(tmp_path):
     assert f"your {value[6, 'payload']:.2f} kg are not enough" in page
     assert value[2, "cost"] < value[6, "cost"]
     assert value[4, "task_time"] > value[6, "task_time"]
+    first, more = (verdicts(reader.run(f"rgss measure{words}")[1]) for words in (" --replicates 2", ""))
+    assert (first["3"]["SYS-3"], {row["SYS-3"] for row in more.values()}) == ("inconclusive", {"met"})
+    assert {row["SYS-2"] for row in (*first.values(), *more.values())} == {"inconclusive"}
+    assert "1 better variant misses a requirement: SYS-5 (1)." in reader.run("rgss trade --section --replicates 2")[1]
+    assert max(float(row["success [1]"].split()[0]) for row in more.values()) == 1.0
 
 
 def test_the_installation_is_what_the_build_machine_does():

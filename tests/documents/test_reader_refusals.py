@@ -104,6 +104,22 @@ def test_syntax_error(write, text, line):
     assert finding.line == line
 
 
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("a:\n\tb: 1\n", "indent with spaces, not tabs"),
+        ("a: 1\nb:\n\t- [", "indent with spaces, not tabs"),
+        ("a:\n\tb: [\n", "indent with spaces, not tabs"),
+        ("a: [", ""),
+        ("a: 'b\n", ""),
+    ],
+)
+def test_a_tab_is_told_from_other_mistakes(write, text, hint):
+    (finding,) = findings_of(write(text))
+
+    assert (finding.rule, finding.hint) == ("document.syntax", hint)
+
+
 def test_half_of_a_surrogate_pair(write):
     (finding,) = findings_of(write('a: "\\ud800"\n'))
 

@@ -1,7 +1,6 @@
 """The evidence store: what it keeps, what it checks, what it refuses."""
 
 import json
-import os
 import sqlite3
 import tempfile
 import threading
@@ -136,19 +135,6 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     assert refusal(tmp_path / "file" / "evidence.sqlite") == (
         "the folder of evidence.sqlite cannot be made: File exists (choose a folder that can be written)"
     )
-
-
-@pytest.fixture
-def as_ordinary_user():
-    """Lays down the rights of root, for whom no folder is read-only."""
-    if os.geteuid() != 0:
-        yield
-        return
-    os.seteuid(65534)
-    try:
-        yield
-    finally:
-        os.seteuid(0)
 
 
 def test_a_folder_that_cannot_be_written_is_named(as_ordinary_user):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 import re
 from dataclasses import replace
 
@@ -138,12 +139,23 @@ def test_a_study_that_guards_less_or_other_things(compared, old, new, said):
     assert said in troubles(report)
 
 
+def test_of_another_platform_only_the_difference_is_told(compared):
+    def with_other_python(baseline):
+        machine = re.sub(r"Python [\d.]+", "Python 3.0.1", baseline.origin.machine)
+        return replace(baseline, origin=replace(baseline.origin, machine=machine))
+
+    python = f"Python {platform.python_version()}"
+    assert compared(baseline_of=with_other_python).behaviour.platform == (
+        f"the baseline is of another platform (Python 3.0.1), here {python}"
+    )
+
+
 def test_another_platform_is_not_compared_bit_for_bit(compared):
     report = compared(
         baseline_of=lambda one: replace(one, origin=replace(one.origin, machine="Other", engines={"ompl": "0"}))
     )
     assert report.behaviour.compared == 0
-    assert report.behaviour.platform.startswith("the baseline is of another platform (Other; ompl 0), here ")
+    assert report.behaviour.platform.startswith("the baseline is of another platform (Other, ompl 0), here ")
     assert not any(one.identical for one in report.comparisons)
     assert any(note.startswith("engines changed since the baseline: coal,") for note in report.notes)
     assert named(report, Outcome.WORSE, Outcome.MISSING) == set()
