@@ -32,8 +32,10 @@ test: setup ## run the whole test suite, on every core
 regress: setup ## hold metrics and the decision of a small part of the study against the baseline
 	@.venv/bin/rgss regress --junit .rgss/regress.xml
 
-bench: setup ## measure the sweep engine on an idle machine (about half an hour); a table, and bench.json
+bench: setup ## measure the sweep engine on an idle machine (well over an hour); tables, and bench*.json
 	@.venv/bin/python benchmarks/sweep.py --replicates 10 --json bench.json
+	@.venv/bin/python benchmarks/dask_cluster.py --replicates 4 --json bench-dask.json
+	@.venv/bin/python benchmarks/until_decided_sweeps.py --first 286 --json bench-until.json
 
 lock: ## resolve requirements.lock anew from pyproject.toml (needs uv)
 	@UV_CUSTOM_COMPILE_COMMAND="make lock" uv pip compile --quiet --universal --python-version 3.10 \

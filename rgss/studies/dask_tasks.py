@@ -18,6 +18,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 from rgss.evidence import RunFailureKind
@@ -66,22 +67,12 @@ def environment() -> dict[str, str]:
     """What this process runs, as far as results or the way here and back depend on it.
 
     Beside the engines and the code these are Python (its `sum` of floats is another one from 3.12 on),
-    the kind of processor, and Dask.
+    the kind of processor, and Dask. It is looked up once: a process keeps what it has loaded.
 
     Raises:
         PackageNotFoundError: An engine is not installed.
     """
-    from importlib.metadata import version
-
-    from rgss.trials.versions import versions
-
-    python = ".".join(platform.python_version_tuple()[:2])
-    return {
-        **versions(),
-        "python": python,
-        "processor": platform.machine(),
-        "distributed": version("distributed"),
-    }
+    return dict(_environment())
 
 
 def carry_out(order: Order, key: str, work: bytes) -> Ended:
@@ -276,6 +267,20 @@ class Engines:
             self._idle = [idle for idle in self._idle if idle not in gone]
         for idle in gone:
             idle.pool.close()
+
+
+@lru_cache(maxsize=1)
+def _environment() -> Mapping[str, str]:
+    from importlib.metadata import version
+
+    from rgss.trials.versions import versions
+
+    return {
+        **versions(),
+        "python": ".".join(platform.python_version_tuple()[:2]),
+        "processor": platform.machine(),
+        "distributed": version("distributed"),
+    }
 
 
 def _stopped(key: str) -> Ended:
