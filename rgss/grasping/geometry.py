@@ -5,11 +5,13 @@ from __future__ import annotations
 from functools import cached_property
 from typing import NamedTuple
 
+import numpy as np
+
 from rgss.grasping.closure import balance, positive_span
-from rgss.grasping.contact import ContactPoint
+from rgss.grasping.contact import ContactPoint, Matrix
 from rgss.grasping.feasibility import can_balance, positively_span
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import PrimitiveWrenches, grasp_matrix, primitive_wrenches
+from rgss.grasping.grasp_map import PrimitiveWrenches, partial_wrench_bases, require_cone_edges, wrenches_of
 from rgss.grasping.quality import ball_radius, of_ellipsoid
 
 _SAME = 1e-9
@@ -47,10 +49,11 @@ class GraspGeometry:
             DefinitionError: A solver failed.
         """
         self._grasp, self._asked = grasp, (cone_edges, with_margins)
-        matrix = grasp_matrix(grasp)
-        self.edges: PrimitiveWrenches = primitive_wrenches(grasp, cone_edges=cone_edges)
-        self.squeeze, self.force, self.form = _verdicts(grasp, self.edges, with_margins=with_margins)
-        self.q_msv_1, self.q_voe_1, self.q_gii_1 = of_ellipsoid(matrix)
+        bases = partial_wrench_bases(grasp)
+        self.edges: PrimitiveWrenches = wrenches_of(grasp, bases, cone_edges=require_cone_edges(cone_edges))
+        normals = np.hstack([basis[:, :1] for basis in bases])
+        self.squeeze, self.force, self.form = _verdicts(grasp, self.edges, normals, with_margins=with_margins)
+        self.q_msv_1, self.q_voe_1, self.q_gii_1 = of_ellipsoid(np.hstack(bases))
 
     @cached_property
     def smallest_maximum_1(self) -> float:
@@ -110,9 +113,10 @@ def _is_same_place(one: ContactPoint, other: ContactPoint) -> bool:
     return all(abs(mine - theirs) <= _SAME for mine, theirs in pairs)
 
 
-def _verdicts(grasp: Grasp, edges: PrimitiveWrenches, *, with_margins: bool) -> tuple[Verdict, Verdict, Verdict]:
+def _verdicts(
+    grasp: Grasp, edges: PrimitiveWrenches, normals: Matrix, *, with_margins: bool
+) -> tuple[Verdict, Verdict, Verdict]:
     """Equilibrium, force closure and form closure."""
-    normals = primitive_wrenches(grasp, frictionless=True).matrix
     if with_margins:
         found = balance(edges, len(grasp.contacts)), positive_span(edges.matrix), positive_span(normals)
         first, second, third = (Verdict(verdict.holds, verdict.margin) for verdict in found)

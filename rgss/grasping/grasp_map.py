@@ -48,10 +48,13 @@ def partial_wrench_basis(grasp: Grasp, index: int) -> Matrix:
 
 def grasp_matrix(grasp: Grasp) -> Matrix:
     """The grasp matrix G, shape (6, m): from the contacts' intensities to the wrench on the object (sec. 3.4.2)."""
+    return np.hstack(partial_wrench_bases(grasp))
+
+
+def partial_wrench_bases(grasp: Grasp) -> list[Matrix]:
+    """The `partial_wrench_basis` of every contact, one after another the grasp matrix."""
     length = grasp.characteristic_length_m
-    return np.hstack(
-        [_basis(contact, arm, length) for contact, arm in zip(grasp.contacts, grasp.arms_m(), strict=True)]
-    )
+    return [_basis(contact, arm, length) for contact, arm in zip(grasp.contacts, grasp.arms_m(), strict=True)]
 
 
 def grasp_map(grasp: Grasp, intensities: Sequence[Sequence[float]]) -> Wrench:
@@ -125,27 +128,63 @@ def primitive_wrenches(
     Raises:
         DefinitionError: There are fewer than 3 edges, or a contact's normal or the normals of a plane do not fit it.
     """
+    require_cone_edges(cone_edges)
+    if plane_normal is not None:
+        _check_plane(grasp, plane_normal)
+        return _planar_wrenches(grasp, plane_normal, frictionless=frictionless)
+    return wrenches_of(grasp, partial_wrench_bases(grasp), cone_edges=cone_edges, frictionless=frictionless)
+
+
+def wrenches_of(
+    grasp: Grasp, bases: Sequence[Matrix], *, cone_edges: int, frictionless: bool = False
+) -> PrimitiveWrenches:
+    """What `primitive_wrenches` makes of a grasp in space, from the contacts' partial wrench bases.
+
+    Args:
+        grasp: The grasp.
+        bases: Its `partial_wrench_bases`.
+        cone_edges: Edges of each pyramid, at least 3.
+        frictionless: Leave friction out of account.
+    """
+    length, columns, owners = grasp.characteristic_length_m, [], []
+    for index, (contact, basis) in enumerate(zip(grasp.contacts, bases, strict=True)):
+        kind = ContactKind.FRICTIONLESS if frictionless else contact.kind
+        edges = basis[:, :1]
+        if kind is not ContactKind.FRICTIONLESS and contact.friction > 0.0:
+            edges = edges + contact.friction * basis[:, 1:3] @ _circle(cone_edges)
+        twisting = contact.torsional_friction_m / length
+        if kind is ContactKind.SOFT and twisting > 0.0:
+            spin = twisting * basis[:, 3:]
+            edges = np.hstack([edges + spin, edges - spin])
+        columns.append(edges)
+        owners += [index] * edges.shape[1]
+    return PrimitiveWrenches(matrix=np.hstack(columns), contacts=np.array(owners))
+
+
+def require_cone_edges(cone_edges: int) -> int:
+    """A number of edges of a friction pyramid, refused if it is too small.
+
+    Raises:
+        DefinitionError: There are fewer than 3 edges.
+    """
     if cone_edges < FEWEST_CONE_EDGES:
         raise DefinitionError(
             f"a friction cone cannot have {cone_edges} edges", hint=f"give at least {FEWEST_CONE_EDGES}"
         )
-    if plane_normal is not None:
-        _check_plane(grasp, plane_normal)
-    arms, columns, owners = grasp.arms_m(), [], []
-    for index, contact in enumerate(grasp.contacts):
-        kind = ContactKind.FRICTIONLESS if frictionless else contact.kind
-        forces = _edge_forces(contact, kind, cone_edges, plane_normal)
-        torques = _moments(arms[index], forces) / grasp.characteristic_length_m
-        twisting = contact.torsional_friction_m / grasp.characteristic_length_m
-        if kind is ContactKind.SOFT and twisting > 0.0:
-            spin = twisting * contact.axes()[0]
-            forces, torques = np.vstack([forces, forces]), np.vstack([torques + spin, torques - spin])
-        columns.append(np.hstack([forces, torques]))
+    return cone_edges
+
+
+def _planar_wrenches(grasp: Grasp, plane_normal: Vector3, *, frictionless: bool) -> PrimitiveWrenches:
+    """The two edges of each contact's friction cone in a plane, one where there is no friction."""
+    columns, owners = [], []
+    for index, (contact, arm_m) in enumerate(zip(grasp.contacts, grasp.arms_m(), strict=True)):
+        forces = contact.axes()[:1]
+        if not frictionless and contact.kind is not ContactKind.FRICTIONLESS and contact.friction > 0.0:
+            across = contact.friction * np.cross(plane_normal, forces[0])
+            forces = np.array([forces[0] + across, forces[0] - across])
+        columns.append(np.hstack([forces, _moments(arm_m, forces) / grasp.characteristic_length_m]))
         owners += [index] * len(forces)
-    matrix = np.vstack(columns).T
-    if plane_normal is not None:
-        matrix = plane_rows(plane_normal) @ matrix
-    return PrimitiveWrenches(matrix=matrix, contacts=np.array(owners))
+    return PrimitiveWrenches(matrix=plane_rows(plane_normal) @ np.vstack(columns).T, contacts=np.array(owners))
 
 
 def _basis(contact: ContactPoint, arm_m: Matrix, length_m: float) -> Matrix:
@@ -164,23 +203,11 @@ def _moments(arm_m: Matrix, forces: Matrix) -> Matrix:
     return moments
 
 
-def _edge_forces(contact: ContactPoint, kind: ContactKind, cone_edges: int, plane_normal: Vector3 | None) -> Matrix:
-    """Forces along the edges of a contact's friction pyramid with a normal force of 1, shape (edges, 3)."""
-    axes = contact.axes()
-    if kind is ContactKind.FRICTIONLESS or contact.friction == 0.0:
-        return axes[:1]
-    if plane_normal is not None:
-        across = contact.friction * np.cross(plane_normal, axes[0])
-        return np.array([axes[0] + across, axes[0] - across])
-    forces: Matrix = axes[0] + contact.friction * _circle(cone_edges) @ axes[1:]
-    return forces
-
-
 @lru_cache(maxsize=8)
 def _circle(edges: int) -> Matrix:
-    """Directions evenly round a circle, shape (edges, 2); not to be written to."""
+    """Directions evenly round a circle, shape (2, edges); not to be written to."""
     angles = 2.0 * math.pi * np.arange(edges) / edges
-    return np.column_stack([np.cos(angles), np.sin(angles)])
+    return np.array([np.cos(angles), np.sin(angles)])
 
 
 def _check_plane(grasp: Grasp, plane_normal: Vector3) -> None:
