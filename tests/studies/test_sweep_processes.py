@@ -1,4 +1,8 @@
-"""Sweeps as the command line runs them: interrupted, killed, robbed of their workers, and resumed."""
+"""Sweeps as the command line runs them: interrupted, killed, robbed of their workers, and resumed.
+
+The workers are held at a known point by `doubles/held_sweep.py`, so that no test depends on how
+fast the machine is: what is interrupted is never finished, and what is waited for always comes.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -20,38 +25,82 @@ from rgss.studies.sweep import sweep
 
 pytestmark = pytest.mark.engine
 
+HELD_SWEEP = Path(__file__).parent / "doubles" / "held_sweep.py"
 SHORT = ["--jobs", "2", "--fidelity", "kinematic"]
+PATIENCE_S = 300.0
+"""After this a test gives up waiting for what always comes; no result depends on it."""
+
+
+@dataclass(frozen=True)
+class HeldSweep:
+    """A sweep whose workers stop after a number of tasks."""
+
+    process: subprocess.Popen
+    marks: Path
+
+    def wait_until_held(self, workers):
+        """Wait until this many workers have stopped, and what was made before is in the store."""
+        wait_for(lambda: len(self.held()) == workers, self.process)
+
+    def held(self):
+        """The processes that have stopped."""
+        return [int(mark.name.partition("-")[2]) for mark in self.marks.glob("held-*")]
+
+    def open_gate(self):
+        """Let all workers go on, those that come later too: the pipe becomes a file."""
+        (self.marks / "open").touch()
+        (self.marks / "open").replace(self.marks / "gate")
 
 
 def rgss(*arguments):
+    return start("-m", "rgss.cli.main", *arguments)
+
+
+def start(*words):
     return subprocess.Popen(
-        [sys.executable, "-m", "rgss.cli.main", *arguments],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
+        [sys.executable, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
 
 
-@pytest.mark.verifies("SYS-026")
-@pytest.mark.parametrize("jobs", ["1", "2"])
-def test_an_interrupted_sweep_stops_at_once_and_goes_on_later(folder, jobs):
-    arguments = ["sweep", "--project", str(folder), "--only", "1,10", *SHORT, "--jobs", jobs]
-    process = rgss(*arguments)
-    evidence = folder / ".rgss" / "evidence.sqlite"
-    wait_for(lambda: stored(evidence, "pieces") > 0, process)
-    # Ctrl-C in a terminal reaches the workers too.
-    os.killpg(process.pid, signal.SIGINT)
-    asked = time.monotonic()
-    output, errors = process.communicate(timeout=30)
-    took_s = time.monotonic() - asked
+@pytest.fixture
+def held_sweep(tmp_path):
+    """Starts a sweep whose workers stop after a number of tasks."""
+    started = []
 
-    assert (process.returncode, output, errors) == (130, "", "rgss: interrupted; what was finished is kept\n")
-    assert took_s < 2.0
-    kept, pieces = stored(evidence), stored(evidence, "pieces")
+    def begin(*arguments, tasks):
+        marks = tmp_path / f"marks-{len(started)}"
+        marks.mkdir()
+        os.mkfifo(marks / "gate")
+        process = start(str(HELD_SWEEP), str(marks), str(tasks), *arguments)
+        started.append(process)
+        return HeldSweep(process=process, marks=marks)
+
+    yield begin
+    for process in started:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+@pytest.mark.verifies("SYS-026")
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_an_interrupted_sweep_stops_at_once_and_goes_on_later(folder, held_sweep, jobs):
+    arguments = ["sweep", "--project", str(folder), "--only", "1,10", *SHORT, "--jobs", str(jobs)]
+    evidence = folder / ".rgss" / "evidence.sqlite"
+    sweeping = held_sweep(*arguments, tasks=4)
+    sweeping.wait_until_held(jobs)
+    wait_for(lambda: stored(evidence, "pieces") == 4, sweeping.process)
+    # Ctrl-C in a terminal reaches the workers too, which would wait at the gate for ever.
+    os.killpg(sweeping.process.pid, signal.SIGINT)
+    output, errors = sweeping.process.communicate(timeout=PATIENCE_S)
+
+    assert (sweeping.process.returncode, output) == (130, "")
+    assert errors == "rgss: interrupted; what was finished is kept\n"
+    assert not any(is_running(pid) for pid in sweeping.held())
+    kept = stored(evidence)
     assert kept < 6
-    assert 0 < pieces < 15
-    output, errors = rgss(*arguments).communicate(timeout=120)
+    assert stored(evidence, "pieces") == 4
+    output, errors = rgss(*arguments).communicate(timeout=PATIENCE_S)
     assert errors == ""
     assert output.startswith(f"6 trials: {6 - kept} run, {kept} from evidence; ")
     assert stored(evidence) == 6
@@ -59,18 +108,19 @@ def test_an_interrupted_sweep_stops_at_once_and_goes_on_later(folder, jobs):
 
 
 @pytest.mark.verifies("SYS-026")
-def test_a_sweep_that_is_killed_leaves_no_process_and_goes_on_to_the_same_end(folder):
+def test_a_sweep_that_is_killed_leaves_no_process_and_goes_on_to_the_same_end(folder, held_sweep):
     arguments = ["sweep", "--project", str(folder), "--only", "1,2,10", *SHORT, "--replicates", "2"]
-    process = rgss(*arguments)
     evidence = folder / ".rgss" / "evidence.sqlite"
-    wait_for(lambda: stored(evidence, "pieces") > 0, process)
-    workers = workers_of(process.pid)
-    process.kill()
-    process.communicate()
-    assert workers
+    sweeping = held_sweep(*arguments, tasks=3)
+    sweeping.wait_until_held(2)
+    wait_for(lambda: stored(evidence, "pieces") == 3, sweeping.process)
+    workers = workers_of(sweeping.process.pid)
+    sweeping.process.kill()
+    sweeping.process.communicate(timeout=PATIENCE_S)
+    assert sorted(workers) == sorted(sweeping.held())
     wait_until(lambda: not any(is_running(pid) for pid in workers))
     assert stored(evidence) < 6
-    rgss(*arguments).communicate(timeout=120)
+    rgss(*arguments).communicate(timeout=PATIENCE_S)
 
     project = load_project(folder).with_fidelity("kinematic").with_replicates(2)
     variants = [project.designs.variant(number) for number in (1, 2, 10)]
@@ -80,33 +130,40 @@ def test_a_sweep_that_is_killed_leaves_no_process_and_goes_on_to_the_same_end(fo
         assert digests_in(resumed) == digests_in(undisturbed)
 
 
-def test_workers_that_are_killed_cost_nothing_but_time(folder):
-    process = rgss("sweep", "--project", str(folder), "--only", "1-3,10-12", *SHORT, "--json")
-    wait_for(lambda: stored(folder / ".rgss" / "evidence.sqlite", "pieces") > 0, process)
-    for worker in workers_of(process.pid):
+def test_workers_that_are_killed_cost_nothing_but_time(folder, held_sweep):
+    sweeping = held_sweep("sweep", "--project", str(folder), "--only", "1-3,10-12", *SHORT, "--json", tasks=3)
+    sweeping.wait_until_held(2)
+    workers = sweeping.held()
+    sweeping.open_gate()
+    for worker in workers:
         os.kill(worker, signal.SIGKILL)
-    output, errors = process.communicate(timeout=120)
+    output, errors = sweeping.process.communicate(timeout=PATIENCE_S)
 
-    assert (process.returncode, errors) == (0, "")
+    assert (sweeping.process.returncode, errors) == (0, "")
     assert '"run": 18' in output
     assert '"run_failures": []' in output
-    assert workers_of(process.pid) == []
+    assert not any(is_running(pid) for pid in workers)
+    assert workers_of(sweeping.process.pid) == []
 
 
 def digests_in(store):
     return {trial.key: trial.content_digest for trial in store.all()}
 
 
-def wait_for(condition, process, timeout_s=60.0):
-    end = time.monotonic() + timeout_s
-    while not condition():
+def wait_for(condition, process):
+    """Wait for what a process does; it ends in the meantime only by mistake."""
+
+    def is_so():
+        if condition():
+            return True
         assert process.poll() is None, process.communicate()
-        assert time.monotonic() < end
-        time.sleep(0.02)
+        return False
+
+    wait_until(is_so)
 
 
-def wait_until(condition, timeout_s=20.0):
-    end = time.monotonic() + timeout_s
+def wait_until(condition):
+    end = time.monotonic() + PATIENCE_S
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)

@@ -1,0 +1,46 @@
+"""The command line with workers that stop at a known point, for tests that interrupt or kill a sweep.
+
+``held_sweep.py FOLDER TASKS VERB …`` runs a verb of rgss whose workers carry out that many tasks
+between them. Each worker that is given one more leaves a mark in the folder and waits there, until
+the test opens the gate or ends it. Workers import this script too, since it is the main module of
+the process that starts them.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import os
+import sys
+from pathlib import Path
+
+import rgss.studies.sweep as sweep_module
+from rgss.cli.main import main
+from rgss.evidence import Piece, TrialRecord
+from rgss.trials.making import Task, make
+
+FOLDER, TASKS = Path(sys.argv[1]), int(sys.argv[2])
+GATE = "gate"
+
+
+def held_make(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
+    """Make a piece if it is among the first; otherwise wait for the gate to be opened."""
+    if not take_turn():
+        (FOLDER / f"held-{os.getpid()}").touch()
+        # Opening a named pipe waits for the other end.
+        (FOLDER / GATE).read_bytes()
+    return make(task, needed)
+
+
+def take_turn() -> bool:
+    """Claim the next number below the number of tasks; False if all are taken."""
+    for number in itertools.islice(itertools.count(), TASKS):
+        with contextlib.suppress(FileExistsError):
+            (FOLDER / f"turn-{number}").touch(exist_ok=False)
+            return True
+    return False
+
+
+if __name__ == "__main__":
+    sweep_module.sweep.__kwdefaults__["maker"] = held_make
+    sys.exit(main(sys.argv[3:]))
