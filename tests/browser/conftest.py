@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import os
 import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -242,15 +243,36 @@ class Reader:
         return [str(one) for one in found if one[0] in ("serious", "critical")]
 
 
+CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+WITHOUT_BROWSER = (
+    "needs Chromium and its driver, on Debian: apt-get install chromium chromium-driver, "
+    "on Ubuntu: apt-get install chromium-browser chromium-chromedriver"
+)
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Skip where there is no browser, before evidence is made for it; on a build machine that is a failure."""
+    if item.get_closest_marker("browser") is None or (_found(*CHROMIUM) and _found("chromedriver")):
+        return
+    if os.environ.get("CI"):
+        pytest.fail(WITHOUT_BROWSER, pytrace=False)
+    pytest.skip(WITHOUT_BROWSER)
+
+
+def _found(*names: str) -> str | None:
+    """The path of the first of some programs that is installed."""
+    return next(filter(None, map(shutil.which, names)), None)
+
+
 @pytest.fixture(scope="session")
 def browser() -> Iterator[webdriver.Chrome]:
     """Headless Chromium."""
     options = webdriver.ChromeOptions()
-    options.binary_location = str(shutil.which("chromium"))
+    options.binary_location = str(_found(*CHROMIUM))
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    service = webdriver.ChromeService(str(shutil.which("chromedriver")))
+    service = webdriver.ChromeService(_found("chromedriver"))
     driver = webdriver.Chrome(options=options, service=service)
     driver.set_script_timeout(60)
     yield driver
