@@ -18,6 +18,7 @@ from _pytest.junitxml import xml_key
 from hypothesis import settings
 
 from . import story as story_module
+from .processor_time import ProcessorTimes, name_of, slow_tests
 
 PROJECT = Path(__file__).parents[1]
 
@@ -25,15 +26,25 @@ settings.register_profile("repeatable", derandomize=True, database=None, deadlin
 settings.load_profile("repeatable")
 
 
-def pytest_configure() -> None:
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """An option that measures which tests take long."""
+    parser.addoption("--measure-slow", action="store_true", help="write the tests that take long to slow_tests.txt")
+
+
+def pytest_configure(config: pytest.Config) -> None:
     """Let the processes that tests start be interrupted, in the background of a shell that has it ignored too."""
+    if config.getoption("--measure-slow"):
+        config.pluginmanager.register(ProcessorTimes())
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Note on each marked test which requirements it verifies."""
+    """Note on each marked test which requirements it verifies, and mark those that are known to take long."""
+    slow = slow_tests()
     for item in items:
+        if name_of(item.nodeid) in slow:
+            item.add_marker(pytest.mark.slow)
         names = dict.fromkeys(str(name) for mark in item.iter_markers("verifies") for name in mark.args)
         if names:
             # Here, so that a run of unmarked tests does not wait for the import.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
@@ -189,3 +190,9 @@ def matrix_of():
         return result
 
     return matrix
+
+
+@pytest.fixture(scope="session")
+def reference():
+    """What ur-analytic-ik says of some configurations of the UR10: the tool's matrix, and every solution for it."""
+    return json.loads((Path(__file__).parent / "ur10_reference.json").read_text(encoding="utf-8"))
