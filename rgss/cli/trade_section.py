@@ -51,7 +51,7 @@ def text_with_place(file: Path) -> str:
     from rgss.errors import DefinitionError
 
     try:
-        text = file.read_text(encoding="utf-8")
+        text = file.read_bytes().decode("utf-8")  # with its ends of lines, which stay
     except (OSError, UnicodeDecodeError) as error:
         raise DefinitionError(f"{str(file)!r} cannot be read", hint="name a Markdown file") from error
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
@@ -68,7 +68,8 @@ def with_section(text: str, section: str) -> str:
         text: A text that has each marker once.
         section: The section with its markers.
     """
-    return text.partition(BEGIN)[0] + section + text.partition(END)[2]
+    ended = section.replace("\n", "\r\n") if "\r\n" in text else section
+    return text.partition(BEGIN)[0] + ended + text.partition(END)[2]
 
 
 def _choice(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> Iterator[str]:
