@@ -73,6 +73,7 @@ def _escape(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
         match
         for match in terms.find(sentence)
         if not (match.after < len(tokens) and tokens[match.after].word in ("by", "for", "in"))
+        and match.term not in INDEFINITE_TIMES
     )
     if found:
         yield Flaw(
