@@ -127,8 +127,9 @@ def why_not_writable(path: Path) -> str:
         if path.is_dir():
             return "it is a folder"
         target = _target(path)
-        if not target.path.parent.is_dir():
-            return f"there is no folder {target.path.parent}"
+        folder = target.path.parent if path.is_symlink() else path.parent
+        if not folder.is_dir():
+            return f"there is no folder {folder}"
         if target.status is not None and not os.access(target.path, os.W_OK):
             return os.strerror(errno.EACCES)
         if not target.in_place:
