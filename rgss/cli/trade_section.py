@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.cli.trade_words import amount, ids_text, moves_text, percent, variants_text
+from rgss.invisible_characters import visible
 
 if TYPE_CHECKING:
     from rgss.studies.measuring import VariantMeasures
@@ -36,7 +37,7 @@ def decision_section(
         parts += [*_choice(project, measured, decision), ""]
         parts += [*_deciding(decision, found), ""]
         parts += [*_costs(found), ""]
-    return "\n".join([*parts, END])
+    return visible("\n".join([*parts, END]))
 
 
 def text_with_place(file: Path) -> str:
