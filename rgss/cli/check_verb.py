@@ -60,14 +60,17 @@ def _check(options: argparse.Namespace) -> int:
     from rgss.findings import Severity
     from rgss.studies.project import find_project, load_project
     from rgss.studies.regressing_designs import guard_findings
+    from rgss.studies.source_text import invisible_findings
+    from rgss.studies.unread_files import unread_findings
 
     folder = find_project(options.project)
+    of_files = (*unread_findings(folder), *invisible_findings(folder))
     project: Project | None = None
     try:
         project = load_project(folder, options.study)
-        findings: Sequence[Finding] = (*guard_findings(project), *_findings(project, options))
+        findings: Sequence[Finding] = (*of_files, *guard_findings(project), *_findings(project, options))
     except DocumentError as error:
-        findings = error.findings
+        findings = (*error.findings, *of_files)
     grave = [finding for finding in findings if finding.severity is not Severity.INFO]
     if options.json:
         print_json({"findings": [_as_json(finding) for finding in findings]})

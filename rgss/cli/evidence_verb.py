@@ -213,12 +213,14 @@ def _how_to_mend(found: Verification) -> str:
 
 def _export(options: argparse.Namespace, store: _Store) -> int:
     from rgss.cli.main import CLEAN
-    from rgss.cli.output import print_json
+    from rgss.cli.output import announce, print_json
+    from rgss.documents.output_files import require_no_source
     from rgss.evidence import EvidenceStore
     from rgss.evidence.exporting import export_trials, require_exportable
     from rgss.studies.named_trials import asked_of
 
     require_exportable(options.file)
+    require_no_source(options.file)
     limited = any(choice is not None for choice in (options.study, options.replicates, options.fidelity))
     project = chosen_project(options) if limited else None
     missing = 0
@@ -232,7 +234,7 @@ def _export(options: argparse.Namespace, store: _Store) -> int:
     if options.json:
         print_json({"evidence": store.label, "file": str(options.file), "trials": count, "missing": missing})
         return CLEAN
-    print(f"{count} {_plural('trial', count)} written to {options.file}")
+    announce(f"{count} {_plural('trial', count)} written to {options.file}", options.file)
     if missing:
         print(f"{missing} more {'has' if missing == 1 else 'have'} no evidence yet; 'rgss sweep' makes it.")
     return CLEAN

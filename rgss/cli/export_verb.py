@@ -38,22 +38,24 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write the file, as a whole or not at all."""
     from rgss.cli.main import CLEAN
-    from rgss.cli.output import print_json
+    from rgss.cli.output import announce, print_json
+    from rgss.documents.output_files import require_no_source
 
+    require_no_source(options.output)
     project = chosen_project(options)
     counts = _write_ompl(project, options.output) if options.format == "ompl" else _write_model(project, options)
     if options.json:
         print_json({"file": str(options.output), **counts})
     else:
         what = ", ".join(f"{count} {name}" for name, count in counts.items())
-        print(f"{what} written to {options.output}")
+        announce(f"{what} written to {options.output}", options.output)
     return CLEAN
 
 
 def _write_model(project: Project, options: argparse.Namespace) -> dict[str, int]:
-    from rgss.exchange.files import write_bytes
+    from rgss.documents.output_files import write_output
 
-    write_bytes(options.output, _model(project, options.format))
+    write_output(options.output, _model(project, options.format))
     requirements = project.requirements
     counts = {"requirements": len(requirements.stakeholder) + len(requirements.system)}
     if options.format in ("reqif", "sysml"):

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import itertools
 import json
+import sys
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
+from rgss.documents.output_files import is_standard_output
 from rgss.findings import printable
 
 _PIECES_AT_ONCE = 100_000
@@ -39,6 +42,11 @@ def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: 
         print("  ".join(parts).rstrip())
         if number == 0:
             print("  ".join("─" * width for width in widths))
+
+
+def announce(text: str, file: Path) -> None:
+    """Print what was written to a file; to standard error if the file is standard output itself."""
+    print(printable(text), file=sys.stderr if is_standard_output(file) else sys.stdout)
 
 
 def number(value: float | None, digits: int = 4) -> str:

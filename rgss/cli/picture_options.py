@@ -198,7 +198,7 @@ def _require_packages() -> None:
 
 
 def _check_files(files: dict[str, Path]) -> None:
-    from rgss.reports.picture_files import why_not_writable
+    from rgss.documents.output_files import why_not_writable
 
     kind_of: dict[Path, str] = {}
     for kind, path in files.items():

@@ -45,6 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compare, or write the baseline; 1 if anything is worse, unstable or missing, 3 if a trial could not be run."""
+    from rgss.documents.output_files import require_no_source
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.regression.baseline import read_baseline
@@ -66,6 +67,9 @@ def run(options: argparse.Namespace) -> int:
         ):
             if given:
                 raise DefinitionError(f"--update and {option} exclude each other", hint="compare in a run of its own")
+    for output in (options.junit, options.markdown):
+        if output is not None:
+            require_no_source(output)
     project = chosen_project(options)
     guard_of(project)
     label = options.baseline or baseline_name(project.study.label)
@@ -94,13 +98,13 @@ def _update(
 ) -> int:
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
-    from rgss.exchange.files import write_bytes
+    from rgss.documents.output_files import write_output
     from rgss.findings import printable
     from rgss.regression.baseline import baseline_to_text
     from rgss.studies.regressing import make_baseline
 
     baseline = make_baseline(project, store, run_trials, before=before, reason=options.reason)
-    write_bytes(path, baseline_to_text(baseline).encode("ascii"))
+    write_output(path, baseline_to_text(baseline).encode("ascii"), replace_source=True)
     trials = sum(len(run.seeds) * len(run.fingerprints) for run in baseline.runs.values())
     if options.json:
         print_json({"baseline": label, "trials": trials, "changes": len(baseline.history)})
@@ -119,7 +123,7 @@ def _compare(
 ) -> int:
     from rgss.cli.main import CLEAN, FINDINGS, RUN_FAILED
     from rgss.cli.output import print_json
-    from rgss.exchange.files import write_bytes
+    from rgss.documents.output_files import write_output
     from rgss.regression.comparing import Outcome
     from rgss.reports.regression_files import report_to_json, report_to_junit, report_to_markdown
     from rgss.reports.regression_terminal import report_lines
@@ -127,9 +131,9 @@ def _compare(
 
     report = compare_with_baseline(project, store, run_trials, baseline, label=label, on_look=_told)
     if options.junit is not None:
-        write_bytes(options.junit, report_to_junit(report))
+        write_output(options.junit, report_to_junit(report))
     if options.markdown is not None:
-        write_bytes(options.markdown, report_to_markdown(report).encode("utf-8"))
+        write_output(options.markdown, report_to_markdown(report).encode("utf-8"))
     if options.json:
         print_json(report_to_json(report))
     else:

@@ -160,8 +160,8 @@ def _trace(
 
 
 def _check_file(path: Path) -> None:
+    from rgss.documents.output_files import why_not_writable
     from rgss.errors import DefinitionError
-    from rgss.reports.picture_files import why_not_writable
 
     if path.suffix.lower() not in (".html", ".htm"):
         # So that nobody writes a report over a file that is something else.
@@ -172,7 +172,7 @@ def _check_file(path: Path) -> None:
 
 
 def _write(path: Path, page: bytes) -> None:
-    from rgss.reports.picture_files import replaced_file
+    from rgss.documents.output_files import replaced_file
 
     with replaced_file(path) as part:
         part.write_bytes(page)

@@ -135,7 +135,7 @@ def _format(options: argparse.Namespace, *, into_folder: bool) -> str:
 
 
 def _check_file(path: Path) -> None:
-    from rgss.reports.picture_files import why_not_writable
+    from rgss.documents.output_files import why_not_writable
 
     problem = why_not_writable(path)
     if problem:
@@ -169,18 +169,21 @@ def _stem(found: Chain | Impact | None) -> str:
 
 
 def _write(order: TraceOrder, contents: Mapping[str, bytes]) -> None:
-    from rgss.reports.picture_files import replaced_file
+    from rgss.cli.output import announce
+    from rgss.documents.output_files import replaced_file, require_no_source
 
     output = order.output
     if output is None:
         return
     if order.into_folder:
         output.mkdir(parents=True, exist_ok=True)
+    for name in contents if order.into_folder else ():
+        require_no_source(output / name)
     for name, content in contents.items():
         path = output / name if order.into_folder else output
         with replaced_file(path) as part:
             part.write_bytes(content)
-        print(f"Wrote {path}")
+        announce(f"Wrote {path}", path)
 
 
 def _write_diagrams(folder: Path, report: TraceReport, *, quiet: bool) -> None:

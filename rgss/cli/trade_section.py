@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.cli.trade_words import amount, ids_text, moves_text, percent, variants_text
+from rgss.invisible_characters import visible
 
 if TYPE_CHECKING:
     from rgss.studies.measuring import VariantMeasures
@@ -36,7 +37,7 @@ def decision_section(
         parts += [*_choice(project, measured, decision), ""]
         parts += [*_deciding(decision, found), ""]
         parts += [*_costs(found), ""]
-    return "\n".join([*parts, END])
+    return visible("\n".join([*parts, END]))
 
 
 def text_with_place(file: Path) -> str:
@@ -51,7 +52,7 @@ def text_with_place(file: Path) -> str:
     from rgss.errors import DefinitionError
 
     try:
-        text = file.read_text(encoding="utf-8")
+        text = file.read_bytes().decode("utf-8")  # with its ends of lines, which stay
     except (OSError, UnicodeDecodeError) as error:
         raise DefinitionError(f"{str(file)!r} cannot be read", hint="name a Markdown file") from error
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
@@ -68,7 +69,8 @@ def with_section(text: str, section: str) -> str:
         text: A text that has each marker once.
         section: The section with its markers.
     """
-    return text.partition(BEGIN)[0] + section + text.partition(END)[2]
+    ended = section.replace("\n", "\r\n") if "\r\n" in text else section
+    return text.partition(BEGIN)[0] + ended + text.partition(END)[2]
 
 
 def _choice(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> Iterator[str]:

@@ -55,6 +55,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.screening_output import reopened_lines, screening_lines
     from rgss.cli.sweep_verb import shown_path
     from rgss.cli.trade_section import decision_section, text_with_place, with_section
+    from rgss.documents.output_files import write_output
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.studies.choosing import choose
@@ -84,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
         if place is None:
             print(section)
         else:
-            options.into.write_text(with_section(place, section), encoding="utf-8")
+            write_output(options.into, with_section(place, section).encode("utf-8"), replace_source=True)
             print(f"Wrote the decision into {options.into}.")
     elif options.json:
         _print_document(now, found, scenario, before[2], fleet, label, _screening(screened, more))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from rgss.invisible_characters import visible
+
 _FORMULA = re.compile("^[ \u00a0\u3000]*[=+\\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
 _NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 
@@ -31,5 +33,8 @@ def restored(text: str) -> str:
 
 
 def printable(text: str) -> str:
-    """A text that UTF-8 and XML can hold: what they cannot is replaced by U+FFFD."""
-    return _NO_TEXT.sub("\ufffd", text)
+    """A text that UTF-8 and XML can hold and people can see: what they cannot is replaced by U+FFFD.
+
+    Characters that reorder or hide text are shown by their code points.
+    """
+    return _NO_TEXT.sub("\ufffd", visible(text))

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from rgss.documents.output_files import replaced_file
 from rgss.documents.spreadsheet_cells import neutralised
 from rgss.errors import EvidenceError
 from rgss.evidence.connection import error_of
@@ -53,20 +54,12 @@ def export_trials(trials: Iterable[StoredTrial], path: Path) -> int:
     """
     require_exportable(path)
     frame = trial_frame(trials)
-    # In the same folder, since a rename is atomic only within a file system.
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        try:
-            with part.open("wb") as file:
-                if path.suffix.lower() == ".csv":
-                    _write_csv(frame, file)
-                else:
-                    frame.to_parquet(file, engine="pyarrow", index=False)
-                file.flush()
-                os.fsync(file.fileno())
-            part.replace(path)
-        finally:
-            part.unlink(missing_ok=True)
+        with replaced_file(path) as part, part.open("wb") as file:
+            if path.suffix.lower() == ".csv":
+                _write_csv(frame, file)
+            else:
+                frame.to_parquet(file, engine="pyarrow", index=False)
     except OSError as error:
         problem = os.strerror(error.errno) if error.errno else str(error)
         raise error_of(error)(f"{path} cannot be written: {problem}") from error

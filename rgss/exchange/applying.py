@@ -10,11 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
+from rgss.documents.output_files import write_output
 from rgss.errors import DefinitionError
 from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.comparison import ChangeKind, ElementChange
 from rgss.exchange.content import part_of
-from rgss.exchange.files import read_bytes, write_bytes
+from rgss.exchange.files import read_bytes
 from rgss.requirements import RequirementSet
 
 _KEYS: Mapping[Part, str] = {
@@ -116,11 +117,11 @@ def written(folder: Path, files: Sequence[FileChange]) -> None:
     done: list[FileChange] = []
     try:
         for file in files:
-            write_bytes(folder / file.name, file.new)
+            write_output(folder / file.name, file.new, replace_source=True)
             done.append(file)
     except BaseException:
         for file in done:
-            write_bytes(folder / file.name, file.old)
+            write_output(folder / file.name, file.old, replace_source=True)
         raise
 
 

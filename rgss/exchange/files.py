@@ -1,13 +1,12 @@
-"""Files of other tools: read within a bound, written as a whole or not at all."""
+"""Files of other tools, read within a bound."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
 from rgss.documents.refusals import MOST_PROBLEMS
-from rgss.errors import DefinitionError, DocumentError
+from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity
 
 LARGEST_FILE_BYTES = 64 * 1024 * 1024
@@ -63,26 +62,3 @@ def read_bytes(path: Path) -> bytes:
         limit = LARGEST_FILE_BYTES // (1024 * 1024)
         raise DocumentError([problem(str(path), "size", f"is too large: at most {limit} MiB are read")])
     return content
-
-
-def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file as a whole or not at all.
-
-    Raises:
-        DefinitionError: It cannot be written.
-    """
-    # In the same folder, since a rename is atomic only within a file system.
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        try:
-            with part.open("wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            if path.exists():
-                part.chmod(path.stat().st_mode)
-            part.replace(path)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise DefinitionError(f"{path} cannot be written: {error.strerror}", hint="check the folder") from error

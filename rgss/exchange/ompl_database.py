@@ -8,13 +8,12 @@ their own, which the tools plot like any other.
 
 from __future__ import annotations
 
-import os
 import sqlite3
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
+from rgss.documents.output_files import replaced_file
 from rgss.errors import EvidenceError
 from rgss.evidence import PlanOutcome
 from rgss.evidence.planning_runs import PlanningRun
@@ -83,14 +82,8 @@ def write_ompl_database(
     if not runs:
         raise EvidenceError("there are no planning runs to export", hint="run 'rgss sweep' first")
     try:
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
-        os.close(handle)
-        try:
-            _fill(Path(temporary), runs, name=name, seed=seed, version=version, setup=setup)
-            Path(temporary).chmod(0o644)
-            Path(temporary).replace(path)
-        finally:
-            Path(temporary).unlink(missing_ok=True)
+        with replaced_file(path) as part:
+            _fill(part, runs, name=name, seed=seed, version=version, setup=setup)
     except (OSError, sqlite3.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise EvidenceError(f"{path} cannot be written: {reason}", hint="choose a file that can be written") from error

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from rgss.documents.output_files import replaced_file
 from rgss.reports.diagram_behaviour import activity_diagram, state_diagram, use_case_diagram
 from rgss.reports.diagram_drawing import Drawing
 from rgss.reports.diagram_requirements import MOST_IN_GROUP, requirement_diagrams, too_large
 from rgss.reports.diagram_sequence import sequence_diagram
 from rgss.reports.diagram_trees import block_definition_diagrams, containment_map
-from rgss.reports.picture_files import replaced_file
 from rgss.requirements import RequirementSet
 from rgss.trace.verification import success_criterion
 

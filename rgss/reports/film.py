@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.documents.output_files import replaced_file
 from rgss.reports.lettering import INK, PAPER, font
-from rgss.reports.picture_files import replaced_file
 
 if TYPE_CHECKING:
     from PIL.Image import Image

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.documents.output_files import replaced_file
 from rgss.evidence import Phase, PhaseOutcome, PhaseRecord, TrialRecord
 from rgss.reports.lettering import FAINT_INK, INK, OUTCOME_INK, PAPER, font, headline, words
-from rgss.reports.picture_files import replaced_file
 
 if TYPE_CHECKING:
     from PIL.Image import Image

@@ -9,6 +9,7 @@ from importlib import resources
 from typing import Any
 
 from rgss.errors import DefinitionError
+from rgss.invisible_characters import visible
 
 
 def render_page(
@@ -44,7 +45,13 @@ def render_page(
             "an HTML page needs the package jinja2, which is not installed", hint="pip install jinja2"
         ) from error
     environment = Environment(
-        loader=FunctionLoader(_text), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=FunctionLoader(_text),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        # Markup is a str too, and its methods keep it one; what reaches it is made visible where it is made.
+        finalize=lambda value: visible(value) if type(value) is str else value,
     )
     own = [_text("page.js"), *scripts]
     return environment.get_template(template).render(

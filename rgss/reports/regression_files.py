@@ -6,6 +6,7 @@ import re
 from typing import Any
 from xml.etree import ElementTree as ET
 
+from rgss.invisible_characters import visible
 from rgss.regression.comparing import Comparison, Outcome
 from rgss.regression.report import RegressionReport, Trouble
 from rgss.reports.regression_words import behaviour_of, counts_of, detail_of, listed, quantity
@@ -156,7 +157,7 @@ def _row(one: Comparison) -> str:
 
 def _text(text: str) -> str:
     """Text that Markdown shows as it is: marks are escaped, HTML is written out, lines are joined."""
-    plain = " ".join("".join(sign if sign.isprintable() else " " for sign in text).split())
+    plain = " ".join("".join(sign if sign.isprintable() else " " for sign in visible(text)).split())
     escaped = _MARKDOWN.sub(r"\\\1", plain)
     return escaped.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 

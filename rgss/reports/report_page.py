@@ -12,6 +12,7 @@ from typing import Any
 from urllib.parse import quote
 
 from rgss.errors import DefinitionError
+from rgss.invisible_characters import visible_throughout
 from rgss.reports.page import render_page, template_text
 from rgss.reports.trace_html import trace_context
 from rgss.reports.trace_report import TraceReport
@@ -158,7 +159,7 @@ def embedded_json(document: Any) -> str:
     Args:
         document: Dictionaries, lists, texts, finite numbers.
     """
-    text = json.dumps(document, allow_nan=False, ensure_ascii=True, separators=(",", ":"))
+    text = json.dumps(visible_throughout(document), allow_nan=False, ensure_ascii=True, separators=(",", ":"))
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rgss.documents.output_files import replaced_file
 from rgss.evidence import PhaseOutcome, TrialRecord
 from rgss.evidence.trial_trace import TrialTrace
 from rgss.reports.lettering import headline, words
-from rgss.reports.picture_files import replaced_file
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,8 +11,6 @@ whose digests differ from the recorded ones is stale.
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -20,6 +18,7 @@ from types import MappingProxyType
 from typing import Any
 
 from rgss.documents.digests import canonical_json
+from rgss.documents.output_files import replaced_file
 from rgss.errors import EvidenceError
 from rgss.evidence.connection import error_of
 from rgss.evidence.digests import is_digest
@@ -132,16 +131,8 @@ def write_record(folder: Path, record: VerdictRecord) -> Path:
     data = {"schema": SCHEMA_VERSION, "studies": {key: _plain(book) for key, book in record.studies.items()}}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-        try:
-            with os.fdopen(descriptor, "w", encoding="ascii") as file:
-                file.write(canonical_json(data) + "\n")
-                file.flush()
-                os.fsync(file.fileno())
-            Path(temporary).replace(path)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
+        with replaced_file(path, replace_source=True) as part:
+            part.write_text(canonical_json(data) + "\n", encoding="ascii")
     except OSError as error:
         raise error_of(error)(f"{FILE} cannot be written: {error.strerror}", hint="check the folder") from error
     return path

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rgss.documents import read_document
+from rgss.documents.output_files import replaced_file
 from rgss.errors import DefinitionError, DocumentError
 from rgss.findings import Finding
 from rgss.studies.document_kinds import DOCUMENT_KINDS, DocumentKind, kind_of
@@ -54,7 +55,8 @@ def write_schemas(folder: Path, kinds: tuple[DocumentKind, ...] = DOCUMENT_KINDS
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for path, kind in zip(files, kinds, strict=True):
-            path.write_text(kind.schema_text(), encoding="utf-8", newline="\n")
+            with replaced_file(path) as part:
+                part.write_text(kind.schema_text(), encoding="utf-8", newline="\n")
     except (OSError, ValueError) as error:
         raise cannot_write(folder, error) from error
     return files
@@ -81,7 +83,8 @@ def write_headers(project: Path, schemas: Path) -> tuple[Path, ...]:
         headed = with_header(text, reference)
         if headed != text:
             try:
-                path.write_bytes(headed.encode("utf-8"))
+                with replaced_file(path, replace_source=True) as part:
+                    part.write_bytes(headed.encode("utf-8"))
             except OSError as error:
                 raise cannot_write(path, error) from error
             changed.append(path)

@@ -12,7 +12,9 @@ from rgss.requirements import Comparison, Criterion, Requirement, VerificationMe
 from rgss.trace.measure_trace import MeasureTrace
 from rgss.trace.model import TraceModel
 from rgss.trace.rule import Breach, ModelRule
-from rgss.trace.text_quantities import TextQuantity, bound_before, quantities_in
+from rgss.trace.sentences import response_start
+from rgss.trace.text_bounds import bound_of
+from rgss.trace.text_quantities import TextQuantity, quantities_in
 
 
 def _without_method(model: TraceModel) -> Iterator[Breach]:
@@ -91,15 +93,14 @@ def _contradicting_numbers(model: TraceModel) -> Iterator[Breach]:
 def _contradicting_comparisons(model: TraceModel) -> Iterator[Breach]:
     for requirement, criterion in _criteria(model):
         is_lower_bound = criterion.comparison in (Comparison.AT_LEAST, Comparison.ABOVE)
+        # What stands in a condition, such as 'If the force exceeds 10 N', is not what is required.
+        start = response_start(requirement.text)
         for quantity in quantities_in(requirement.text):
-            if not same_dimension(quantity.unit, criterion.unit) or not _equal(quantity, criterion):
+            if quantity.start < start or not same_dimension(quantity.unit, criterion.unit):
                 continue
-            words = bound_before(requirement.text, quantity.start)
-            if words is not None and words.is_lower is not is_lower_bound:
-                message = (
-                    f"text of {requirement.id!r} says '{words.text} {quantity.text}', "
-                    f"but its criterion says {str(criterion)!r}"
-                )
+            bound = bound_of(requirement.text, quantity) if _equal(quantity, criterion) else None
+            if bound is not None and bound.is_lower is not is_lower_bound:
+                message = f"text of {requirement.id!r} says {bound.text!r}, but its criterion says {str(criterion)!r}"
                 yield Breach(subject=requirement.id, message=message, hint="make them agree", at=("text",))
                 break
 

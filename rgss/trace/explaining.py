@@ -109,7 +109,8 @@ finding says where it is, as `file:line:column`. A check never writes.
 Numbers such as R7 are those of the INCOSE *Guide to Writing Requirements*, version 3.1; explanations
 and word lists are our own. Sentences follow the EARS patterns (Mavin and others, 2009): *The SYSTEM
 shall …* alone, or after `While` a state, `When` an event, `Where` an option, `If` something unwanted
-`then`, or several of these.
+`then`, or several of these. Words that mean the same, such as `Upon` or `In the event of`, are
+understood; `wording.ears-keyword` notes them.
 
 ## Verdicts
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 
+from rgss.documents.output_files import replaced_file
 from rgss.documents.reader import LARGEST_FILE_BYTES
 from rgss.errors import DefinitionError
 from rgss.requirements import RequirementSet, Review
@@ -95,18 +94,8 @@ def write_reviews(folder: Path, reviews: Mapping[str, Review]) -> Path:
         limit = LARGEST_FILE_BYTES // (1024 * 1024)
         raise DefinitionError(f"{len(reviews)} reviews take more than {limit} MiB", hint="review fewer elements")
     try:
-        descriptor, temporary = tempfile.mkstemp(prefix=f".{REVIEWS}.", dir=folder)
-        try:
-            with os.fdopen(descriptor, "wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            # As another file of the folder would be; a temporary file is for its owner alone.
-            os.chmod(temporary, path.stat().st_mode if path.exists() else 0o644)  # noqa: PTH101 - of a descriptor's name
-            Path(temporary).replace(path)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
+        with replaced_file(path, replace_source=True) as part:
+            part.write_bytes(content)
     except OSError as error:
         raise DefinitionError(f"{REVIEWS} cannot be written: {error.strerror}", hint="check the folder") from error
     return path

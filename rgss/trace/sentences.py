@@ -12,9 +12,13 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
+from rgss.trace.condition_words import CLAUSE_WORDS, KEYWORDS, OPENINGS, ClauseKind, opening_of
 from rgss.trace.text_quantities import TextQuantity, quantities_in
 
 _TOKEN = re.compile(r"[^\W_]+(?:['’\-][^\W_]+)*")
+_THEN = re.compile(r"(?P<condition>if\b.*\S)\s+(?P<rest>then\b.*)", re.IGNORECASE)
+# "shall: a) stop; b) open", whose verbs are in the list.
+_LIST_MARK = re.compile(r"[:\s]*(?:[-•*]|\(?(?:[a-z]|[ivx]+|\d+)[).])\s+", re.IGNORECASE)
 _SHALL = re.compile(r"\bshall\b", re.IGNORECASE)
 _QUOTED = re.compile(r"\"[^\"]*\"|“[^”]*”|`[^`]*`")
 # A full stop ends a sentence if a capital follows and it belongs to no abbreviation.
@@ -22,11 +26,6 @@ _SENTENCE_END = re.compile(
     r"[.!?](?<!\be\.g\.)(?<!\bi\.e\.)(?<!\betc\.)(?<!\bNo\.)(?<!\bFig\.)(?<![A-Z]\.)\s+(?=[A-Z\"“])"
 )
 _OTHER_MODALS = frozenset({"should", "must", "will", "may", "might", "can", "could", "would"})
-# Words that open a clause which EARS would open with one of its own.
-_FOREIGN_OPENINGS = re.compile(
-    r"after|as|at|before|by|during|following|for|given|in|on|once|provided|throughout|unless|until|upon|whenever|"
-    r"wherever|whilst|with|within|without"
-)
 _NO_VERBS = re.compile(r"a|an|the|of|to|in|on|at|by|with|for|from|and|or|each|its|their")
 
 
@@ -41,22 +40,14 @@ class EarsPattern(str, Enum):
     COMPLEX = "complex"
 
 
-class ClauseKind(str, Enum):
-    """What a condition of a requirement is about, by the word that opens it."""
-
-    STATE = "while"
-    EVENT = "when"
-    OPTION = "where"
-    UNWANTED = "if"
-
-
 _PATTERN_OF = {
     ClauseKind.STATE: EarsPattern.STATE,
     ClauseKind.EVENT: EarsPattern.EVENT,
     ClauseKind.OPTION: EarsPattern.OPTION,
     ClauseKind.UNWANTED: EarsPattern.UNWANTED,
 }
-_KEYWORDS = {kind.value: kind for kind in ClauseKind}
+# Hyphens that are not the one of the keyboard, and join words as it does.
+_HYPHENS = str.maketrans({"\u2010": "-", "\u2011": "-"})
 
 
 class Token(NamedTuple):
@@ -97,6 +88,7 @@ class Sentence:
         response: What follows the first ``shall``.
         pattern: The pattern of EARS that it has; None if it has none.
         flaw: Why it has none, in words that follow its id; empty if it has one.
+        departure: How its conditions depart from the keywords of EARS, in words that follow its id.
     """
 
     text: str
@@ -110,6 +102,7 @@ class Sentence:
     response: str
     pattern: EarsPattern | None
     flaw: str
+    departure: str
 
     @property
     def response_start(self) -> int:
@@ -119,13 +112,14 @@ class Sentence:
 
 def read_sentence(text: str) -> Sentence:
     """Take a requirement's text apart."""
-    flat = _without_quotations(" ".join(text.split()))
+    flat = _without_quotations(" ".join(text.split()).translate(_HYPHENS))
     tokens = _tokens(flat)
-    words = frozenset([token.word for token in tokens])
+    # Also without their capitals, as terms are found that are no abbreviations.
+    words = frozenset([token.word for token in tokens]) | frozenset([token.word.lower() for token in tokens])
     shalls = tuple([match.end() for match in _SHALL.finditer(flat)])
     before = flat[: shalls[0] - len("shall")] if shalls else ""
     response = flat[shalls[0] :].strip() if shalls else ""
-    conditions, subject, flaw = _parts(before)
+    conditions, subject, flaw, departure = _parts(before)
     if not shalls:
         flaw = _without_shall(tokens)
     elif not flaw:
@@ -142,6 +136,7 @@ def read_sentence(text: str) -> Sentence:
         response=response,
         pattern=None if flaw else _pattern(conditions),
         flaw=flaw,
+        departure=departure,
     )
 
 
@@ -168,33 +163,52 @@ def _without_quotations(flat: str) -> str:
     return _QUOTED.sub(lambda match: "“" + "·" * (len(match[0]) - 2) + "”", flat)
 
 
-def _parts(before: str) -> tuple[tuple[Clause, ...], str, str]:
-    """Conditions and subject of what stands before ``shall``, and what is wrong with them."""
+def response_start(text: str) -> int:
+    """Where the response of a requirement starts in its text; 0 if it has no ``shall``."""
+    match = _SHALL.search(text)
+    return match.end() if match else 0
+
+
+def _parts(before: str) -> tuple[tuple[Clause, ...], str, str, str]:
+    """Conditions and subject of what stands before ``shall``, what is wrong with them, and what departs from EARS."""
     *lead, last = [part.strip() for part in before.split(",")]
-    opening = _first_word(lead[0] if lead else last)
+    divided = _THEN.fullmatch(last) if not lead else None
+    if divided is not None:
+        # As clear as a comma.
+        lead, last = [divided["condition"]], divided["rest"]
     if not lead:
-        if opening in _KEYWORDS:
-            return (), "", f"begins with {opening.capitalize()!r}, but has no comma between condition and subject"
-        return (), last, "" if last and last.lower() != "there" else "names nobody that shall"
-    if opening not in _KEYWORDS:
-        if _FOREIGN_OPENINGS.fullmatch(opening):
-            return (), last, f"begins with {opening.capitalize()!r}, which opens no condition of EARS"
-        return (), before.strip(), ""
+        opening = _first_word(last)
+        if opening in KEYWORDS:
+            return (), "", f"begins with {opening.capitalize()!r}, but has no comma between condition and subject", ""
+        return (), last, "" if last and last.lower() != "there" else "names nobody that shall", ""
+    if not _opening(lead[0]):
+        return (), before.strip(), "", ""
     clauses: list[list[str]] = []
     for part in lead:
-        if _first_word(part) in _KEYWORDS or not clauses:
+        if _first_word(part) in CLAUSE_WORDS or not clauses:
             clauses.append([part])
         else:
             clauses[-1].append(part)
-    conditions = tuple(Clause(kind=_KEYWORDS[_first_word(each[0])], text=", ".join(each)) for each in clauses)
+    conditions = tuple(Clause(kind=OPENINGS[_opening(each[0])], text=", ".join(each)) for each in clauses)
     subject, has_then = (last[4:].strip(), True) if _first_word(last) == "then" else (last, False)
-    if _first_word(subject) in _KEYWORDS:
-        return conditions, "", "has no comma between its last condition and its subject"
+    if _first_word(subject) in CLAUSE_WORDS:
+        return conditions, "", "has no comma between its last condition and its subject", ""
     if not subject:
-        return conditions, "", "names nobody that shall"
-    unwanted = any(condition.kind is ClauseKind.UNWANTED for condition in conditions)
-    flaw = "says 'if' without 'then'" if unwanted and not has_then else ""
-    return conditions, subject, flaw
+        return conditions, "", "names nobody that shall", ""
+    return conditions, subject, "", _departure([_opening(each[0]) for each in clauses], has_then=has_then)
+
+
+def _opening(part: str) -> tuple[str, ...]:
+    """The phrase with which a condition opens, in lower case."""
+    return opening_of(tuple(match[0].lower() for match in _TOKEN.finditer(part)))
+
+
+def _departure(openings: list[tuple[str, ...]], *, has_then: bool) -> str:
+    foreign = next((opening for opening in openings if opening[0] not in KEYWORDS), None)
+    if foreign is not None:
+        said, keyword = " ".join(foreign).capitalize(), OPENINGS[foreign].value.capitalize()
+        return f"begins a condition with {said!r}, for which EARS has {keyword!r}"
+    return "says 'if' without 'then'" if ("if",) in openings and not has_then else ""
 
 
 def _pattern(conditions: tuple[Clause, ...]) -> EarsPattern:
@@ -209,7 +223,7 @@ def _without_shall(tokens: tuple[Token, ...]) -> str:
 
 
 def _flaw_of_response(response: str) -> str:
-    first = _first_word(response)
+    first = _first_word(_LIST_MARK.sub("", response, count=1) if _LIST_MARK.match(response) else response)
     if not first:
         return "says nothing behind 'shall'"
     return f"has no verb behind 'shall', but {first!r}" if _NO_VERBS.fullmatch(first) else ""

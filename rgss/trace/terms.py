@@ -24,12 +24,18 @@ class Match:
     after: int
 
 
+# In capitals these are abbreviations, operators of logic, or names of modes, and not the words.
+_NOT_IN_CAPITALS = frozenset(words_of("it us he or and nor as am may safe fast slow stable"))
+_ANY_WORD = "*"
+
+
 class TermList:
     """Terms by their first word, so that a sentence without any of them is passed over at once.
 
     A term is found as whole words with nothing but a space, or the full stop of an abbreviation,
-    between them: ``all`` is in neither ``allow`` nor ``all-terrain``, and ``it`` is not in ``IT``.
-    A term in capitals is found in capitals only.
+    between them: ``all`` is in neither ``allow`` nor ``all-terrain``. Capitals do not count, except
+    that a term in capitals is found in capitals only, and that ``it`` is not in ``IT``. Hyphens and
+    spaces between words are the same: ``user-friendly`` is in ``user friendly``. A ``*`` is any word.
     """
 
     def __init__(self, terms: Iterable[str], *, added: Iterable[str] = ()) -> None:
@@ -43,12 +49,11 @@ class TermList:
         self.terms = tuple(dict.fromkeys((*terms, *added)))
         self._by_first: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
         for term in self.terms:
-            words = words_of(term)
-            if words:
+            for words in _spellings(term):
                 self._by_first.setdefault(words[0], []).append((term, words))
         for entries in self._by_first.values():
-            # The longest first: "as far as possible" and not "as far as".
-            entries.sort(key=lambda entry: -len(entry[1]))
+            # The longest first: "as far as possible" and not "as far as"; what is named before what is any word.
+            entries.sort(key=lambda entry: (-len(entry[1]), _ANY_WORD in entry[1]))
         self._firsts = frozenset(self._by_first)
 
     def is_absent(self, sentence: Sentence) -> bool:
@@ -62,23 +67,41 @@ class TermList:
         tokens = sentence.tokens
         index = 0
         while index < len(tokens):
-            token = tokens[index]
-            match = None
-            if token.start >= start and token.word in self._firsts:
-                match = self._match_at(sentence, index)
+            match = self._match_at(sentence, index) if tokens[index].start >= start else None
             if match is not None:
                 yield match
             index = index + 1 if match is None else match.after
 
     def _match_at(self, sentence: Sentence, index: int) -> Match | None:
         tokens = sentence.tokens
-        for term, words in self._by_first[tokens[index].word]:
+        said = tokens[index].word
+        entries = self._by_first.get(said) or (self._by_first.get(said.lower()) if said.isupper() else None)
+        for term, words in entries or ():
             after = index + len(words)
-            if tuple(token.word for token in tokens[index:after]) == words and _adjoining(
-                sentence.text, tokens[index:after]
+            here = tokens[index:after]
+            if (
+                len(here) == len(words)
+                and all(map(_is_word, here, words))
+                and not (len(words) == 1 and said != words[0] and words[0] in _NOT_IN_CAPITALS)
+                and _adjoining(sentence.text, here)
             ):
-                return Match(term=term, first=index, after=after)
+                name = sentence.text[here[0].start : here[-1].end].lower() if _ANY_WORD in words else term
+                return Match(term=name, first=index, after=after)
         return None
+
+
+def _spellings(term: str) -> Iterator[tuple[str, ...]]:
+    """The words of a term, also with spaces for its hyphens and with hyphens for its spaces."""
+    words = tuple(word for part in term.split() for word in ((part,) if part == _ANY_WORD else words_of(part)))
+    if not words:
+        return
+    divided = tuple(word for each in words for word in each.split("-"))
+    joined = ("-".join(words),) if _ANY_WORD not in words else words
+    yield from dict.fromkeys((words, divided, joined))
+
+
+def _is_word(token: Token, word: str) -> bool:
+    return word in (token.word, _ANY_WORD) or (token.word.isupper() and token.word.lower() == word)
 
 
 def _adjoining(text: str, tokens: tuple[Token, ...]) -> bool:

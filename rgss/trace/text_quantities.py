@@ -21,19 +21,6 @@ _NUMBER = re.compile(
 _PROSE = frozenset({"a", "are", "as", "at", "has", "in"})
 """Words that are also the names of units, and far more often are just words."""
 
-_LOWER = r"(?:at\s+least|(?:no|not)\s+(?:less|lower|fewer|smaller|shorter|earlier)\s+than|(?:a\s+)?minimum\s+of)"
-_UPPER = (
-    r"(?:at\s+most|(?:no|not)\s+(?:more|higher|greater|larger|longer|later)\s+than|(?:a\s+)?maximum\s+of|"
-    r"not\s+exceed|up\s+to)"
-)
-_ABOVE = r"(?:more|higher|greater|larger|longer)\s+than|above"
-_BELOW = r"(?:less|lower|fewer|smaller|shorter)\s+than|below|within"
-_BOUND = re.compile(
-    rf"\b(?:(?P<lower>{_LOWER}|(?<!no )(?<!not )(?:{_ABOVE}))|(?:{_UPPER}|(?<!no )(?<!not )(?:{_BELOW})))"
-    r"(?:\s+(?:a|an|the))?\s+$",
-    re.IGNORECASE,
-)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TextQuantity:
@@ -67,32 +54,6 @@ def quantities_in(sentence: str) -> Iterator[TextQuantity]:
         yield TextQuantity(
             text=text, value=float(number.replace(",", "")), unit=unit or "1", start=start, end=start + len(text)
         )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BoundWords:
-    """Words that make the number behind them a bound.
-
-    Attributes:
-        text: They as they are written.
-        is_lower: Whether what is bounded may be larger, and not smaller.
-    """
-
-    text: str
-    is_lower: bool
-
-
-def bound_before(sentence: str, start: int) -> BoundWords | None:
-    """The words of a bound right before a number.
-
-    Args:
-        sentence: The sentence.
-        start: Where the number starts.
-    """
-    match = _BOUND.search(sentence[:start])
-    if match is None:
-        return None
-    return BoundWords(text=" ".join(match[0].split()), is_lower=match["lower"] is not None)
 
 
 @lru_cache(maxsize=4096)

@@ -13,8 +13,8 @@ from rgss.trace.rule import Flaw, SentenceRule, Worded
 from rgss.trace.sentences import Sentence, words_of
 from rgss.trace.terms import Match, TermList
 from rgss.trace.text_quantities import is_unit
+from rgss.trace.wording_closed_word_lists import COMBINATORS, NEGATIONS
 from rgss.trace.wording_verbs import AMBIGUOUS_VERBS, VERBS
-from rgss.trace.wording_word_lists import COMBINATORS, NEGATIONS
 
 # "not exceed" and "not more than" are bounds, which are verified as others are.
 _BOUNDING = frozenset(words_of("exceed exceeding more less greater fewer later earlier longer lower higher smaller"))

@@ -14,9 +14,9 @@ from rgss.findings import Severity
 from rgss.requirements import Requirement
 from rgss.trace.rule import Flaw, SentenceRule, Worded
 from rgss.trace.sentences import Sentence, words_of
-from rgss.trace.terms import TermList
+from rgss.trace.terms import Match, TermList
 from rgss.trace.text_quantities import TextQuantity
-from rgss.trace.wording_number_lists import BOUNDS, PURE_NUMBERS, UNMEASURED
+from rgss.trace.wording_number_lists import BOUNDS, EXTREMES, EXTREMES_AFTER, PURE_NUMBERS, UNMEASURED
 
 # "3 fingers" is a count; "a mass of 3 for each" and "3." are not.
 _COUNTED = re.compile(r"(?:\s+|-)(?P<word>[A-Za-z][A-Za-z-]*)")
@@ -36,7 +36,7 @@ _INTRODUCTIONS = frozenset(
     )
 )
 _YEAR = re.compile(r"(?:19|20)\d\d")
-_SIGN_OF_BOUND = re.compile(r"[±≤≥<>–]|\+/-|\d\s?[A-Za-z°%µ/^*]{0,10}\sto\s[+-]?\d")
+_SIGN_OF_BOUND = re.compile(r"[±≤≥⩽⩾≦≧<>–]|\+/-|\d\s?[A-Za-z°%µ/^*]{0,10}\sto\s[+-]?\d")
 # "a 0.2 kg cup" names a cup; "lift 0.2 kg" sets a target.
 _ATTRIBUTE = re.compile(r"\s+(?P<word>[A-Za-z]+)")
 
@@ -94,10 +94,20 @@ def _without_target(sentence: Sentence, terms: TermList, element: Worded) -> Ite
         return
     if terms.is_absent(sentence):
         return
-    found = dict.fromkeys(match.term for match in terms.find(sentence, start=sentence.response_start))
+    matches = terms.find(sentence, start=sentence.response_start)
+    found = dict.fromkeys(match.term for match in matches if not _is_named_extreme(sentence, match))
     if found and not any(quantity.start >= sentence.response_start for quantity in sentence.quantities):
         words = ", ".join(f"'{term}'" for term in found)
         yield Flaw(message=f"says {words}, but sets no target", hint="give a number to measure by, or a criterion")
+
+
+def _is_named_extreme(sentence: Sentence, match: Match) -> bool:
+    """'the maximum rate' is the name of a quantity; 'maximum uptime' is as much of it as there can be."""
+    if match.term not in EXTREMES:
+        return False
+    tokens = sentence.tokens
+    is_bound = match.after < len(tokens) and tokens[match.after].word == "of"
+    return is_bound or match.first == 0 or tokens[match.first - 1].word not in EXTREMES_AFTER
 
 
 RULES: tuple[SentenceRule, ...] = (

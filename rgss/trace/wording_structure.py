@@ -33,6 +33,11 @@ def _pattern(sentence: Sentence, _: TermList, __: Worded) -> Iterator[Flaw]:
         yield Flaw(message=sentence.flaw, hint=_PATTERNS)
 
 
+def _departure(sentence: Sentence, _: TermList, __: Worded) -> Iterator[Flaw]:
+    if sentence.departure and not sentence.flaw:
+        yield Flaw(message=sentence.departure, hint=_PATTERNS)
+
+
 def _passive(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
     match = _BE.match(sentence.response)
     if match is None:
@@ -62,10 +67,19 @@ RULES: tuple[SentenceRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "A requirement has a pattern of EARS: it says who shall do what, after the conditions under which "
-            "that holds, each with the word for its kind and a comma behind it. A reader then finds the same "
-            "part at the same place in every requirement."
+            "that holds, each with a comma behind it. A reader then finds the same part at the same place in "
+            "every requirement. Words that mean the same as a keyword of EARS, such as 'Upon', count as it."
         ),
         find=_pattern,
+    ),
+    SentenceRule(
+        id="wording.ears-keyword",
+        severity=Severity.INFO,
+        explanation=(
+            "Conditions begin with the keywords of EARS: While a state, When an event, Where an option, If "
+            "something unwanted, then. A project that wants no other words raises this rule's severity."
+        ),
+        find=_departure,
     ),
     SentenceRule(
         id="wording.R2",

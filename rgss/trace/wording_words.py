@@ -14,21 +14,16 @@ from rgss.findings import Severity
 from rgss.trace.rule import Flaw, SentenceRule, Worded
 from rgss.trace.sentences import Sentence
 from rgss.trace.terms import Match, TermList
-from rgss.trace.wording_word_lists import (
+from rgss.trace.wording_closed_word_lists import (
     ABSOLUTES,
-    CLEAR_BEFORE,
     DEMONSTRATIVES,
-    ESCAPES,
     INDEFINITE_TIMES,
-    OPEN_ENDS,
     PRONOUNS,
     SEQUENCE_WORDS,
-    SUPERFLUOUS,
     UNIVERSALS,
     UNRESOLVED,
-    VAGUE,
-    VAGUE_BEFORE_NUMBERS,
 )
+from rgss.trace.wording_word_lists import CLEAR_BEFORE, ESCAPES, OPEN_ENDS, SUPERFLUOUS, VAGUE, VAGUE_BEFORE_NUMBERS
 
 _NUMBER_NEXT = re.compile(r"\s*[~±]?\d")
 # What a demonstrative stands before when it stands for a thing by itself.
@@ -73,6 +68,7 @@ def _escape(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
         match
         for match in terms.find(sentence)
         if not (match.after < len(tokens) and tokens[match.after].word in ("by", "for", "in"))
+        and match.term not in INDEFINITE_TIMES
     )
     if found:
         yield Flaw(

@@ -296,3 +296,30 @@ def test_a_hostile_test_result_is_refused_in_one_line(rgss, folder):
 
     assert (told.status, told.output) == (2, "")
     assert "it declares a document type, which is refused" in told.complaint
+
+
+def test_files_that_nothing_reads_and_characters_that_nobody_sees(rgss, folder):
+    (folder / "requirements" / "rule.yaml").write_text("rules: {}\n")
+    scene = folder / "scenes" / "restaurant.yaml"
+    scene.write_text(scene.read_text(encoding="utf-8") + "# \u202eend\n", encoding="utf-8")
+    last = len(scene.read_text(encoding="utf-8").splitlines())
+    told = rgss("check", "--project", folder)
+
+    assert told.status == 1
+    unread, invisible = told.output.splitlines()[:2]
+    assert unread == (
+        "requirements/rule.yaml:1:1: warning: nothing reads this file "
+        "(is it meant to be 'requirements/rules.yaml'?) [document.unread]"
+    )
+    assert invisible == (
+        f"scenes/restaurant.yaml:{last}:3: warning: has the invisible character U+202E, so the text may read "
+        "otherwise than it is (remove it) [document.invisible]"
+    )
+
+
+def test_a_misspelt_file_is_named_beside_the_missing_one(rgss, folder):
+    (folder / "requirements" / "measures.yaml").rename(folder / "requirements" / "measure.yaml")
+    told = rgss("check", "--project", folder)
+
+    assert told.status == 2
+    assert "requirements/measure.yaml:1:1: warning: nothing reads this file" in told.output

@@ -11,6 +11,7 @@ import pytest
 
 from rgss import load_study
 from rgss.evidence import EvidenceStore, Provenance
+from rgss.invisible_characters import invisible_places, visible
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.scaffolding import write_scaffold
@@ -112,20 +113,31 @@ def test_traceability(rgss, hostile, tmp_path, kind):
         import openpyxl
 
         cells = [cell for sheet in openpyxl.load_workbook(path) for row in sheet.iter_rows() for cell in row]
-        held = [cell for cell in cells if cell.value == HOSTILE]
+        held = [cell for cell in cells if cell.value == visible(HOSTILE)]
         assert held
         assert {(cell.data_type, cell.quotePrefix) for cell in held} == {("s", True)}
         return
     text = path.read_text(encoding="utf-8")
     if kind == "csv":
         cells = [cell for row in csv.reader(text.lstrip("\ufeff").splitlines()) for cell in row]
-        assert f"'{HOSTILE}" in cells
+        assert f"'{visible(HOSTILE)}" in cells
         assert not any(cell.startswith(("=", "@")) for cell in cells)
         return
+    assert not invisible_places(text.lstrip("\ufeff"))
+    assert "[U+202E]abc[U+200F]" in text.replace("\\", "")
     assert MARKUP not in text
     assert "<img src=x" not in text.replace("\\<", "")
     if kind == "html":
-        assert HOSTILE in html.unescape(text)
+        assert visible(HOSTILE) in html.unescape(text)
+
+
+def test_diagrams_and_the_model_in_sysml(rgss, hostile, tmp_path):
+    assert rgss("trace", "--project", hostile, "--diagrams", tmp_path / "diagrams").status == 0
+    assert rgss("export", "sysml", "--project", hostile, "-o", tmp_path / "diagrams" / "model.sysml").status == 0
+    texts = [path.read_text(encoding="utf-8") for path in (tmp_path / "diagrams").iterdir()]
+
+    assert not any(map(invisible_places, texts))
+    assert sum("[U+202E]" in text for text in texts) > 1
 
 
 @pytest.mark.parametrize("kind", ["reqif", "csv", "xlsx"])

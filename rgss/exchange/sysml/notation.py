@@ -1,9 +1,15 @@
-"""Lexical matters of the textual notation: names, strings, documentation, bodies."""
+"""Lexical matters of the textual notation: names, strings, documentation, bodies.
+
+The notation is read by people as code is, and never back by rgss: characters that reorder or hide
+text are shown by their code points.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+
+from rgss.invisible_characters import visible
 
 _INDENT = "    "
 _BLANKS = re.compile(r"\s+")
@@ -12,12 +18,12 @@ _ESCAPES = {"\\": "\\\\", "'": "\\'", '"': '\\"', "\b": "\\b", "\f": "\\f", "\n"
 
 def name(text: str) -> str:
     """A text as an unrestricted name, in single quotes, whatever it holds."""
-    return "'" + "".join(_ESCAPES.get(each, each) if each != '"' else each for each in text) + "'"
+    return "'" + "".join(_ESCAPES.get(each, each) if each != '"' else each for each in visible(text)) + "'"
 
 
 def string(text: str) -> str:
     """A text as a string literal."""
-    return '"' + "".join(_ESCAPES.get(each, each) if each != "'" else each for each in text) + '"'
+    return '"' + "".join(_ESCAPES.get(each, each) if each != "'" else each for each in visible(text)) + '"'
 
 
 def real(value: float) -> str:
@@ -52,4 +58,4 @@ def body(head: str, lines: Iterable[str]) -> list[str]:
 
 
 def _remark(text: str) -> str:
-    return f"/* {_BLANKS.sub(' ', text).strip().replace('*/', '* /')} */"
+    return f"/* {_BLANKS.sub(' ', visible(text)).strip().replace('*/', '* /')} */"

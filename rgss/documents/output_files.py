@@ -1,0 +1,253 @@
+"""Output files: one mechanism by which every verb writes a file.
+
+A regular file is replaced as a whole or not at all, and keeps its permissions; a symbolic link is
+followed and stays; a device, a pipe or a socket is written to; a source of a project is refused.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+import stat
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+
+from rgss.errors import DefinitionError, RgssError, StorageError
+
+DATA_FOLDERS = ("requirements", "designs", "scenes", "studies")
+"""The folders of a project that hold its sources."""
+
+_STATE = frozenset({"evidence.sqlite", "evidence.sqlite-wal", "evidence.sqlite-shm", "verdicts.json"})
+_STATE_FOLDER, _TESTS = ".rgss", "tests"
+_MOST_LINKS = 40
+_DESCRIPTORS = "/proc/"
+_DISK_FAILURES = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+
+
+class SourceOverwriteError(DefinitionError):
+    """An output would take the place of a file that a project reads."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Target:
+    """Where an output goes.
+
+    Attributes:
+        path: The file behind all symbolic links, or the path as given if it is written to in place.
+        in_place: It is a device, a pipe, a socket or an open descriptor, which cannot be replaced.
+        status: What is there already; None for a new file.
+    """
+
+    path: Path
+    in_place: bool
+    status: os.stat_result | None
+
+
+@contextmanager
+def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]:
+    """Give a temporary file to write to; its content becomes that of the path if no exception leaves the block.
+
+    Args:
+        path: The output file.
+        replace_source: Also replace a file that a project reads, for verbs whose task that is.
+
+    Raises:
+        SourceOverwriteError: The file is a source of a project.
+        OSError: It cannot be written.
+    """
+    try:
+        target = _target(path)
+    except ValueError as error:
+        raise OSError(errno.EINVAL, str(error), str(path)) from error
+    if not replace_source:
+        _refuse_source(path, target)
+    writer = _streamed if target.in_place else _swapped
+    try:
+        with writer(target) as part:
+            yield part
+    except OSError as error:
+        if isinstance(error, BrokenPipeError) and not is_standard_output(path):
+            # The reader of standard output may go; a pipe that was named has not got its content.
+            raise unwritable(path, error) from error
+        # The user knows the output file, and not the temporary one beside it.
+        if error.errno is not None:
+            raise type(error)(error.errno, error.strerror, str(path)) from error
+        raise
+
+
+def write_output(path: Path, content: bytes, *, replace_source: bool = False) -> None:
+    """Write an output file as a whole or not at all.
+
+    Args:
+        path: The output file.
+        content: What it is to hold.
+        replace_source: Also replace a file that a project reads.
+
+    Raises:
+        SourceOverwriteError: The file is a source of a project.
+        StorageError: The disk is full or fails.
+        DefinitionError: The file cannot be written.
+    """
+    try:
+        with replaced_file(path, replace_source=replace_source) as part:
+            part.write_bytes(content)
+    except OSError as error:
+        raise unwritable(path, error) from error
+
+
+def unwritable(path: Path, error: OSError) -> RgssError:
+    """The error of rgss for an output file that the system refuses."""
+    kind = StorageError if error.errno in _DISK_FAILURES else DefinitionError
+    return kind(f"{path} cannot be written: {error.strerror or error}", hint="check the folder")
+
+
+def require_no_source(path: Path) -> None:
+    """Make sure, before any work is done, that an output would not take the place of a source.
+
+    Raises:
+        SourceOverwriteError: The file is a source of a project.
+    """
+    with suppress(OSError, ValueError):
+        _refuse_source(path, _target(path))
+
+
+def why_not_writable(path: Path) -> str:
+    """Why a file cannot be written, in a few words; empty if it can be. The file itself is left alone.
+
+    Raises:
+        SourceOverwriteError: The file is a source of a project.
+    """
+    try:
+        if path.is_dir():
+            return "it is a folder"
+        target = _target(path)
+        folder = target.path.parent if path.is_symlink() else path.parent
+        if not folder.is_dir():
+            return f"there is no folder {folder}"
+        if target.status is not None and not os.access(target.path, os.W_OK):
+            return os.strerror(errno.EACCES)
+        if not target.in_place:
+            _new_part(target.path).unlink()
+    except (OSError, ValueError) as error:
+        return getattr(error, "strerror", None) or str(error)
+    _refuse_source(path, target)
+    return ""
+
+
+def is_standard_output(path: Path) -> bool:
+    """Whether a path names what this process prints to, so that nothing else may be printed there."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(1))
+    except (OSError, ValueError):
+        return False
+
+
+def project_source(path: Path) -> str:
+    """The path of a source within the project that it belongs to; empty for any other file.
+
+    Sources are what a project reads: everything in its data folders, its tests, and its evidence.
+
+    Args:
+        path: A file, without symbolic links.
+    """
+    path = path.absolute()
+    for folder in path.parents:
+        if not all((folder / name).is_dir() for name in DATA_FOLDERS):
+            continue
+        within = path.relative_to(folder)
+        first = within.parts[0]
+        is_test = first == _TESTS and path.suffix == ".py"
+        is_state = first == _STATE_FOLDER and len(within.parts) == 2 and within.name in _STATE
+        if first in DATA_FOLDERS or is_test or is_state:
+            return within.as_posix()
+    return ""
+
+
+def _refuse_source(path: Path, target: _Target) -> None:
+    if target.status is None or target.in_place:
+        return
+    source = project_source(target.path)
+    if source:
+        through = "" if target.path.absolute() == path.absolute() else f" (through the link {str(path)!r})"
+        raise SourceOverwriteError(
+            f"{source} is a source of the project and is not overwritten{through}",
+            hint="name another file; to replace this one, remove it first",
+        )
+
+
+def _target(path: Path) -> _Target:
+    """Where an output goes, behind all symbolic links.
+
+    Raises:
+        OSError: There is a circle of links, or a name is too long.
+    """
+    try:
+        status = path.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        status = None
+    if status is not None and not stat.S_ISREG(status.st_mode):
+        return _Target(path=path, in_place=True, status=status)
+    if status is not None and is_standard_output(path):
+        return _Target(path=path, in_place=True, status=status)
+    here = path
+    for _ in range(_MOST_LINKS):
+        # A link there stands for an open descriptor; a file in its place would not be what is open.
+        if os.path.realpath(here.parent).startswith(_DESCRIPTORS):
+            return _Target(path=path, in_place=True, status=status)
+        if not here.is_symlink():
+            return _Target(path=Path(os.path.realpath(here.parent)) / here.name, in_place=False, status=status)
+        here = here.parent / os.readlink(here)  # noqa: PTH115 - a Path would drop what makes a loop visible
+    raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), str(path))
+
+
+@contextmanager
+def _swapped(target: _Target) -> Iterator[Path]:
+    if target.status is not None and not os.access(target.path, os.W_OK):
+        # A rename needs the folder alone, but the owner has said that this file stays.
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    part = _new_part(target.path)
+    try:
+        yield part
+        with part.open("rb+") as file:
+            os.fsync(file.fileno())
+        if target.status is not None:
+            with suppress(OSError):
+                os.chown(part, target.status.st_uid, target.status.st_gid)
+            part.chmod(stat.S_IMODE(target.status.st_mode))
+        part.replace(target.path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+@contextmanager
+def _streamed(target: _Target) -> Iterator[Path]:
+    with tempfile.TemporaryDirectory(prefix="rgss-") as folder:
+        part = Path(folder) / "part"
+        part.touch()
+        yield part
+        with part.open("rb") as source:
+            if is_standard_output(target.path):
+                sys.stdout.flush()
+                with os.fdopen(os.dup(1), "wb") as sink:
+                    shutil.copyfileobj(source, sink)
+            else:
+                with target.path.open("wb") as sink:
+                    shutil.copyfileobj(source, sink)
+
+
+def _new_part(path: Path) -> Path:
+    """A new, empty file in the same folder, since a rename is atomic only within a file system."""
+    for number in count():
+        part = path.with_name(f".rgss-{os.getpid()}-{number}.part")
+        try:
+            os.close(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+        except FileExistsError:
+            continue
+        return part
+    raise AssertionError("unreachable")

@@ -1,0 +1,217 @@
+"""Files of a project that nothing reads: misspelt names, wrong endings, wrong folders."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from rgss.documents import read_document
+from rgss.documents.output_files import DATA_FOLDERS
+from rgss.errors import DocumentError
+from rgss.findings import Finding, Severity, shown
+from rgss.studies.document_kinds import document_kind
+
+_REQUIREMENTS = "requirements"
+_PARTS = ("stakeholder", "system", "architecture")
+_SINGLE = ("measures", "rules", "reviews")
+_ENDINGS = (".yaml", ".yml")
+# What tells a kind of document by a key at its top.
+_KIND_OF_KEY: Mapping[str, str] = {
+    "study": "study",
+    "parameters": "design-space",
+    "components": "catalogue",
+    "bodies": "scene",
+    "joints": "robot",
+    "azimuths": "gripper",
+    "measures": "measures",
+    "rules": "rules",
+    "reviews": "reviews",
+    "blocks": "architecture",
+    "behaviours": "architecture",
+}
+_FOLDER_OF_KIND: Mapping[str, str] = {
+    "study": "studies",
+    "design-space": "designs",
+    "catalogue": "designs",
+    "scene": "scenes",
+    "robot": "scenes",
+    "gripper": "scenes",
+}
+_MESH = re.compile(r"filename\s*=\s*[\"'](?:package://)?([^\"']+)[\"']")
+_LARGEST = 8 * 1024 * 1024
+
+
+def unread_findings(project: Path) -> tuple[Finding, ...]:
+    """Files and folders of a project that look like its sources, and that nothing reads.
+
+    A document of the right kind in the right folder that no study names is only noted.
+
+    Args:
+        project: The project's folder.
+    """
+    findings = [*_of_requirements(project), *_of_other_folders(project), *_beside_folders(project)]
+    return tuple(sorted(findings))
+
+
+def _of_requirements(project: Path) -> Iterator[Finding]:
+    folder = project / _REQUIREMENTS
+    for path in _documents(folder):
+        within = path.relative_to(folder)
+        first, *rest = within.parts
+        is_part = first in _PARTS and rest and (folder / first).is_dir()
+        is_file = not rest and path.suffix == ".yaml" and path.stem in (*_PARTS, *_SINGLE)
+        if is_part or is_file:
+            continue  # `rgss.requirements` reads it, or says why not
+        yield _unread(project, path, _meant(project, path))
+
+
+def _meant(project: Path, path: Path) -> str:
+    """The name that a file of requirements should have; empty if that is anybody's guess."""
+    within = path.relative_to(project / _REQUIREMENTS)
+    first = within.parts[0] if len(within.parts) > 1 else _stem(within.name)
+    near = difflib.get_close_matches(first.lower(), (*_PARTS, *_SINGLE), n=1, cutoff=0.6)
+    name = near[0] if near else ""
+    if not name:
+        kind = _kind(path)
+        if kind in _FOLDER_OF_KIND:
+            return f"{_FOLDER_OF_KIND[kind]}/{_stem(path.name)}.yaml"
+        name = kind
+    if not name:
+        return ""
+    if name in _PARTS and (project / _REQUIREMENTS / name).is_dir():
+        return f"{_REQUIREMENTS}/{name}/{_stem(within.name)}.yaml"
+    return f"{_REQUIREMENTS}/{name}.yaml"
+
+
+def _of_other_folders(project: Path) -> Iterator[Finding]:
+    named = _named(project)
+    for folder in DATA_FOLDERS:
+        if folder == _REQUIREMENTS:
+            continue
+        for path in _documents(project / folder):
+            kind = _kind(path)
+            home = _FOLDER_OF_KIND.get(kind, _REQUIREMENTS if kind else "")
+            if path.resolve() in named or (folder == "studies" == home and path.suffix == ".yaml"):
+                continue
+            if home == folder and path.suffix == ".yaml":
+                label = path.relative_to(project).as_posix()
+                yield _finding(label, Severity.INFO, f"is a {kind} that no study names", "name it in a study")
+            elif home == folder:
+                yield _unread(project, path, f"{folder}/{_stem(path.name)}.yaml")
+            elif home == _REQUIREMENTS:
+                yield _unread(project, path, f"{_REQUIREMENTS}/{kind}.yaml")
+            else:
+                yield _unread(project, path, f"{home}/{_stem(path.name)}.yaml" if home else "")
+
+
+def _beside_folders(project: Path) -> Iterator[Finding]:
+    """Folders whose names are nearly those of the project's, and documents that lie beside the folders."""
+    try:
+        beside = sorted(path for path in project.iterdir() if not path.name.startswith("."))
+    except OSError:
+        return
+    for path in beside:
+        if path.is_dir() and path.name not in DATA_FOLDERS:
+            near = difflib.get_close_matches(path.name.lower(), DATA_FOLDERS, n=1, cutoff=0.8)
+            first = next(iter(_documents(path)), None) if near else None
+            if first is not None:
+                yield _unread(project, first, f"{near[0]}/{first.relative_to(path).as_posix()}")
+        elif path.suffix.lower() in _ENDINGS and path.stem.lower() in (*_PARTS, *_SINGLE):
+            yield _unread(project, path, f"{_REQUIREMENTS}/{path.stem.lower()}.yaml")
+
+
+def _documents(folder: Path) -> Iterator[Path]:
+    """What looks like a document: by its ending, in whatever capitals, or with another one behind it."""
+    for path in sorted(folder.rglob("*")):
+        name = path.name.lower()
+        if name.startswith(".") or not path.is_file():
+            continue
+        if name.endswith((*_ENDINGS, ".yaml.txt", ".yml.txt")):
+            yield path
+
+
+def _stem(name: str) -> str:
+    return re.split(r"\.ya?ml", name, maxsplit=1, flags=re.IGNORECASE)[0]
+
+
+def _kind(path: Path) -> str:
+    """The kind of a document by its content; empty if it has none."""
+    data = _data(path)
+    keys = data if isinstance(data, dict) else {}
+    kind = next((kind for key, kind in _KIND_OF_KEY.items() if key in keys), "")
+    if not kind and isinstance(listed := keys.get("requirements"), list):
+        entries = [each for each in listed if isinstance(each, dict)]
+        kind = "system" if any("group" in each for each in entries) else "stakeholder" if entries else ""
+    return kind
+
+
+def _named(project: Path) -> set[Path]:
+    """Every file that the studies name, and those that these name in turn."""
+    pending = [path for path in _documents(project / "studies") if path.suffix == ".yaml"]
+    named: set[Path] = set()
+    while pending:
+        path = pending.pop()
+        for text in _texts_of(path):
+            for base in (project, path.parent):
+                target = _file(base, text)
+                if target is not None and target not in named:
+                    named.add(target)
+                    pending.append(target)
+    return named
+
+
+def _texts_of(path: Path) -> Iterator[str]:
+    if path.suffix.lower() in _ENDINGS:
+        yield from _strings(_data(path))
+    elif path.suffix.lower() in (".urdf", ".xacro"):
+        try:
+            if path.stat().st_size <= _LARGEST:
+                yield from _MESH.findall(path.read_text(encoding="utf-8", errors="replace"))
+        except OSError:
+            return
+
+
+def _file(base: Path, text: str) -> Path | None:
+    # A name of a file is one short line; anything else is prose.
+    if not text or len(text) > 255 or "\n" in text or not PurePosixPath(text).suffix:
+        return None
+    try:
+        target = (base / text).resolve()
+        return target if target.is_file() else None
+    except (OSError, ValueError):
+        return None
+
+
+def _data(path: Path) -> Any:
+    try:
+        return read_document(path, label=path.name).data
+    except DocumentError:
+        return None
+
+
+def _strings(value: Any) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, (dict, list)):
+        for each in value.values() if isinstance(value, dict) else value:
+            yield from _strings(each)
+
+
+def _unread(project: Path, path: Path, meant: str) -> Finding:
+    label = path.relative_to(project).as_posix()
+    hint = f"is it meant to be {shown(meant)}?" if meant else _places(label)
+    return _finding(label, Severity.WARNING, "nothing reads this file", hint)
+
+
+def _places(label: str) -> str:
+    if label.startswith(f"{_REQUIREMENTS}/"):
+        parts = ", ".join(document_kind(name).id for name in (*_PARTS, *_SINGLE))
+        return f"{_REQUIREMENTS}/ has {parts}, each with the ending .yaml"
+    return "name it in a study, or remove it"
+
+
+def _finding(label: str, severity: Severity, message: str, hint: str) -> Finding:
+    return Finding(file=label, line=1, column=1, rule="document.unread", severity=severity, message=message, hint=hint)

@@ -1,0 +1,114 @@
+"""Which numbers of a sentence are bounds, and to which side: every phrase of the family."""
+
+from __future__ import annotations
+
+import pytest
+
+from rgss.trace.comparison_phrases import (
+    BETWEEN,
+    LOWER_BEFORE,
+    LOWER_BEHIND,
+    NEGATORS,
+    SIGNS,
+    UPPER_BEFORE,
+    UPPER_BEHIND,
+)
+from rgss.trace.text_bounds import bound_of
+from rgss.trace.text_quantities import quantities_in
+
+BEFORE = [(phrase, True) for phrase in LOWER_BEFORE] + [(phrase, False) for phrase in UPPER_BEFORE]
+BEHIND = [(phrase, True) for phrase in LOWER_BEHIND] + [(phrase, False) for phrase in UPPER_BEHIND]
+
+
+def only_bound(sentence):
+    (quantity,) = quantities_in(sentence)
+    return bound_of(sentence, quantity)
+
+
+@pytest.mark.parametrize(("phrase", "is_lower"), BEFORE)
+@pytest.mark.parametrize("spelt", [str, str.upper, lambda phrase: phrase.replace(" ", "\n ")])
+def test_phrases_before_a_number(phrase, is_lower, spelt):
+    bound = only_bound(f"The arm shall stop in {spelt(phrase)} 5 s.")
+
+    assert bound is not None
+    assert bound.is_lower is is_lower
+    assert bound.text == " ".join(f"{spelt(phrase)} 5 s".split())
+
+
+@pytest.mark.parametrize(("phrase", "is_lower"), BEFORE)
+@pytest.mark.parametrize("negator", [*NEGATORS, "doesn't"])
+def test_a_negator_turns_a_phrase(phrase, is_lower, negator):
+    bound = only_bound(f"The time shall {negator} {phrase} 5 s.")
+
+    assert bound is not None
+    assert bound.is_lower is not is_lower
+
+
+@pytest.mark.parametrize("word", BETWEEN)
+def test_words_between_negator_and_phrase(word):
+    bound = only_bound(f"The time shall not {word} more than 5 s.")
+
+    assert bound is not None
+    assert not bound.is_lower
+
+
+@pytest.mark.parametrize(("phrase", "is_lower"), BEHIND)
+@pytest.mark.parametrize("end", [".", ", and open.", " in each trial."])
+def test_phrases_behind_a_number(phrase, is_lower, end):
+    bound = only_bound(f"The arm shall stop in 5 s {phrase}{end}")
+
+    assert bound is not None
+    assert (bound.text, bound.is_lower) == (f"5 s {phrase}", is_lower)
+
+
+@pytest.mark.parametrize(("sign", "is_lower"), SIGNS.items())
+@pytest.mark.parametrize("space", ["", " "])
+def test_signs(sign, is_lower, space):
+    before, behind = only_bound(f"The time shall be {sign}{space}5 s."), only_bound(f"It shall be 5 s{space}{sign} t.")
+
+    assert before is not None
+    assert behind is not None
+    assert (before.is_lower, behind.is_lower) == (is_lower, not is_lower)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "is_lower"),
+    [
+        ("The arm shall take a time not exceeding 5 s.", False),
+        ("The force shall not be allowed to exceed 5 N.", False),
+        ("The force shall not exceed a value of 5 N.", False),
+        ("The force shall exceed a mean value of 5 N.", True),
+        ("The speed shall not fall below 5 m/s.", True),
+        ("The speed shall never drop to less than 5 m/s.", True),
+        ("The mass shall be less-than or equal to 5 kg.", False),
+        ("The slip shall stay within the 5 mm.", False),
+        ("The cell shall keep 5 kg, or less, in store.", False),
+        ("The cell shall keep max. 5 kg in store.", False),
+    ],
+)
+def test_phrases_as_they_are_written(sentence, is_lower):
+    bound = only_bound(sentence)
+
+    assert bound is not None
+    assert bound.is_lower is is_lower
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "The gripper shall lift 5 kg.",
+        "The arm shall wait for 5 s.",
+        "The arm shall lift, above the table, a load of 5 kg.",
+        "The gripper shall exceed the other one, and lift 5 kg.",
+    ],
+)
+def test_numbers_that_are_no_bounds(sentence):
+    assert only_bound(sentence) is None
+
+
+def test_what_stands_behind_one_number_may_be_about_the_next():
+    sentence = "The cell shall serve in 5 s at least 3 cups."
+    first, second = quantities_in(sentence)
+
+    assert bound_of(sentence, first) is None
+    assert bound_of(sentence, second).is_lower
