@@ -14,7 +14,9 @@ _MEANINGS: Mapping[str, str] = MappingProxyType(
     {
         "phases_completed": "how many of the states were completed",
         "phases_total": "how many states the task has",
-        "planning_time_s": "planning time by the study's planning clock, of each planned move",
+        "planning_time_s": (
+            "planning time t_sp of each planned move by the study's planning clock: search and simplification"
+        ),
         "planning_checks": "state-validity checks of the search, of each planned move",
         "path_length_m": "length of the tool's path, of each planned move",
         "motion_time_s": "simulated time of all states, planning not counted",
