@@ -66,6 +66,7 @@ class PlanResult:
         checks: Validity checks of the search: those up to the solution, or the whole budget.
         simplification_checks: Validity checks of the simplification and of its result.
         search_time_s: Time of the search by the planning clock.
+        simplification_time_s: Time of the simplification by the planning clock.
     """
 
     outcome: PlanOutcome
@@ -73,6 +74,7 @@ class PlanResult:
     checks: int
     simplification_checks: int
     search_time_s: float
+    simplification_time_s: float = 0.0
 
 
 def outcome_within(result: PlanResult, budget_checks: int) -> PlanOutcome:

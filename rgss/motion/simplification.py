@@ -1,9 +1,10 @@
-"""Shortening a path by shortcuts, within a budget of validity checks of its own."""
+"""Path simplification by shortcuts, within a limit of its own."""
 
 from __future__ import annotations
 
 import contextlib
 import itertools
+import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
@@ -11,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.motion.paths import coarse_to_fine, path_length, path_states, segment_states
+from rgss.motion.paths import coarse_to_fine, path_length, segment_states
 from rgss.motion.validity import StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
@@ -21,6 +22,8 @@ _SMALLEST_ROPE_GAIN = 0.05
 _SMALLEST_RANDOM_GAIN = 0.001
 _LARGEST_FRUITLESS_RUN = 60
 _FINAL_DENSITY = 4
+_CHECKS_BETWEEN_LOOKS = 32
+"""By a wall clock; a look at it costs a fraction of a check."""
 
 
 def shorten(
@@ -30,6 +33,8 @@ def shorten(
     generator: np.random.Generator,
     budget_checks: int,
     resolution_rad: float,
+    limit_checks: int | None = None,
+    is_over: Callable[[], bool] | None = None,
 ) -> tuple[Vector, int]:
     """Shorten a valid polyline by replacing stretches of it with straight segments.
 
@@ -40,27 +45,62 @@ def shorten(
 
     Shortcuts pass close by what is in the way. The result is therefore checked once more, four times as
     densely; where it touches something between the states that were checked before, the shortcuts are
-    taken back one by one.
+    taken back one by one. What that final check of the path so far needs is kept back from the limit. A
+    path that cannot be checked to the end within the limit is not used: the longer one before it is, and
+    at last the path as it was found, which the planner has checked.
 
     Args:
         points: Corners of a valid path in rad, shape (n, joints).
         validity: Tells valid states from invalid ones.
         generator: Source of the random choices.
-        budget_checks: Greatest number of validity checks; those of the final check come on top.
+        budget_checks: Greatest number of validity checks of looking for shortcuts.
         resolution_rad: Greatest distance between the states that are checked.
+        limit_checks: Greatest number of validity checks altogether, the final check included; None for no limit.
+        is_over: Termination predicate of a wall clock; nothing that is checked after it is true is used.
 
     Returns:
         The corners of the shorter path and the number of checks that it took.
     """
-    check = _CheckBudget(validity, budget_checks)
+    check = _CheckBudget(validity, budget_checks, limit_checks, is_over)
     paths = [points]
     # What is found before the budget is spent is kept.
     with contextlib.suppress(_BudgetSpentError):
-        paths.extend(_improvements(points, check, generator, resolution_rad))
-    final = _CheckBudget(validity, None)
-    while len(paths) > 1 and not final.are_valid(path_states(paths[-1], resolution_rad, density=_FINAL_DENSITY)):
-        paths.pop()
-    return paths[-1], check.spent + final.spent
+        for path in _improvements(points, check, generator, resolution_rad):
+            paths.append(path)
+            check.keep_back(1 + sum(map(len, _dense_segments(path, resolution_rad).values())))
+    return _last_valid(paths, check, resolution_rad), check.spent
+
+
+def _last_valid(paths: Sequence[Vector], check: _CheckBudget, resolution_rad: float) -> Vector:
+    """The last path that the dense check finds valid within what is left of the limit; the first needs none."""
+    check.search_is_over()
+    # Paths share most of their segments, and each is checked once.
+    valid: set[tuple[bytes, bytes]] = set()
+    touching: set[tuple[bytes, bytes]] = set()
+    with contextlib.suppress(_BudgetSpentError):
+        if len(paths) > 1:
+            check.are_valid(paths[0][:1])
+        for path in reversed(paths[1:]):
+            segments = _dense_segments(path, resolution_rad)
+            due = {key: states for key, states in segments.items() if key not in valid}
+            if not touching.isdisjoint(segments) or not check.affords(sum(map(len, due.values()))):
+                continue
+            for key, states in due.items():
+                if not check.are_valid(states):
+                    touching.add(key)
+                    break
+                valid.add(key)
+            else:
+                return path
+    return paths[0]
+
+
+def _dense_segments(path: Vector, resolution_rad: float) -> dict[tuple[bytes, bytes], Vector]:
+    """The states of the final check by the segment on which they lie."""
+    return {
+        (start.tobytes(), end.tobytes()): segment_states(start, end, resolution_rad, density=_FINAL_DENSITY)
+        for start, end in itertools.pairwise(path)
+    }
 
 
 class _BudgetSpentError(Exception):
@@ -68,25 +108,53 @@ class _BudgetSpentError(Exception):
 
 
 class _CheckBudget:
-    """Counts validity checks and refuses those beyond a budget."""
+    """Counts validity checks and refuses those beyond a budget or after a time.
 
-    def __init__(self, validity: StateValidity, budget: int | None) -> None:
+    Looking for shortcuts has a budget of its own within the limit of the whole, of which it leaves what the
+    cheapest final check needs, as soon as one can be afforded.
+    """
+
+    def __init__(
+        self, validity: StateValidity, budget: int, limit: int | None, is_over: Callable[[], bool] | None
+    ) -> None:
         self._first_invalid = first_invalid_between(validity)
-        self._budget = budget
+        self._limit = math.inf if limit is None else limit
+        self._search_budget = min(budget, self._limit)
+        self._budget: float = self._search_budget
+        self._kept_back = math.inf
+        self._is_over = is_over
         self.spent = 0
+
+    def keep_back(self, checks: int) -> None:
+        """Leave a number of checks of the limit for the final check of a path that was found."""
+        self._kept_back = min(self._kept_back, checks)
+        if self.spent + self._kept_back <= self._limit:
+            self._budget = min(self._search_budget, self._limit - self._kept_back)
+
+    def search_is_over(self) -> None:
+        """Give free what was kept back."""
+        self._budget = self._limit
+
+    def affords(self, checks: int) -> bool:
+        """Whether a number of checks is left."""
+        return self.spent + checks <= self._budget
 
     def are_valid(self, states: Vector) -> bool:
         """Whether all states are valid, which lie between valid ones; checked in order up to the first that is not.
 
         Raises:
-            _BudgetSpentError: The budget ends before that is known.
+            _BudgetSpentError: The budget or the time ends before that is known.
         """
-        affordable = len(states) if self._budget is None else min(len(states), self._budget - self.spent)
-        index = self._first_invalid(states[:affordable])
-        if index is not None:
-            self.spent += index + 1
-            return False
-        self.spent += affordable
+        affordable = int(min(len(states), self._budget - self.spent))
+        size = max(1, affordable) if self._is_over is None else _CHECKS_BETWEEN_LOOKS
+        for first in range(0, affordable, size):
+            part = states[first : min(first + size, affordable)]
+            index = self._first_invalid(part)
+            self.spent += len(part) if index is None else index + 1
+            if self._is_over is not None and self._is_over():
+                raise _BudgetSpentError
+            if index is not None:
+                return False
         if affordable < len(states):
             raise _BudgetSpentError
         return True

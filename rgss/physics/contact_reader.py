@@ -101,6 +101,12 @@ class ContactReader:
             resting = self._resting[workpiece_bodies] = Contacts(nothing, 0.0, (), (), workpiece_bodies)
         return resting
 
+    def scene_force_n(self) -> float:
+        """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
+        robot = self._robot
+        points = self._engine.getContactPoints(self._workpiece, -1, -2, -2, self._client)
+        return math.fsum(point[9] for point in points if robot not in (point[1], point[2]))
+
     def finger_contacts(self, step_s: float) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step, by finger and from low to high.
 

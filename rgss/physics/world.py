@@ -209,6 +209,10 @@ class World:
         """
         return self._reader.contacts(standing)
 
+    def support_force_n(self) -> float:
+        """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
+        return self._reader.scene_force_n()
+
     def finger_contacts(self) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step."""
         return self._reader.finger_contacts(self.settings.step_s)

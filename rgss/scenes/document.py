@@ -20,6 +20,7 @@ from rgss.documents import (
     RadiansPerSecondSquared,
     Text,
 )
+from rgss.scenes.scene import LARGEST_DRAG_M, LARGEST_DROP_M
 
 Colour = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}$")]
 Point = tuple[Metres, Metres, Metres]
@@ -73,6 +74,8 @@ class PlaceRegionEntry(DocumentModel):
     at: PointOnTop
     radius: Metres
     largest_tilt: Radians
+    largest_drop: Metres = LARGEST_DROP_M
+    largest_drag: Metres = LARGEST_DRAG_M
 
 
 class TaskEntry(DocumentModel):

@@ -32,6 +32,7 @@ def load_scene(path: Path, *, label: str | None = None) -> Scene:
     findings = [
         *_body_findings(entry, document),
         *_workpiece_findings(entry, document),
+        *_drop_findings(entry, document),
         *not_positive(document, _positive_values(entry)),
         *negative(document, _values_from_zero(entry)),
     ]
@@ -61,6 +62,8 @@ def load_scene(path: Path, *, label: str | None = None) -> Scene:
             centre_m=(*place.at, tops[place.stands_on]),
             radius_m=place.radius,
             largest_tilt_rad=place.largest_tilt,
+            largest_drop_m=place.largest_drop,
+            largest_drag_m=place.largest_drag,
         ),
         task=Task(
             approach_height_m=entry.task.approach_height,
@@ -121,6 +124,17 @@ def _workpiece_findings(entry: SceneDocument, document: Document) -> Iterable[Fi
             )
 
 
+def _drop_findings(entry: SceneDocument, document: Document) -> Iterable[Finding]:
+    clearance, largest = entry.task.place_clearance, entry.place_region.largest_drop
+    if clearance > largest >= 0.0:
+        yield document.finding(
+            "scene.drop",
+            f"a place_clearance of {clearance * 1e3:g} mm drops the object from more than {largest * 1e3:g} mm",
+            ("task", "place_clearance"),
+            hint="release it lower, or let place_region have a larger largest_drop",
+        )
+
+
 def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     for index, body in enumerate(entry.bodies):
         if body.box is not None:
@@ -137,6 +151,7 @@ def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     yield ("workpiece", "force_limit"), work.force_limit
     yield ("place_region", "radius"), place.radius
     yield ("place_region", "largest_tilt"), place.largest_tilt
+    yield ("place_region", "largest_drag"), place.largest_drag
     yield ("task", "approach_height"), task.approach_height
     yield ("task", "lift_height"), task.lift_height
     yield ("task", "departure_height"), task.departure_height
@@ -148,6 +163,7 @@ def _values_from_zero(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     for index, body in enumerate(entry.bodies):
         yield ("bodies", index, "friction"), body.friction
     yield ("workpiece", "friction"), entry.workpiece.friction
+    yield ("place_region", "largest_drop"), entry.place_region.largest_drop
     yield ("task", "place_clearance"), entry.task.place_clearance
 
 

@@ -65,6 +65,7 @@ class PlanningEntry(DocumentModel):
     charge_per_check: Seconds
     resolution: Radians
     simplification_checks: Annotated[int, Field(ge=0, le=1_000_000)]
+    simplification_limit: Seconds = 2.0
     clearance: Metres
 
 

@@ -66,6 +66,7 @@ def trial_settings(project: Project) -> TrialSettings:
             search_limit_s=max(limits),
             resolution_rad=study.planning.resolution_rad,
             simplification_checks=study.planning.simplification_checks,
+            simplification_limit_s=study.planning.simplification_limit_s,
             clearance_m=study.planning.clearance_m,
         ),
         physics=PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),

@@ -79,11 +79,16 @@ _PHASES = FrameDescription(
         Column(name="planning_checks", meaning="state-validity checks of the search", unit="1", kind=Kind.COUNT),
         Column(
             name="planning_simplification_checks",
-            meaning="state-validity checks spent on shortening the path",
+            meaning="state-validity checks of the simplification, its final check included",
             unit="1",
             kind=Kind.COUNT,
         ),
-        Column(name="planning_time_s", meaning="planning time by the study's clock", unit="s", kind=Kind.NUMBER),
+        Column(
+            name="planning_time_s",
+            meaning="planning time t_sp by the study's clock: search and simplification",
+            unit="s",
+            kind=Kind.NUMBER,
+        ),
         Column(name="path_length_m", meaning="length of the tool's path", unit="m", kind=Kind.NUMBER),
         *phase_metric_columns(),
     ),

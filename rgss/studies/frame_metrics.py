@@ -14,7 +14,9 @@ _MEANINGS: Mapping[str, str] = MappingProxyType(
     {
         "phases_completed": "how many of the states were completed",
         "phases_total": "how many states the task has",
-        "planning_time_s": "planning time by the study's planning clock, of each planned move",
+        "planning_time_s": (
+            "planning time t_sp of each planned move by the study's planning clock: search and simplification"
+        ),
         "planning_checks": "state-validity checks of the search, of each planned move",
         "path_length_m": "length of the tool's path, of each planned move",
         "motion_time_s": "simulated time of all states, planning not counted",
@@ -65,7 +67,10 @@ _OF_PHASES_ALONE: Mapping[str, tuple[MetricKind, str]] = MappingProxyType(
     {
         "commanded_tool_speed_m_s": (MetricKind("m/s"), "greatest speed of the grasp centre that was asked for"),
         "commanded_tool_acceleration_m_s2": (MetricKind("m/s**2"), "greatest acceleration that was asked for"),
-        "workpiece_displacement_m": (MetricKind("m"), "how far the object was pushed before the grasp"),
+        "workpiece_displacement_m": (
+            MetricKind("m"),
+            "how far the object was moved before the grasp or after its release",
+        ),
         "workpiece_position_m": (MetricKind("m", 3), "position of the object in the world at the end: x, y, z"),
         "workpiece_tilt_rad": (MetricKind("rad"), "angle by which the object leans at the end"),
         "finger_force_n": (MetricKind("N", 0), "normal force at the end of the grasp, of each finger"),
@@ -73,6 +78,9 @@ _OF_PHASES_ALONE: Mapping[str, tuple[MetricKind, str]] = MappingProxyType(
         "finger_travel_m": (MetricKind("m", 0), "how far it had closed at the end of the grasp, of each finger"),
         "tightenings": (MetricKind("1"), "how often the grip was tightened"),
         "grasp_samples_closed": (MetricKind("1"), "how many of the samples of the grasp were in force closure"),
+        "release_height_m": (MetricKind("m"), "height above the surface at which the object was released"),
+        "landing_force_n": (MetricKind("N"), "greatest mean force of the scene on the object over 10 ms as it lands"),
+        "touch_force_n": (MetricKind("N"), "greatest normal force of a finger on the object after its release"),
         "opening_s": (MetricKind("s"), "time of opening"),
         "settling_s": (MetricKind("s"), "time after opening until the object stood still"),
     }

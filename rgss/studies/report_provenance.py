@@ -46,6 +46,7 @@ def provenance_of(
             ["trials", str(len(keys))],
             ["planning clock", "counted checks" if planning.counted else "wall"],
             ["charge for a check", f"{planning.charge_per_check_s * 1e3:g} ms"],
+            ["simplification limit", f"{planning.simplification_limit_s:g} s"],
             ["clearance", f"{planning.clearance_m * 1e3:g} mm"],
             ["physics steps", f"{study.rate_hz:g} Hz"],
             ["evidence", evidence],

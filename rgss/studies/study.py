@@ -30,7 +30,8 @@ class PlanningChoice:
         counted: Whether planning time is counted in validity checks; a wall clock otherwise.
         charge_per_check_s: Planning time that a validity check is charged with.
         resolution_rad: Greatest joint step between two checked states.
-        simplification_checks: Validity checks that may be spent on shortening a path.
+        simplification_checks: Validity checks that may be spent on looking for shortcuts.
+        simplification_limit_s: Longest time of simplifying a path by the planning clock.
         clearance_m: Distance that planned paths keep from everything.
     """
 
@@ -38,6 +39,7 @@ class PlanningChoice:
     charge_per_check_s: float
     resolution_rad: float
     simplification_checks: int
+    simplification_limit_s: float
     clearance_m: float
 
 
@@ -141,6 +143,9 @@ def read_study(
             findings.append(_not_positive(document, ("planning", key)))
     if entry.planning.clearance < 0:
         findings.append(document.finding("study.negative", "clearance must not be negative", ("planning", "clearance")))
+    if entry.planning.simplification_limit < 0:
+        message = "simplification_limit must not be negative"
+        findings.append(document.finding("study.negative", message, ("planning", "simplification_limit")))
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
     screening = read_screening(entry, document, findings)
@@ -168,6 +173,7 @@ def read_study(
             charge_per_check_s=planning.charge_per_check,
             resolution_rad=planning.resolution,
             simplification_checks=planning.simplification_checks,
+            simplification_limit_s=planning.simplification_limit,
             clearance_m=planning.clearance,
         ),
         rate_hz=entry.physics.rate,

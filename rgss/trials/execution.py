@@ -17,6 +17,7 @@ from rgss.trials.observer import StepObserver
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.program import run_program
 from rgss.trials.reference import Array, Reference
+from rgss.trials.release_monitor import LandingMonitor, PlacedObjectMonitor
 from rgss.trials.watch import Watch
 
 CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
@@ -76,7 +77,8 @@ class Execution:
         world = self._world
         carried_at = self._held_at if phase in CARRYING else None
         self._tightenings = 0
-        watch = self._watch(carried_at, self._resting_on(phase), reference.tool_m)
+        placed = PlacedObjectMonitor(world) if phase is Phase.MOVE_TO_GRASP_APPROACH else None
+        watch = self._watch(carried_at, self._resting_on(phase), reference.tool_m, placed)
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
         world.solve_freely(free=carried_at is None)
@@ -169,7 +171,7 @@ class Execution:
     def place(self) -> PhaseResult:
         """Open to the initial position and wait until the object stands."""
         world, gripper, control = self._world, self._world.gripper, self._control
-        watch = self._watch(None, world.scene.place_support)
+        watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world, control)
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
         steps = 0
@@ -177,16 +179,19 @@ class Execution:
         while max(world.finger_travel_m()) > _OPEN_TOLERANCE_M and watch.failure is None:
             self._hold_arm_and_step()
             contacts = self._observe(Phase.PLACE, watch, 0.0)
+            watch.note(landing.after_step())
             steps += 1
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 open_m = max(world.finger_travel_m())
                 watch.fail(Failure.NOT_RELEASED, f"a finger is still {open_m * 1e3:.1f} mm from open")
+        watch.note(landing.after_opening())
         opening_s = steps * self._step_s
         world.hold_open()
         still_s, waited_s, stood_at = 0.0, 0.0, world.workpiece_pose()
         while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and watch.failure is None:
             self._hold_arm_and_step()
             contacts = self._observe(Phase.PLACE, watch, 0.0)
+            watch.note(landing.after_step())
             steps += 1
             waited_s += self._step_s
             still_s += self._step_s
@@ -196,6 +201,7 @@ class Execution:
         if contacts.fingers_touching:
             watch.fail(Failure.NOT_RELEASED, f"{contacts.fingers_touching} fingers still touch the object")
         metrics = watch.metrics()
+        metrics.update(landing.metrics())
         metrics["opening_s"] = opening_s
         metrics["settling_s"] = waited_s - still_s
         self._judge_place(watch, metrics)
@@ -246,7 +252,13 @@ class Execution:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
         self._world.step()
 
-    def _watch(self, carried_at: Pose | None, resting_on: str, path_m: Sequence[Sequence[float]] | Array = ()) -> Watch:
+    def _watch(
+        self,
+        carried_at: Pose | None,
+        resting_on: str,
+        path_m: Sequence[Sequence[float]] | Array = (),
+        placed: PlacedObjectMonitor | None = None,
+    ) -> Watch:
         return Watch(
             self._world,
             self._kinematics,
@@ -255,6 +267,7 @@ class Execution:
             resting_on=resting_on,
             path_m=path_m,
             memory=self._memory,
+            placed=placed,
         )
 
     def _observe(self, phase: Phase, watch: Watch, load_m_s2: float) -> Contacts:

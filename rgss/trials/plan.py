@@ -41,7 +41,7 @@ class PlannedMove:
         checks: Validity checks of the search.
         simplification_checks: Validity checks of shortening the path.
         search_time_s: Time of the search by the planning clock; what a limit is held against.
-        time_s: Planning time by the planning clock, simplification included where it counts.
+        time_s: Planning time t_sp by the planning clock: search and simplification.
         path_rad: The path's configurations (n, 6); None if there is none.
         path_length_m: Length of the tool's path; None if there is none.
         detail: What stands in the way, if the problem itself is ill posed.
@@ -132,6 +132,7 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
             budget_checks=_budget(settings),
             limit_s=settings.search_limit_s,
             simplification_checks=settings.simplification_checks,
+            simplification_limit_s=settings.simplification_limit_s,
         )
         moves[phase] = _planned(phase, result, cell, settings)
         if result.outcome is not PlanOutcome.SOLVED:
@@ -191,16 +192,13 @@ def _budget(settings: PlanningSettings) -> int:
 
 def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: PlanningSettings) -> PlannedMove:
     path = None if result.path is None else result.path.points_rad
-    time_s = result.search_time_s
-    if settings.clock.kind is ClockKind.COUNTED:
-        time_s += settings.clock.time_s(result.simplification_checks)
     return PlannedMove(
         phase=phase,
         outcome=result.outcome,
         checks=result.checks,
         simplification_checks=result.simplification_checks,
         search_time_s=result.search_time_s,
-        time_s=time_s,
+        time_s=result.search_time_s + result.simplification_time_s,
         path_rad=path,
         path_length_m=None if path is None else _tool_path_length(cell, path, settings.resolution_rad),
     )

@@ -18,7 +18,9 @@ class PlanningSettings:
         search_limit_s: How long a shared search goes on: at least the greatest planning limit
             of any design, which are all read off it.
         resolution_rad: Greatest joint step between two checked states of a path.
-        simplification_checks: Validity checks that may be spent on shortening a path.
+        simplification_checks: Validity checks that may be spent on looking for shortcuts.
+        simplification_limit_s: Longest time of simplifying a path by the planning clock, the final check of
+            its result included. A move's planning time is at most the planning limit and this one together.
         clearance_m: Distance that planned paths keep from everything; what runs keeps a quarter of it.
     """
 
@@ -26,6 +28,7 @@ class PlanningSettings:
     search_limit_s: float
     resolution_rad: float = 0.01
     simplification_checks: int = 1500
+    simplification_limit_s: float = 2.0
     clearance_m: float = 0.008
 
 

@@ -121,7 +121,12 @@ def matter_of(scene: Scene) -> dict[str, Any]:
         "gravity_m_s2": scene.gravity_m_s2,
         "frictions": [body.friction for body in scene.bodies],
         "workpiece": [workpiece.mass_kg, workpiece.friction, workpiece.force_limit_n],
-        "place": [scene.place.radius_m, scene.place.largest_tilt_rad],
+        "place": [
+            scene.place.radius_m,
+            scene.place.largest_tilt_rad,
+            scene.place.largest_drop_m,
+            scene.place.largest_drag_m,
+        ],
         "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
     }
 

@@ -13,6 +13,7 @@ from rgss.scenes import Pose
 from rgss.trials.arm_watch import ArmWatch, Array, ToolKinematics
 from rgss.trials.control import ControlSettings
 from rgss.trials.grasp_watch import GraspWatch
+from rgss.trials.release_monitor import PlacedObjectMonitor, Violation
 
 _FEWEST_FINGERS = 2
 
@@ -36,6 +37,7 @@ class Watch:
         resting_on: str,
         path_m: Sequence[Sequence[float]] | Array = (),
         memory: GraspMemory | None = None,
+        placed: PlacedObjectMonitor | None = None,
     ) -> None:
         """Begin to watch.
 
@@ -49,6 +51,7 @@ class Watch:
             path_m: Where the tool should be in the world, at the start of a move and after each of its steps; empty
                 where the arm is held.
             memory: Remembers the analysis of a carried object's grasp from one phase to the next.
+            placed: Monitor of the object that was released, if the hand leaves it.
         """
         self.failure: Failure | None = None
         self.detail = ""
@@ -71,6 +74,7 @@ class Watch:
         self._is_empty_handed = carried_at is None
         self._standing: Contacts | None = None
         self._arm = ArmWatch(kinematics, world.scene.robot, control, world.settings, path_m=path_m)
+        self._placed = placed
         self._grasp = None if carried_at is None else GraspWatch(world, control, carried_at, memory or GraspMemory())
 
     def after_step(self, load_m_s2: float, target_rad: Sequence[float] | None) -> Contacts:
@@ -87,6 +91,8 @@ class Watch:
             self._watch_touching(contacts)
             is_standing = self._is_empty_handed and target_rad is not None and not contacts.is_robot_touching
             self._standing = contacts if is_standing else None
+            if self._placed is not None:
+                self.note(self._placed.after_step(contacts))
         if target_rad is None:
             self._arm.note(world.arm_state())
         elif (stray := self._arm.follow(world.arm_state(), target_rad)) is not None:
@@ -99,7 +105,9 @@ class Watch:
         return contacts
 
     def finish(self) -> None:
-        """Observe a carried object at the end of the phase."""
+        """Observe a carried or released object at the end of the phase."""
+        if self._placed is not None:
+            self.note(self._placed.finish())
         if self._grasp is not None:
             self._watch_slip(self._grasp.finish())
 
@@ -107,6 +115,11 @@ class Watch:
         """Note what went wrong, unless something did before."""
         if self.failure is None:
             self.failure, self.detail = failure, detail
+
+    def note(self, violation: Violation | None) -> None:
+        """Note what a monitor found to be wrong, if anything."""
+        if violation is not None:
+            self.fail(*violation)
 
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit."""
@@ -118,6 +131,7 @@ class Watch:
             "slip_m": grasp.slip_m if grasp is not None else None,
             "grip_margin_min": self._margin if math.isfinite(self._margin) else None,
             **(grasp.metrics() if grasp is not None else {}),
+            **(self._placed.metrics() if self._placed is not None else {}),
         }
 
     def _watch_touching(self, contacts: Contacts) -> None:

@@ -244,3 +244,61 @@ def test_a_budget_below_zero(planned, name):
         planned(**{name: -5})
     assert caught.value.message == "a budget of -5 validity checks is impossible"
     assert caught.value.hint == "give a whole number of at least 0"
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("limit_s", [0.0, 0.03, 0.5, 0.9, 2.0, 60.0])
+def test_the_simplification_keeps_its_limit_by_the_counted_clock(planned, wall, planner, limit_s):
+    for seed in range(6):
+        clock = PlanningClock(charge_s=0.001)
+        result = planned(planner, seed=seed, simplification_checks=1500, simplification_limit_s=limit_s, clock=clock)
+        assert result.simplification_time_s == clock.time_s(result.simplification_checks) <= limit_s * (1 + 1e-12)
+        # The search knows nothing of it.
+        assert result.checks == planned(planner, seed=seed).checks
+
+
+class Ticking:
+    """A computer's clock that goes on by a fixed time at every look, and the validity that it belongs to."""
+
+    def __init__(self, validity, monkeypatch, *, tick_s):
+        self._validity = validity
+        self.now_s = 0.0
+        self._tick_s = tick_s
+        monkeypatch.setattr("rgss.motion.clock.time.perf_counter", lambda: self.now_s)
+
+    def is_valid(self, q):
+        self.now_s += self._tick_s
+        return self._validity.is_valid(q)
+
+
+@pytest.mark.parametrize("limit_s", [0.0, 0.05, 0.8, 1.5, 60.0])
+def test_the_simplification_keeps_its_limit_by_a_wall_clock(planned, wall, through_the_doorway, monkeypatch, limit_s):
+    search_limit_s = 20.0
+    used = set()
+    for seed in range(6):
+        ticking = Ticking(wall, monkeypatch, tick_s=0.001)
+        result = planned(
+            seed=seed,
+            validity=ticking,
+            simplification_checks=1500,
+            simplification_limit_s=limit_s,
+            limit_s=search_limit_s,
+            budget_checks=2**31 - 1,
+            clock=PlanningClock(kind=ClockKind.WALL),
+        )
+        assert result.outcome is PlanOutcome.SOLVED
+        assert result.search_time_s <= search_limit_s
+        assert 0.0 <= result.simplification_time_s <= limit_s
+        assert result.search_time_s + result.simplification_time_s <= search_limit_s + limit_s
+        points = result.path.points_rad
+        assert all(map(wall.is_valid, path_states(points, through_the_doorway.resolution_rad)))
+        found = planned(seed=seed).path.points_rad
+        used.add(not np.array_equal(points, found))
+    # What is not checked by then is not used, and there is time enough in a minute.
+    assert (True in used) == (limit_s >= 1.5)
+
+
+def test_a_simplification_limit_is_a_time(planned):
+    for limit_s in (-1.0, float("nan")):
+        with pytest.raises(MotionError, match="simplification limit must be at least 0 s"):
+            planned(simplification_limit_s=limit_s)

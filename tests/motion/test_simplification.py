@@ -118,3 +118,71 @@ def test_a_shortcut_that_touches_between_the_checked_states_is_taken_back():
     assert not all(map(post.is_valid, path_states(straight, 0.031, density=4)))
     result, _ = shorten(path, post, generator=np.random.default_rng(0), budget_checks=2000, resolution_rad=0.031)
     assert all(map(post.is_valid, path_states(result, 0.031, density=4)))
+
+
+def limited(wall, path, limit, *, seed=0, budget=1500):
+    return shorten(
+        path,
+        wall,
+        generator=np.random.default_rng(seed),
+        budget_checks=budget,
+        resolution_rad=RESOLUTION,
+        limit_checks=limit,
+    )
+
+
+@pytest.mark.parametrize("limit", [0, 1, 40, 300, 700, 1100, 1500, 2000, 3000, 10_000])
+def test_the_limit_bounds_the_whole_and_the_result_is_valid(wall, limit):
+    for seed in range(12):
+        path = wandering(seed)
+        wall.calls = 0
+        result, spent = limited(wall, path, limit, seed=seed)
+        assert spent == wall.calls <= limit
+        # The path as found is the planner's own answer for; everything else was checked to the end.
+        assert result is path or all(map(wall.is_valid, path_states(result, RESOLUTION, density=4)))
+        assert np.array_equal(result, limited(wall, path, limit, seed=seed)[0])
+
+
+def test_a_limit_that_does_not_bind_changes_nothing(wall):
+    for seed in range(12):
+        free, spent = limited(wall, wandering(seed), None, seed=seed)
+        bound, bound_spent = limited(wall, wandering(seed), 20_000, seed=seed)
+        assert np.array_equal(free, bound)
+        assert spent == bound_spent
+
+
+def test_the_final_check_is_kept_back_from_the_limit(wall):
+    """Otherwise looking for shortcuts would spend the limit and none of them could be used."""
+    lengths = []
+    for seed in range(12):
+        path = wandering(seed)
+        result, spent = limited(wall, path, 1000, seed=seed)
+        lengths.append(path_length(result) / path_length(path))
+        assert spent <= 1000
+    # Where the final check fails there may be none left for the path before.
+    assert sum(length < 0.6 for length in lengths) >= 11
+
+
+def test_shortcuts_are_taken_back_within_the_limit():
+    """Thin posts make the final check fail again and again; segments that it has passed are not checked anew."""
+
+    class ThinPosts:
+        def is_valid(self, q):
+            return not (q[0] % 0.25 < 0.008 and abs(q[1]) < 0.2)
+
+    generator, posts = np.random.default_rng(0), ThinPosts()
+    for _ in range(20):
+        path = np.column_stack([np.linspace(0.01, 1.99, 12), 0.4 + generator.random(12)])
+        path[[0, -1], 1] = 0.0
+        path[[0, -1], 0] = 0.1, 1.9
+        for limit in (200, 500, 1000, 4000):
+            result, spent = shorten(
+                path,
+                posts,
+                generator=np.random.default_rng(1),
+                budget_checks=400,
+                resolution_rad=0.031,
+                limit_checks=limit,
+            )
+            assert spent <= limit
+            assert result is path or all(map(posts.is_valid, path_states(result, 0.031, density=4)))

@@ -6,6 +6,22 @@ import pytest
 
 from rgss.scenes import Box, Cylinder, Task
 
+TOO_HIGH = (
+    "scene.drop a place_clearance of 11 mm drops the object from more than 10 mm "
+    "(release it lower, or let place_region have a larger largest_drop)"
+)
+
+
+def test_how_far_the_object_may_drop_and_be_dragged_is_the_scene_s(kitchen):
+    place = kitchen.scene().place
+    assert (place.largest_drop_m, place.largest_drag_m) == (0.01, 0.001)
+    kitchen.change(
+        "kitchen.yaml", "largest_tilt: 5 deg", "largest_tilt: 5 deg\n  largest_drop: 60 mm\n  largest_drag: 4 mm"
+    )
+    kitchen.change("kitchen.yaml", "place_clearance: 2 mm", "place_clearance: 50 mm")
+    place = kitchen.scene().place
+    assert (place.largest_drop_m, place.largest_drag_m) == (0.06, 0.004)
+
 
 def test_a_scene_is_read_in_si_units(kitchen):
     scene = kitchen.scene()
@@ -109,6 +125,17 @@ def test_touching_is_allowed_and_so_is_no_friction(kitchen):
         ("largest_carry_tilt: 45 deg", "largest_carry_tilt: ¦0 deg", None),
         ("friction: 0.5", "friction: ¦-0.5", "scene.negative friction must not be less than zero"),
         ("friction: 0.9", "friction: ¦-90 %", "scene.negative friction must not be less than zero"),
+        ("clearance: 2 mm", "clearance: ¦11 mm", TOO_HIGH),
+        (
+            "largest_tilt: 5 deg",
+            "largest_tilt: 5 deg\n  largest_drag: ¦0 mm",
+            "scene.not-positive largest_drag must be greater than zero",
+        ),
+        (
+            "largest_tilt: 5 deg",
+            "largest_tilt: 5 deg\n  largest_drop: ¦-1 mm",
+            "scene.negative largest_drop must not be less than zero",
+        ),
         ("clearance: 2 mm", "clearance: ¦-2 mm", "scene.negative place_clearance must not be less than zero"),
         (
             "robots/six.yaml",

@@ -84,6 +84,11 @@ FINDINGS = [
     ("fidelity: contact", "fidelity: magic", "10:11: error: fidelity: 'magic' is not one of 'kinematic', 'dynamic'"),
     ("clock: counted", "clock: sundial", "13:10: error: clock: 'sundial' is not one of 'counted' or 'wall'"),
     ("solver_iterations: 50", "solver_iterations: 0", "21:22: error: solver_iterations: input should be greater"),
+    (
+        "simplification_checks: 1500",
+        "simplification_checks: 1500\n  simplification_limit: -1 s",
+        "17:25: error: simplification_limit must",
+    ),
     ("simplification_checks: 1500", "simplification_checks: -1", "16:26: error: simplification_checks: input should"),
 ]
 

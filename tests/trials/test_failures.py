@@ -153,7 +153,29 @@ TRIALS = {
     ),
     "a cup released high above the place": (
         lambda spec: with_task(spec, place_clearance_m=0.25),
+        (
+            Failure.OBJECT_DAMAGED,
+            Phase.PLACE,
+            r"the object landed with \d+\.\d N over 10 ms after a drop of 25\d\.\d mm, .*",
+        ),
+    ),
+    "a cup that bears a fall and may be dropped": (
+        lambda spec: with_place(
+            with_workpiece(with_task(spec, place_clearance_m=0.25), force_limit_n=1e4), largest_drop_m=1.0
+        ),
         (Failure.NOT_UPRIGHT, Phase.PLACE, r"the object leans by \d+\.\d deg"),
+    ),
+    "a cup released above the place": (
+        lambda spec: with_task(spec, place_clearance_m=0.06),
+        (
+            Failure.OBJECT_DROPPED,
+            Phase.PLACE,
+            r"the object was released 60\.\d mm above counter_place, at most 10 mm",
+        ),
+    ),
+    "a cup that lands harder than it bears": (
+        lambda spec: with_workpiece(with_task(spec, place_clearance_m=0.009), force_limit_n=11.0, mass_kg=0.25),
+        (Failure.OBJECT_DAMAGED, Phase.PLACE, r"the object landed with .* after a drop of 9\.0 mm, it bears 11 N"),
     ),
 }
 

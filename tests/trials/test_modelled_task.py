@@ -286,6 +286,9 @@ class ScriptedWorld:
     def workpiece_speed(self):
         return 0.0, 0.0
 
+    def support_force_n(self):
+        return 1.0e6 if self.wrong == "the object lands hard" else 0.0
+
     def finger_travel_m(self):
         travel_m = 0.01 if self.wrong == "the fingers are stuck" else 0.0
         return (travel_m,) * self.gripper.geometry.fingers
@@ -323,6 +326,7 @@ WRONG = (
     "the object is somewhere else",
     "the object hangs in the air",
     "the object leans",
+    "the object lands hard",
     "the tool is off its path",
     "the fingers are stuck",
 )

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from rgss.evidence import PLANNED_PHASES, PlanOutcome
+from rgss.motion import ClockKind, PlanningClock
+from rgss.studies.expansion import trial_specs
 from rgss.trials.plan import plan_task
-from rgss.trials.workcell import Workcell
+from rgss.trials.workcell import Workcell, workcell_of
 
 pytestmark = [pytest.mark.engine, pytest.mark.slow]
 
@@ -41,3 +45,37 @@ def test_trrt_plans_fewer_tasks_in_4_s_than_in_8_s(spec_of):
     assert all(counts == sorted(counts) for counts in by_hand)
     assert short <= medium <= long
     assert short < long
+
+
+@pytest.mark.verifies("SYS-032")
+@pytest.mark.parametrize("limit_s", [0.05, 0.5, 2.0])
+def test_no_move_of_any_variant_takes_longer_than_both_limits_together(project, limit_s):
+    """Whatever the variant and the seed; and a plan is shared by the planning limits."""
+    plans = {}
+    for spec in trial_specs(project):
+        planning = replace(spec.settings.planning, simplification_limit_s=limit_s)
+        shared = spec.gripper.geometry.id, spec.planner, spec.seed
+        if shared not in plans:
+            cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
+            plans[shared] = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
+        for phase in plans[shared].moves:
+            move = plans[shared].move_within(phase, spec.planning_limit_s)
+            assert move.time_s <= (spec.planning_limit_s + limit_s) * (1 + 1e-12)
+            assert move.time_s == planning.clock.time_s(move.checks) + planning.clock.time_s(move.simplification_checks)
+
+
+@pytest.mark.parametrize("limit_s", [0.0, 0.01, 1.0])
+def test_neither_does_one_by_the_wall_clock(spec_of, limit_s):
+    spec = spec_of(4)
+    planning = replace(
+        spec.settings.planning,
+        clock=PlanningClock(kind=ClockKind.WALL),
+        search_limit_s=8.0,
+        simplification_limit_s=limit_s,
+    )
+    cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
+    for seed in range(1, 4):
+        plan = plan_task(cell, spec.planner, seed=seed, settings=planning)
+        for phase in plan.moves:
+            for planning_limit_s in (0.001, 0.1, 8.0):
+                assert plan.move_within(phase, planning_limit_s).time_s <= planning_limit_s + limit_s
