@@ -111,7 +111,7 @@ def run(options: argparse.Namespace) -> int:
     ).encode("utf-8")
     _write(options.out, page)
     _tell(options, document, len(page))
-    return CLEAN if decision.chosen is not None else FINDINGS
+    return CLEAN if decision.chosen is not None and not found.not_computed else FINDINGS
 
 
 def _check_films(options: argparse.Namespace) -> None:
@@ -186,5 +186,7 @@ def _tell(options: argparse.Namespace, document: dict[str, Any], size: int) -> N
         print_json({"file": str(options.out), "bytes": size, "report": document})
         return
     print(decision["headline"])
+    for line in decision["not_computed"]:
+        print(line)
     large = "; --film-size and --film-rate make it smaller" if size > LARGEST_PAGE and not options.no_film else ""
     print(f"Wrote {options.out} ({size / 1e6:.1f} MB{large})")

@@ -24,7 +24,11 @@ MOST_GROUPS = 10
 
 def print_robustness(project: Project, decision: Decision, found: Robustness) -> None:
     """Show what nearly won and what would change the decision."""
+    from rgss.studies.robustness_parts import Part, not_computed_lines
+
+    missing = found.not_computed
     if decision.chosen is None:
+        print("".join(f"\n{line}" for line in not_computed_lines(missing)), end="\n" if missing else "")
         return
     print("\nWhat nearly won")
     _print_contenders(decision, found)
@@ -37,6 +41,10 @@ def print_robustness(project: Project, decision: Decision, found: Robustness) ->
     _print_reversals(found)
     for name, reason in found.refused.items():
         print(f"Not analysed: {name}: {reason}.")
+    for line in not_computed_lines(missing):
+        print(line)
+    if Part.EFFECTS in missing:
+        return
     part = "explains alone" if project.designs.sample is not None else "takes part in"
     print(f"\nWhat drives the measures (share of the differences between designs that a factor {part})")
     _print_drivers(project, found)
@@ -44,31 +52,40 @@ def print_robustness(project: Project, decision: Decision, found: Robustness) ->
 
 def _print_contenders(decision: Decision, found: Robustness) -> None:
     from rgss.cli.output import print_table
+    from rgss.studies.robustness_parts import Part
     from rgss.tradeoff.pareto import Support
+    from rgss.tradeoff.sampling import Drawing
 
     front = [point for point in found.front.points if point.support is not Support.DOMINATED]
     unsupported = [found.variants[one.row] for one in front if one.support is Support.UNSUPPORTED]
-    print(
-        f"Pareto front: {variants_text([found.variants[one.row] for one in front])}"
-        + (f"; no weights choose {variants_text(unsupported)}." if unsupported else "; each is best for some weights.")
-    )
+    if Part.PARETO in found.not_computed:
+        print("Pareto front: not computed.")
+    else:
+        none = (
+            f"; no weights choose {variants_text(unsupported)}." if unsupported else "; each is best for some weights."
+        )
+        print(f"Pareto front: {variants_text([found.variants[one.row] for one in front])}{none}")
     weighting = found.weighting
     if weighting is None:
         return
+    if weighting.acceptability is None:
+        print("Acceptability and confidence: not computed.")
+        return
     indices = weighting.acceptability
     places = {point.row: point.support.value.replace("_", " ") for point in found.front.points}
-    shifts = {row: shift for shift in weighting.shifts for row in shift.rows}
+    shifts = {row: shift for shift in weighting.shifts or () for row in shift.rows}
     rows = []
     groups = _groups(found, indices.first)
     for members in groups[:MOST_GROUPS]:
         row = members[0]
-        region, shift = weighting.regions[row], shifts.get(row)
+        region = None if weighting.regions is None else weighting.regions[row]
+        shift = shifts.get(row)
         chance = indices.confidence[row]
         rows.append(
             [
                 ids_text(found.variants[member] for member in members),
-                places.get(row, "not feasible"),
-                percent(region.share),
+                places.get(row, "–" if found.feasible[row] else "not feasible"),
+                "–" if region is None else percent(region.share),
                 percent(float(indices.first[row])),
                 "–" if math.isnan(chance) else percent(float(chance)),
                 percent(float(1.0 - indices.unranked[row])),
@@ -84,8 +101,12 @@ def _print_contenders(decision: Decision, found: Robustness) -> None:
         else "alone, for the replicates tell nothing of noise"
     )
     error = max(float(indices.rank_errors[:, 0].max()), 1e-4)
-    print(f"weights: share of {bounded} at which they are best by the evidence as it is")
+    shares = max((region.share_error for region in weighting.regions or ()), default=0.0)
+    counted = f" (counted, ± {shares:.2g})" if shares else ""
+    print(f"weights: share of {bounded} at which they are best by the evidence as it is{counted}")
     print(f"first: share of {indices.iterations:,} draws of {bounded} {noise} in which none is better (± {error:.2g})")
+    if indices.drawn_by is Drawing.HIT_AND_RUN:
+        print("(weights are drawn by random walks, hit-and-run: uniform up to an error that is tested, not proven)")
     print("confidence: probability that they are best at their own typical weights; feasible: in how many draws")
     if decision.chosen is not None and len(groups) > MOST_GROUPS:
         print(f"And {len(groups) - MOST_GROUPS} more that are first in some draws (--json has them).")
@@ -108,8 +129,10 @@ def _print_weights(found: Robustness, weighting: WeightRobustness) -> None:
     from rgss.cli.output import print_table
 
     before = dict(zip(found.measures, found.weights.tolist(), strict=True))
-    others = [shift for shift in weighting.shifts[1:] if shift.distance > 0.0]
-    if others:
+    others = [shift for shift in (weighting.shifts or ())[1:] if shift.distance > 0.0]
+    if weighting.shifts is None:
+        print("Weights: the nearest that change the choice were not computed.")
+    elif others:
         nearest = min(others, key=lambda shift: (shift.sum_distance, shift.rows))
         after = dict(zip(found.measures, nearest.nearest_in_sum.tolist(), strict=True))
         winners = variants_text([found.variants[row] for row in nearest.rows])
@@ -117,6 +140,9 @@ def _print_weights(found: Robustness, weighting: WeightRobustness) -> None:
         print(f"Weights: {moved} lets {winners} win: {moves_text(before, after)}.")
     else:
         print(f"Weights: no other variant wins for any {'elicited ' if weighting.elicited else ''}weights.")
+    if weighting.ranges is None:
+        print("Range of each weight: not computed.")
+        return
     rows = []
     for measure, one in zip(found.measures, weighting.ranges, strict=True):
         below = variants_text([found.variants[row] for row in one.below]) if one.below else "–"
@@ -129,6 +155,7 @@ def _print_weights(found: Robustness, weighting: WeightRobustness) -> None:
 def _print_prices(decision: Decision, found: Robustness) -> None:
     """What each requirement costs: the next change of the choice on either side of its limit."""
     from rgss.cli.output import print_table
+    from rgss.studies.robustness_parts import Part
     from rgss.tradeoff.conditions import Comparison
     from rgss.tradeoff.price_list import changes_of_best, step_at
 
@@ -158,6 +185,8 @@ def _print_prices(decision: Decision, found: Robustness) -> None:
             bound = ">" if at_least else "<"
             tighter = f"{bound} {amount(here.tightest, condition.limit_unit)}: {wins}{gain}"
         rows.append([condition.requirement, condition.demand, looser, tighter])
+    if Part.PRICES in found.not_computed:
+        print("\nPrice of each requirement: not computed.")
     if rows:
         print()
         print_table(["threshold", "asks for", "loosened to", "tightened to"], rows)
@@ -166,8 +195,13 @@ def _print_prices(decision: Decision, found: Robustness) -> None:
 
 def _print_assumptions(found: Robustness) -> None:
     from rgss.cli.output import print_table
+    from rgss.studies.robustness_parts import Part
 
     print()
+    if Part.ASSUMPTIONS in found.not_computed:
+        print("Assumptions: not computed.")
+    if Part.COSTS in found.not_computed:
+        print("All assumed costs together: not computed.")
     decisive = [one for one in found.assumptions if one.range is not None and not one.range.always]
     rows = [
         [
@@ -238,11 +272,18 @@ def _corner_text(found: Robustness) -> str:
 
 
 def _print_reversals(found: Robustness) -> None:
-    if found.reversals:
+    from rgss.studies.robustness_parts import Part
+
+    if Part.REVERSALS in found.not_computed:
+        print("Rank reversal: not computed.")
+    elif found.reversals:
         removed = variants_text([found.variants[one.removed] for one in found.reversals])
         print(f"Rank reversal: the order of the others changes without {removed}.")
     else:
         print("Rank reversal: none, whichever variant is taken away.", end=" ")
+        if Part.STRETCHED in found.not_computed:
+            print("Of values stretched over the sample it was not computed.")
+            return
         count = len(found.stretched)
         would = f"{count} removals would reverse ranks" if count else "no removal would reverse ranks either"
         print(f"Had values been stretched over the sample, {would}.")

@@ -30,6 +30,8 @@ def decision_section(
         decision: What was decided.
         found: How robust it is.
     """
+    from rgss.studies.robustness_parts import not_computed_lines
+
     parts = [BEGIN, ""]
     if decision.chosen is None:
         parts += [f"No variant of study `{project.study.id}` meets every requirement.", ""]
@@ -37,6 +39,8 @@ def decision_section(
         parts += [*_choice(project, measured, decision), ""]
         parts += [*_deciding(decision, found), ""]
         parts += [*_costs(found), ""]
+    for line in not_computed_lines(found.not_computed):
+        parts += [line, ""]
     return visible("\n".join([*parts, END]))
 
 
@@ -124,12 +128,18 @@ def _deciding(decision: Decision, found: Robustness) -> Iterator[str]:
     row = found.variants.index(decision.chosen or 0)
     indices = weighting.acceptability
     noise = " and the noise of the replicates" if weighting.with_noise else ""
-    yield (
-        f"It is the best for {percent(weighting.regions[row].share)} of all weights; over all weights{noise} "
-        f"it comes first in {percent(float(indices.first[row]))} of the draws, and at the weights that are typical "
-        f"for it with a probability of {percent(float(indices.confidence[row]))}."
-    )
-    others = [shift for shift in weighting.shifts if shift.distance > 0.0]
+    told = []
+    if weighting.regions is not None:
+        told.append(f"it is the best for {percent(weighting.regions[row].share)} of all weights")
+    if indices is not None:
+        told.append(
+            f"over all weights{noise} it comes first in {percent(float(indices.first[row]))} of the draws, and at the "
+            f"weights that are typical for it with a probability of {percent(float(indices.confidence[row]))}"
+        )
+    if told:
+        text = "; ".join(told)
+        yield f"{text[0].upper()}{text[1:]}."
+    others = [shift for shift in weighting.shifts or () if shift.distance > 0.0]
     if others:
         nearest = min(others, key=lambda shift: (shift.sum_distance, shift.rows))
         before = dict(zip(found.measures, found.weights.tolist(), strict=True))

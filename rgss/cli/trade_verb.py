@@ -50,7 +50,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Decide; 1 if no variant meets every requirement."""
+    """Decide; 1 if no variant meets every requirement, or a part of the page could not be computed."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.screening_output import reopened_lines, screening_lines
     from rgss.cli.sweep_verb import shown_path
@@ -93,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
         _print_page(options, before, now, scenario, found, fleet, label)
         if screened is not None:
             print("\n" + "\n".join([*screening_lines(screened), *reopened_lines(more)]))
-    return CLEAN if now[2].chosen is not None else FINDINGS
+    return CLEAN if now[2].chosen is not None and (found is None or not found.not_computed) else FINDINGS
 
 
 def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, store: EvidenceStore) -> tuple[int, ...]:
@@ -151,7 +151,7 @@ def _print_page(
     print_decision(project, measured, decision)
     if found is not None:
         print_robustness(project, decision, found)
-        if options.effects:
+        if options.effects and found.effects.measures:
             print_effects(project, found.effects)
     if fleet is not None:
         print_fleet(fleet)

@@ -10,6 +10,7 @@ from rgss.studies.choosing import choose, trade_problem
 from rgss.studies.frames_trade import (
     acceptability_frame,
     changes_frame,
+    computed_effects,
     effects_frame,
     pareto_frame,
     ranking_frame,
@@ -74,7 +75,7 @@ class Trade:
 
     def effects(self) -> pd.DataFrame:
         """What each level of each factor, and of each pair of factors, does to each measure."""
-        return effects_frame(self._robustness.effects)
+        return effects_frame(computed_effects(self._robustness))
 
     def weights(self) -> pd.DataFrame:
         """How far each weight may move alone before another variant is chosen."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -15,15 +15,18 @@ from rgss.studies.frame_columns import FRAMES
 from rgss.studies.frames import Row, described_frame
 from rgss.studies.robustness import Robustness, WeightRobustness
 from rgss.studies.robustness_effects import FactorLevels, StudyEffects
+from rgss.studies.robustness_parts import Part
 from rgss.studies.what_if import Change, Scenario
 from rgss.tradeoff import Decision, FleetDecision, TradeProblem
+from rgss.tradeoff.columns import single_values
 from rgss.tradeoff.effects import Effect
 from rgss.tradeoff.enumeration import Enumeration
-from rgss.tradeoff.outcomes import single_values
 from rgss.tradeoff.pareto import pareto_front
 
 if TYPE_CHECKING:
     import pandas as pd
+
+Result = TypeVar("Result")
 
 _TIMES = " × "
 
@@ -72,7 +75,7 @@ def weights_frame(found: Robustness) -> pd.DataFrame:
     """One row for each measure with a weight above 0.
 
     Raises:
-        TradeoffError: The weights were not analysed.
+        TradeoffError: The weights were not analysed, or this could not be computed.
     """
     rows = [
         {
@@ -83,7 +86,9 @@ def weights_frame(found: Robustness) -> pd.DataFrame:
             "below": _names(found.variants[row] for row in one.below),
             "above": _names(found.variants[row] for row in one.above),
         }
-        for measure, weight, one in zip(found.measures, found.weights, _weighting(found).ranges, strict=True)
+        for measure, weight, one in zip(
+            found.measures, found.weights, _computed(found, Part.RANGES, _weighting(found).ranges), strict=True
+        )
     ]
     return described_frame("weights", rows)
 
@@ -92,9 +97,9 @@ def acceptability_frame(found: Robustness) -> pd.DataFrame:
     """One row for each variant.
 
     Raises:
-        TradeoffError: The weights were not analysed.
+        TradeoffError: The weights were not analysed, or this could not be computed.
     """
-    indices = _weighting(found).acceptability
+    indices = _computed(found, Part.ACCEPTABILITY, _weighting(found).acceptability)
     rows = []
     for number, variant in enumerate(found.variants):
         row: Row = {
@@ -108,6 +113,15 @@ def acceptability_frame(found: Robustness) -> pd.DataFrame:
         row |= {f"central_{name}": float(weight) for name, weight in zip(found.measures, central, strict=True)}
         rows.append(row)
     return described_frame("acceptability", rows, _filled("acceptability", "MEASURE", found.measures))
+
+
+def computed_effects(found: Robustness) -> StudyEffects:
+    """The effects of an analysis.
+
+    Raises:
+        TradeoffError: They could not be computed.
+    """
+    return _computed(found, Part.EFFECTS, None if Part.EFFECTS in found.not_computed else found.effects)
 
 
 def effects_frame(effects: StudyEffects) -> pd.DataFrame:
@@ -154,6 +168,13 @@ def _weighting(found: Robustness) -> WeightRobustness:
             f"the weights were not analysed: {found.refused['weights']}", hint="robustness().refused says what was not"
         )
     return found.weighting
+
+
+def _computed(found: Robustness, part: Part, result: Result | None) -> Result:
+    if result is None:
+        why = found.not_computed[part]
+        raise TradeoffError(f"{part.words}: not computed: {why.reason}", hint=why.remedy)
+    return result
 
 
 def _effect_rows(effect: Effect, factors: Sequence[FactorLevels]) -> list[Row]:

@@ -17,9 +17,10 @@ from rgss.studies.measuring import VariantMeasures, requirements_with_criteria
 from rgss.studies.project import Project
 from rgss.studies.regressing_runs import WatchedTrials
 from rgss.tradeoff import AdditiveValue
+from rgss.tradeoff.columns import single_values
 from rgss.tradeoff.dominance import nondominated
 from rgss.tradeoff.enumeration import enumerate_alternatives
-from rgss.tradeoff.outcomes import noisy_outcomes, replicate_number, single_values
+from rgss.tradeoff.outcomes import noisy_outcomes, replicate_number
 from rgss.tradeoff.pareto import pareto_front
 from rgss.tradeoff.resampling import FEWEST_REPLICATES, bootstrap
 

@@ -13,6 +13,7 @@ from rgss.studies.report_conflicts import conflict_reasons
 from rgss.studies.report_numbers import Plain, plain_number
 from rgss.studies.robustness import RequirementPrice, Robustness
 from rgss.studies.robustness_export import assumptions_to_json, costs_to_json
+from rgss.studies.robustness_parts import not_computed_lines
 from rgss.studies.screening import ScreeningResult, screening_summary
 from rgss.trace.figures import value_in_words
 from rgss.tradeoff import Decision, FleetDecision
@@ -86,6 +87,7 @@ def decision_part(
         "assumptions": assumptions_to_json(found),
         "costs": costs_to_json(found),
         "refused": dict(found.refused),
+        "not_computed": list(not_computed_lines(found.not_computed)),
     }
 
 
@@ -166,13 +168,14 @@ def _fleet(fleet: FleetDecision) -> str:
 
 def _acceptability(found: Robustness) -> Plain | None:
     weighting = found.weighting
-    if weighting is None:
+    if weighting is None or weighting.acceptability is None:
         return None
     indices = weighting.acceptability
     order = np.lexsort((np.arange(len(found.variants)), -indices.first))
     rows = [int(row) for row in order if indices.first[row] > 0.0]
     return {
         "iterations": indices.iterations,
+        "drawn_by": indices.drawn_by.value,
         "with_noise": weighting.with_noise,
         "elicited": weighting.elicited,
         "more": max(0, len(rows) - MOST_CONTENDERS),
@@ -183,7 +186,7 @@ def _acceptability(found: Robustness) -> Plain | None:
                 "error": plain_number(float(indices.rank_errors[row, 0])),
                 "confidence": plain_number(float(indices.confidence[row])),
                 "feasible": plain_number(float(1.0 - indices.unranked[row])),
-                "region": plain_number(float(weighting.regions[row].share)),
+                "region": None if weighting.regions is None else plain_number(float(weighting.regions[row].share)),
             }
             for row in rows[:MOST_CONTENDERS]
         ],
@@ -191,7 +194,7 @@ def _acceptability(found: Robustness) -> Plain | None:
 
 
 def _weight_ranges(found: Robustness) -> list[Plain]:
-    if found.weighting is None:
+    if found.weighting is None or found.weighting.ranges is None:
         return []
     return [
         {

@@ -14,10 +14,11 @@ from rgss.studies.measuring import VariantMeasures
 from rgss.studies.project import Project
 from rgss.studies.robustness_assumptions import AssumptionFinding, CostBox, assumption_findings, cost_box
 from rgss.studies.robustness_effects import StudyEffects, study_effects
+from rgss.studies.robustness_parts import NotComputed, Part, PartComputer
 from rgss.studies.robustness_remeasuring import Remeasuring
 from rgss.tradeoff import AdditiveValue, Condition, Decision, TradeProblem
-from rgss.tradeoff.acceptability import Acceptability, Outcomes, smaa2
-from rgss.tradeoff.columns import condition_column
+from rgss.tradeoff.acceptability import Acceptability, Outcomes, OutcomeSource, smaa2
+from rgss.tradeoff.columns import condition_column, single_values
 from rgss.tradeoff.conditions import Comparison
 from rgss.tradeoff.enumeration import enumerate_alternatives
 from rgss.tradeoff.evidence_table import EvidenceTable
@@ -25,14 +26,13 @@ from rgss.tradeoff.flip import WeightRange, WeightShift, weight_ranges, weight_s
 from rgss.tradeoff.outcomes import (
     admitted_weights,
     condition_masks,
-    noisy_outcomes,
     replicate_number,
-    single_values,
 )
 from rgss.tradeoff.pareto import ParetoFront, pareto_front
 from rgss.tradeoff.price_list import PriceStep, price_list
 from rgss.tradeoff.program_orderings import ordering_of, weighted_values
 from rgss.tradeoff.rank_reversal import RankReversal, rank_reversals, sample_anchored
+from rgss.tradeoff.resampled_outcomes import ResampledOutcomes
 from rgss.tradeoff.resampling import Resamples, bootstrap
 from rgss.tradeoff.weight_region import WeightRegion, winning_regions
 
@@ -69,13 +69,15 @@ class WeightRobustness:
         acceptability: The indices of SMAA-2 over weights and noise; over weights alone where
             there is no noise to draw from.
         with_noise: Whether they are over noise too.
+
+    A part that could not be computed is None, and `Robustness.not_computed` says why.
     """
 
     elicited: bool
-    regions: tuple[WeightRegion, ...]
-    shifts: tuple[WeightShift, ...]
-    ranges: tuple[WeightRange, ...]
-    acceptability: Acceptability
+    regions: tuple[WeightRegion, ...] | None
+    shifts: tuple[WeightShift, ...] | None
+    ranges: tuple[WeightRange, ...] | None
+    acceptability: Acceptability | None
     with_noise: bool
 
 
@@ -100,7 +102,8 @@ class Robustness:
         effects: What each factor does to each measure.
         resamples: How many resamples of the replicates stand for the noise; 0 without noise.
         all_resamples: Whether these are all there are.
-        refused: Why an analysis was not made, by its name.
+        refused: Why an analysis does not apply, by its name.
+        not_computed: Why a part could not be computed; what stands for it here is empty.
     """
 
     variants: tuple[int, ...]
@@ -119,6 +122,7 @@ class Robustness:
     resamples: int
     all_resamples: bool
     refused: Mapping[str, str]
+    not_computed: Mapping[Part, NotComputed]
 
 
 def analyse_robustness(
@@ -155,38 +159,41 @@ def analyse_robustness(
     weights = np.array([problem.weighting.weights[measure] for measure in deciding])
     chosen = None if decision.chosen is None else table.row_of(decision.chosen)
 
+    parts = PartComputer()
     weighting: WeightRobustness | None = None
     assumptions: tuple[AssumptionFinding, ...] = ()
     costs: CostBox | None = None
     reason = _no_weights(problem, chosen)
     if chosen is not None and not reason:
-        weighting = _weighting(problem, table, feasible, values, weights, chosen, resamples, generator)
+        weighting = _weighting(problem, table, feasible, values, weights, chosen, resamples, generator, parts)
         remeasuring = Remeasuring.of(project, measured, table)
-        assumptions = assumption_findings(remeasuring, problem, chosen)
-        box = cost_box(remeasuring, problem, chosen)
+        assumptions = parts.compute(Part.ASSUMPTIONS, lambda: assumption_findings(remeasuring, problem, chosen), ())
+        box = parts.compute(Part.COSTS, lambda: cost_box(remeasuring, problem, chosen), None)
         if isinstance(box, str):
             refused["costs"] = box
         else:
             costs = box
     else:
         refused.update(dict.fromkeys(("weights", "assumptions", "costs"), reason))
+    no_effects = StudyEffects(factors=(), constants=(), measures=())
     return Robustness(
         variants=tuple(int(variant) for variant in table.variants),
         measures=deciding,
         weights=weights,
         values=values,
         feasible=feasible,
-        front=pareto_front(values, feasible),
+        front=parts.compute(Part.PARETO, lambda: pareto_front(values, feasible), ParetoFront(points=())),
         weighting=weighting,
         assumptions=assumptions,
         costs=costs,
-        prices=_prices(problem, table),
-        reversals=_reversals(problem, table, feasible),
-        stretched=_stretched(problem, table, feasible, weights),
-        effects=study_effects(project, measured, resamples),
+        prices=parts.compute(Part.PRICES, lambda: _prices(problem, table), ()),
+        reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
+        stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
+        effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, measured, resamples), no_effects),
         resamples=0 if resamples is None else len(resamples.probabilities),
         all_resamples=resamples is not None and resamples.exact,
         refused=refused,
+        not_computed=parts.missing,
     )
 
 
@@ -217,15 +224,24 @@ def _weighting(
     chosen: int,
     resamples: Resamples | None,
     generator: np.random.Generator,
+    parts: PartComputer,
 ) -> WeightRobustness:
     admitted = admitted_weights(problem)
-    outcomes = Outcomes.certain(values, feasible) if resamples is None else noisy_outcomes(problem, table, resamples)
+    outcomes: OutcomeSource = Outcomes.certain(values, feasible)
+    if resamples is not None:
+        outcomes = ResampledOutcomes.of(problem, table, resamples)
     return WeightRobustness(
         elicited=not admitted.is_simplex,
-        regions=winning_regions(values, feasible, admitted, generator=generator),
-        shifts=weight_shifts(values, feasible, weights, among=admitted),
-        ranges=weight_ranges(values, feasible, weights, chosen),
-        acceptability=smaa2(outcomes, admitted, iterations=ITERATIONS, generator=generator),
+        regions=parts.compute(
+            Part.REGIONS, lambda: winning_regions(values, feasible, admitted, generator=generator), None
+        ),
+        shifts=parts.compute(Part.NEAREST, lambda: weight_shifts(values, feasible, weights, among=admitted), None),
+        ranges=parts.compute(Part.RANGES, lambda: weight_ranges(values, feasible, weights, chosen), None),
+        acceptability=parts.compute(
+            Part.ACCEPTABILITY,
+            lambda: smaa2(outcomes, admitted, iterations=ITERATIONS, generator=generator),
+            None,
+        ),
         with_noise=resamples is not None,
     )
 

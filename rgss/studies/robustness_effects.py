@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -107,7 +108,7 @@ def study_effects(project: Project, measured: Sequence[VariantMeasures], resampl
         resampled = None
         if resamples is not None and measure.from_trials:
             rows = np.array([row[measure.id] for row in replicates], dtype=np.float64)
-            resampled = np.array([design.arranged(means) for means in resamples.means(rows)])
+            resampled = resamples.means(rows)
         known = np.isfinite(estimates)
         if known.tobytes() not in blocks:
             blocks[known.tobytes()] = largest_complete_block(known) if design.factors else None
@@ -205,10 +206,41 @@ class _Design:
 
     def arranged(self, values: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
         """Values of the variants, one axis for each factor; NaN where rules leave no variant."""
-        table = np.full([len(factor.levels) for factor in self.factors], np.nan)
-        for place, value in zip(self.places, values, strict=True):
-            table[place] = value
-        return table
+        return np.asarray(self.all_arranged(np.array(values, dtype=np.float64)[None])[0], dtype=np.float64)
+
+    def all_arranged(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Rows of such values, shape (k, n), each as a table of its own: shape (k, ...)."""
+        shape = [len(factor.levels) for factor in self.factors]
+        places = np.array(self.places, dtype=np.intp).reshape(len(self.places), len(shape))
+        flat = np.ravel_multi_index(tuple(places.T), shape) if shape else np.zeros(len(places), dtype=np.intp)
+        table = np.full((len(rows), math.prod(shape)), np.nan)
+        table[:, flat] = rows
+        return table.reshape(len(rows), *shape)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _ResampledBlock:
+    """The means of every design of a balanced block in each resample, arranged when they are read.
+
+    Attributes:
+        means: The means of the variants, shape (b, n).
+        design: Where each variant stands.
+        cut: The levels that are kept, as an index.
+        shape: The numbers of levels that are kept of each factor that varies.
+    """
+
+    means: NDArray[np.float64]
+    design: _Design
+    cut: tuple[NDArray[np.intp], ...]
+    shape: Sequence[int]
+
+    def __len__(self) -> int:
+        return len(self.means)
+
+    def __getitem__(self, some: slice, /) -> NDArray[np.float64]:
+        tables = self.design.all_arranged(self.means[some])
+        kept = np.array([table[self.cut] for table in tables])
+        return np.asarray(kept.reshape(len(tables), *self.shape), dtype=np.float64)
 
 
 def _effects(
@@ -248,7 +280,9 @@ def _effects(
         analysis=factorial_effects(
             estimates[cut].reshape(shape),
             [factor.id for factor in factors],
-            resampled=None if resampled is None else np.array([one[cut].reshape(shape) for one in resampled]),
+            resampled=None
+            if resampled is None
+            else _ResampledBlock(means=resampled, design=design, cut=cut, shape=shape),
             probabilities=None if resamples is None or resampled is None else resamples.probabilities,
         ),
     )

@@ -11,9 +11,12 @@ from numpy.typing import NDArray
 from rgss.studies.robustness import RequirementPrice, Robustness, WeightRobustness
 from rgss.studies.robustness_assumptions import AssumptionFinding, CostBox
 from rgss.studies.robustness_effects import FactorLevels, MeasureEffects, StudyEffects
+from rgss.studies.robustness_parts import Part
 from rgss.studies.what_if import Change, Scenario
+from rgss.tradeoff.acceptability import Acceptability
 from rgss.tradeoff.effects import Effect
 from rgss.tradeoff.rank_reversal import RankReversal
+from rgss.tradeoff.weight_region import WeightRegion
 
 Plain = dict[str, object]
 
@@ -31,26 +34,36 @@ def robustness_to_json(found: Robustness) -> Plain:
     return {
         "weights": dict(zip(found.measures, found.weights.tolist(), strict=True)),
         "noise": {"resamples": found.resamples, "all_resamples": found.all_resamples},
-        "pareto": [
-            {
-                "variant": found.variants[point.row],
-                "support": point.support.value,
-                "shortfall": point.shortfall,
-                "dominated_by": None if point.dominated_by is None else found.variants[point.dominated_by],
-            }
-            for point in found.front.points
-        ],
+        "pareto": None if Part.PARETO in found.not_computed else _front(found),
         "weight_changes": None if found.weighting is None else _weighting(found, found.weighting),
-        "assumptions": assumptions_to_json(found),
+        "assumptions": None if Part.ASSUMPTIONS in found.not_computed else assumptions_to_json(found),
         "costs": costs_to_json(found),
-        "prices": [_price(found, one) for one in found.prices],
+        "prices": None if Part.PRICES in found.not_computed else [_price(found, one) for one in found.prices],
         "rank_reversals": {
-            "of_the_program": _reversals(found, found.reversals),
-            "if_values_were_stretched_over_the_sample": _reversals(found, found.stretched),
+            "of_the_program": _reversals(found, found.reversals, Part.REVERSALS),
+            "if_values_were_stretched_over_the_sample": _reversals(found, found.stretched, Part.STRETCHED),
         },
-        "effects": _effects(found.effects),
+        "effects": None if Part.EFFECTS in found.not_computed else _effects(found.effects),
         "refused": dict(found.refused),
+        "not_computed": not_computed_to_json(found),
     }
+
+
+def not_computed_to_json(found: Robustness) -> Plain:
+    """Why each part that is missing was not computed, by its place in the document: a part of `robustness_to_json`."""
+    return {part.value: {"reason": why.reason, "remedy": why.remedy} for part, why in found.not_computed.items()}
+
+
+def _front(found: Robustness) -> list[Plain]:
+    return [
+        {
+            "variant": found.variants[point.row],
+            "support": point.support.value,
+            "shortfall": point.shortfall,
+            "dominated_by": None if point.dominated_by is None else found.variants[point.dominated_by],
+        }
+        for point in found.front.points
+    ]
 
 
 def assumptions_to_json(found: Robustness) -> list[Plain]:
@@ -78,23 +91,12 @@ def _change(change: Change) -> Plain:
 
 
 def _weighting(found: Robustness, weighting: WeightRobustness) -> Plain:
-    indices = weighting.acceptability
     return {
         "within_elicited_bounds": weighting.elicited,
-        "regions": [
-            {
-                "variant": variant,
-                "kind": region.kind.value,
-                "share": region.share,
-                "share_error": region.share_error,
-                "centre": _by_measure(found, region.centre),
-                "radius": region.radius,
-                "low": _by_measure(found, region.low),
-                "high": _by_measure(found, region.high),
-            }
-            for variant, region in zip(found.variants, weighting.regions, strict=True)
-        ],
-        "nearest": [
+        "regions": None if weighting.regions is None else _regions(found, weighting.regions),
+        "nearest": None
+        if weighting.shifts is None
+        else [
             {
                 "variants": _variants(found, shift.rows),
                 "distance": shift.distance,
@@ -104,7 +106,9 @@ def _weighting(found: Robustness, weighting: WeightRobustness) -> Plain:
             }
             for shift in weighting.shifts
         ],
-        "ranges": [
+        "ranges": None
+        if weighting.ranges is None
+        else [
             {
                 "measure": measure,
                 "weight": float(weight),
@@ -115,25 +119,47 @@ def _weighting(found: Robustness, weighting: WeightRobustness) -> Plain:
             }
             for measure, weight, one in zip(found.measures, found.weights, weighting.ranges, strict=True)
         ],
-        "acceptability": {
-            "iterations": indices.iterations,
-            "with_noise": weighting.with_noise,
-            "alternatives": [
-                {
-                    "variant": variant,
-                    "ranks": {
-                        str(rank): float(share) for rank, share in enumerate(indices.ranks[row], start=1) if share
-                    },
-                    "first": float(indices.first[row]),
-                    "first_error": float(indices.rank_errors[row, 0]),
-                    "unranked": float(indices.unranked[row]),
-                    "central_weights": _by_measure(found, indices.central_weights[row]),
-                    "confidence": _finite(float(indices.confidence[row])),
-                    "confidence_error": _finite(float(indices.confidence_errors[row])),
-                }
-                for row, variant in enumerate(found.variants)
-            ],
-        },
+        "acceptability": None
+        if weighting.acceptability is None
+        else _acceptability(found, weighting.acceptability, with_noise=weighting.with_noise),
+    }
+
+
+def _regions(found: Robustness, regions: Sequence[WeightRegion]) -> list[Plain]:
+    return [
+        {
+            "variant": variant,
+            "kind": region.kind.value,
+            "share": region.share,
+            "share_error": region.share_error,
+            "share_by": region.share_by.value,
+            "centre": _by_measure(found, region.centre),
+            "radius": region.radius,
+            "low": _by_measure(found, region.low),
+            "high": _by_measure(found, region.high),
+        }
+        for variant, region in zip(found.variants, regions, strict=True)
+    ]
+
+
+def _acceptability(found: Robustness, indices: Acceptability, *, with_noise: bool) -> Plain:
+    return {
+        "iterations": indices.iterations,
+        "drawn_by": indices.drawn_by.value,
+        "with_noise": with_noise,
+        "alternatives": [
+            {
+                "variant": variant,
+                "ranks": {str(rank): float(share) for rank, share in enumerate(indices.ranks[row], start=1) if share},
+                "first": float(indices.first[row]),
+                "first_error": float(indices.rank_errors[row, 0]),
+                "unranked": float(indices.unranked[row]),
+                "central_weights": _by_measure(found, indices.central_weights[row]),
+                "confidence": _finite(float(indices.confidence[row])),
+                "confidence_error": _finite(float(indices.confidence_errors[row])),
+            }
+            for row, variant in enumerate(found.variants)
+        ],
     }
 
 
@@ -193,7 +219,9 @@ def _price(found: Robustness, price: RequirementPrice) -> Plain:
     }
 
 
-def _reversals(found: Robustness, reversals: Iterable[RankReversal]) -> list[Plain]:
+def _reversals(found: Robustness, reversals: Iterable[RankReversal], part: Part) -> list[Plain] | None:
+    if part in found.not_computed:
+        return None
     return [
         {
             "removed": found.variants[one.removed],

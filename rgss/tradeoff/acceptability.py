@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.alternatives import Array
-from rgss.tradeoff.sampling import sample_weights
+from rgss.tradeoff.sampling import Drawing, sample_weights
 from rgss.tradeoff.values import TIE_TOLERANCE
 from rgss.tradeoff.weight_set import WeightSet
 
@@ -26,9 +27,32 @@ _ROWS_AT_ONCE = 4_096
 _RANKS_AT_ONCE = 4_000_000
 
 
+class OutcomeSource(Protocol):
+    """The outcomes of the noise, each read when it is needed."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The numbers of outcomes b, alternatives n and weighted measures m."""
+        ...
+
+    @property
+    def probabilities(self) -> Array:
+        """The probability of each outcome, shape (b,)."""
+        ...
+
+    @property
+    def exact(self) -> bool:
+        """Whether these are all the outcomes there are."""
+        ...
+
+    def at(self, outcome: int) -> tuple[Array, NDArray[np.bool_]]:
+        """The values of the alternatives in an outcome, shape (n, m), and which can be chosen, shape (n,)."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Outcomes:
-    """What the evidence may say: the values of every alternative in each outcome of the noise.
+    """The values of every alternative in each outcome of the noise, as arrays in memory.
 
     Attributes:
         values: Single values, shape (b, n, m), from 0 to 1; NaN only where not feasible.
@@ -53,6 +77,15 @@ class Outcomes:
         """
         return Outcomes(values=values[None], feasible=feasible[None], probabilities=np.ones(1), exact=True)
 
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the values."""
+        return self.values.shape
+
+    def at(self, outcome: int) -> tuple[Array, NDArray[np.bool_]]:
+        """One outcome."""
+        return self.values[outcome], self.feasible[outcome]
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Acceptability:
@@ -60,6 +93,7 @@ class Acceptability:
 
     Attributes:
         iterations: How many pairs of weights and outcomes were drawn.
+        drawn_by: How the weights were drawn.
         ranks: The rank acceptability b_i^r: the share of draws in which alternative i has rank r,
             shape (n, r), rank 1 in the first column. Equals share the better rank, so that the
             first column may sum to more than 1. All n ranks are there of up to `ALL_RANKS_TO`
@@ -74,6 +108,7 @@ class Acceptability:
     """
 
     iterations: int
+    drawn_by: Drawing
     ranks: Array
     rank_errors: Array
     unranked: Array
@@ -87,7 +122,9 @@ class Acceptability:
         return np.asarray(self.ranks[:, 0], dtype=np.float64)
 
 
-def smaa2(outcomes: Outcomes, weights: WeightSet, *, iterations: int, generator: np.random.Generator) -> Acceptability:
+def smaa2(
+    outcomes: OutcomeSource, weights: WeightSet, *, iterations: int, generator: np.random.Generator
+) -> Acceptability:
     """Draw weights and outcomes, rank, and count.
 
     Lahdelma and Salminen, "SMAA-2: Stochastic multicriteria acceptability analysis for group
@@ -109,28 +146,31 @@ def smaa2(outcomes: Outcomes, weights: WeightSet, *, iterations: int, generator:
         TradeoffError: The outcomes contradict themselves, or the admitted weights have no interior.
     """
     _check(outcomes, weights)
-    _, count, size = outcomes.values.shape
-    drawn = sample_weights(weights, iterations, generator)
+    _, count, size = outcomes.shape
+    sample = sample_weights(weights, iterations, generator)
+    drawn = sample.weights
     which = np.sort(generator.choice(len(outcomes.probabilities), size=iterations, p=outcomes.probabilities))
     most = count if count <= ALL_RANKS_TO else MOST_RANKS
     tally = np.zeros((count, most + 2), dtype=np.int64)  # not ranked, each rank, later ranks
     at_once = _ROWS_AT_ONCE if most == count else max(1, min(_ROWS_AT_ONCE, _RANKS_AT_ONCE // count))
     sums = np.zeros((count, size))
     for outcome in np.unique(which):
+        values, feasible = _checked_outcome(outcomes, int(outcome))
         rows = np.flatnonzero(which == outcome)
         for start in range(0, len(rows), at_once):
             here = drawn[rows[start : start + at_once]]
-            ranks = _ranks(here, outcomes.values[outcome], outcomes.feasible[outcome], most)
+            ranks = _ranks(here, values, feasible, most)
             for row, column in enumerate(ranks.T):
                 tally[row] += np.bincount(column, minlength=most + 2)
             sums += (ranks == 1).T.astype(np.float64) @ here
     shares = tally[:, 1 : most + 1] / iterations
     best = tally[:, 1]
     central = np.divide(sums, best[:, None], out=np.full_like(sums, np.nan), where=best[:, None] > 0)
-    confidence = np.array([_confidence(outcomes, row, weight) for row, weight in enumerate(central)])
+    confidence = _confidence(outcomes, central)
     draws = np.inf if outcomes.exact else float(len(outcomes.probabilities))
     return Acceptability(
         iterations=iterations,
+        drawn_by=sample.drawn_by,
         ranks=shares,
         rank_errors=np.sqrt(shares * (1.0 - shares) / iterations),
         unranked=tally[:, UNRANKED] / iterations,
@@ -140,19 +180,24 @@ def smaa2(outcomes: Outcomes, weights: WeightSet, *, iterations: int, generator:
     )
 
 
-def _check(outcomes: Outcomes, weights: WeightSet) -> None:
-    shape = outcomes.values.shape
+def _check(outcomes: OutcomeSource, weights: WeightSet) -> None:
+    shape = outcomes.shape
     if len(shape) != 3 or shape[2] != weights.size or 0 in shape:
         raise TradeoffError(
             f"outcomes of the shape {shape} do not fit {weights.size} weights",
             hint="give one value for each outcome, alternative and weighted measure",
         )
-    possible = outcomes.values[outcomes.feasible]
+
+
+def _checked_outcome(outcomes: OutcomeSource, outcome: int) -> tuple[Array, NDArray[np.bool_]]:
+    values, feasible = outcomes.at(outcome)
+    possible = values[feasible]
     if not ((possible >= 0.0) & (possible <= 1.0)).all():
         raise TradeoffError(
             "an alternative that can be chosen has a value that is not a number from 0 to 1",
             hint="an alternative whose evidence does not tell a weighted measure cannot be chosen",
         )
+    return values, feasible
 
 
 def _ranks(weights: Array, values: Array, feasible: NDArray[np.bool_], most: int) -> NDArray[np.int64]:
@@ -193,10 +238,28 @@ def _first_ranks(totals: Array, most: int) -> NDArray[np.int64]:
     return ranks
 
 
-def _confidence(outcomes: Outcomes, row: int, weights: Array) -> float:
-    if np.isnan(weights).any():
-        return float("nan")
-    totals = np.where(outcomes.feasible, np.where(outcomes.feasible[..., None], outcomes.values, 0.0) @ weights, -1.0)
-    best = outcomes.feasible[:, row] & (totals[:, row] >= totals.max(axis=1) - TIE_TOLERANCE)
+def _confidence(outcomes: OutcomeSource, central: Array) -> Array:
+    """The probability that each alternative is best at its central weights, shape (n,); NaN where it has none.
+
+    Outcomes are read one after the other, so that no more than one is in memory.
+    """
+    found = np.full(len(central), np.nan)
+    rows = np.flatnonzero(~np.isnan(central).any(axis=1))
+    if not len(rows):
+        return found
+    best = np.zeros((outcomes.shape[0], len(rows)), dtype=np.bool_)
+    for outcome in range(outcomes.shape[0]):
+        values, feasible = _checked_outcome(outcomes, outcome)
+        possible = np.flatnonzero(feasible)
+        if not len(possible):
+            continue
+        of_possible = values[possible]
+        own = np.where(feasible[rows, None], values[rows], 0.0)
+        for start in range(0, len(rows), _RANKS_AT_ONCE // len(possible) + 1):
+            block = slice(start, start + _RANKS_AT_ONCE // len(possible) + 1)
+            highest = (central[rows[block]] @ of_possible.T).max(axis=1)
+            totals = (own[block] * central[rows[block]]).sum(axis=1)
+            best[outcome, block] = feasible[rows[block]] & (totals >= highest - TIE_TOLERANCE)
     # Probabilities that sum to 1 may do so up to rounding.
-    return min(1.0, float(outcomes.probabilities[best].sum()))
+    found[rows] = [min(1.0, float(outcomes.probabilities[best[:, place]].sum())) for place in range(len(rows))]
+    return found

@@ -11,6 +11,7 @@ from rgss.errors import TradeoffError
 from rgss.measures.verdicts import RELATIVE_TOLERANCE
 from rgss.tradeoff.conditions import ChanceBound, Comparison, Condition, TailBound, Threshold
 from rgss.tradeoff.evidence_table import EvidenceTable, Samples
+from rgss.tradeoff.preferences import Preferences
 from rgss.tradeoff.values import ExponentialValue, PiecewiseValue, TargetValue, ValueFunction
 
 Column = NDArray[np.float64]
@@ -85,3 +86,12 @@ def keeps(sense: Comparison, quantities: Column, limit: float) -> NDArray[np.boo
     kept = quantities >= limit if sense is Comparison.AT_LEAST else quantities <= limit
     equal = np.abs(quantities - limit) <= RELATIVE_TOLERANCE * np.maximum(np.abs(quantities), abs(limit))
     return np.asarray(kept | equal, dtype=np.bool_)
+
+
+def single_values(preferences: Preferences, table: EvidenceTable) -> Column:
+    """The value of every alternative in each measure with a weight above 0, shape (n, m); NaN where unknown."""
+    columns = [
+        value_column(preferences.value_function(measure), table.column(measure))
+        for measure in preferences.weighting.deciding_measures
+    ]
+    return np.stack(columns, axis=1)

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,9 @@ Term = tuple[str, ...]
 
 MOST_BLOCKS = 300_000
 """So many choices of levels are looked at for the largest complete block."""
+
+MOST_AT_ONCE = 1_000_000
+"""So many estimates are split into effects at once, 8 MB: designs times resamples."""
 
 _NO_VARIANCE = 1e-18
 _DUST = 1e-12
@@ -83,11 +87,23 @@ class FactorialAnalysis:
     used: float
 
 
+class ResampledDesigns(Protocol):
+    """The estimates of every design in each resample, read block by block; an array is one."""
+
+    def __len__(self) -> int:
+        """The number b of resamples."""
+        ...
+
+    def __getitem__(self, some: slice, /) -> Array:
+        """The estimates in some of them, shape (k, ...), one axis for each factor."""
+        ...
+
+
 def factorial_effects(
     estimates: Array,
     factors: Sequence[str],
     *,
-    resampled: Array | None = None,
+    resampled: ResampledDesigns | None = None,
     probabilities: Array | None = None,
     order: int = 2,
 ) -> FactorialAnalysis:
@@ -113,12 +129,14 @@ def factorial_effects(
     _check(estimates, factors)
     axes = range(estimates.ndim)
     terms = [term for size in range(1, estimates.ndim + 1) for term in itertools.combinations(axes, size)]
-    parts = _decomposed(estimates[None], terms)
+    parts = _decomposed(estimates[None], terms, float(np.abs(estimates).max()))
     squares = {term: _squares(part, estimates.size)[0] for term, part in parts.items()}
     total = float(((estimates - estimates.mean()) ** 2).sum())
     scale = float(np.abs(estimates).max()) ** 2 * estimates.size
     shares = {term: (square / total if total > _NO_VARIANCE * scale else 0.0) for term, square in squares.items()}
-    noise = _noise(resampled, probabilities, terms, estimates.size)
+    noise = None
+    if resampled is not None and probabilities is not None:
+        noise = _noise(resampled, probabilities, terms, estimates.size, order)
     effects = []
     for term in terms:
         if len(term) <= order:
@@ -213,8 +231,14 @@ def _check(estimates: Array, factors: Sequence[str]) -> None:
             raise TradeoffError(f"factor {factor!r} has one level and no effect", hint="leave it out")
 
 
-def _decomposed(estimates: Array, terms: Sequence[tuple[int, ...]]) -> dict[tuple[int, ...], Array]:
-    """The effects of every term in each resample, shape (b, l_1, ...) over the term's axes."""
+def _decomposed(estimates: Array, terms: Sequence[tuple[int, ...]], largest: float) -> dict[tuple[int, ...], Array]:
+    """The effects of every term in each resample, shape (b, l_1, ...) over the term's axes.
+
+    Args:
+        estimates: The estimates in each resample.
+        terms: The axes of each term, the lesser terms first.
+        largest: The largest magnitude of an estimate, of which rounding is a share.
+    """
     factors = estimates.ndim - 1
     grand = estimates.mean(axis=tuple(range(1, factors + 1)), keepdims=True)
     full: dict[tuple[int, ...], Array] = {}
@@ -226,7 +250,7 @@ def _decomposed(estimates: Array, terms: Sequence[tuple[int, ...]]) -> dict[tupl
                 part = part - full[lesser]
         full[term] = part
     # What is left of differences of equal numbers is rounding, and no effect.
-    dust = _DUST * float(np.abs(estimates).max())
+    dust = _DUST * largest
     return {
         term: np.squeeze(
             np.where(np.abs(part) <= dust, 0.0, part),
@@ -243,18 +267,46 @@ def _squares(part: Array, designs: int) -> Array:
 
 
 def _noise(
-    resampled: Array | None, probabilities: Array | None, terms: Sequence[tuple[int, ...]], designs: int
+    resampled: ResampledDesigns, probabilities: Array, terms: Sequence[tuple[int, ...]], designs: int, order: int
 ) -> _Noise | None:
-    if resampled is None or probabilities is None:
-        return None
-    usable = np.isfinite(resampled.reshape(len(resampled), -1)).all(axis=1)
-    used = float(probabilities[usable].sum())
+    """The terms in every usable resample; None where none is usable.
+
+    The highest terms are as large as the designs themselves, so resamples are split block by block,
+    and of terms beyond the order only their sums of squares are kept.
+    """
+    # What is left of differences of equal numbers is rounding, compared with all usable resamples.
+    usable = np.zeros(len(resampled), dtype=np.bool_)
+    largest = 0.0
+    for here in _blocks(len(resampled), designs):
+        block = resampled[here]
+        usable[here] = np.isfinite(block.reshape(len(block), -1)).all(axis=1)
+        if usable[here].any():
+            largest = max(largest, float(np.abs(block[usable[here]]).max()))
     if not usable.any():
         return None
-    parts = _decomposed(resampled[usable], terms)
-    squares = {term: _squares(part, designs) for term, part in parts.items()}
-    total = np.sum(list(squares.values()), axis=0)
-    shares = {
-        term: np.divide(square, total, out=np.zeros_like(square), where=total > 0.0) for term, square in squares.items()
-    }
-    return _Noise(parts=parts, shares=shares, probabilities=probabilities[usable] / used, used=used)
+    used = float(probabilities[usable].sum())
+    kept: dict[tuple[int, ...], list[Array]] = {term: [] for term in terms if len(term) <= order}
+    squares: dict[tuple[int, ...], list[Array]] = {term: [] for term in terms}
+    for here in _blocks(len(resampled), designs):
+        if usable[here].any():
+            for term, part in _decomposed(resampled[here][usable[here]], terms, largest).items():
+                squares[term].append(_squares(part, designs))
+                if term in kept:
+                    kept[term].append(part)
+    summed = {term: np.concatenate(square) for term, square in squares.items()}
+    total = np.sum(list(summed.values()), axis=0)
+    return _Noise(
+        parts={term: np.concatenate(part) for term, part in kept.items()},
+        shares={
+            term: np.divide(square, total, out=np.zeros_like(square), where=total > 0.0)
+            for term, square in summed.items()
+            if term in kept
+        },
+        probabilities=probabilities[usable] / used,
+        used=used,
+    )
+
+
+def _blocks(resamples: int, designs: int) -> Iterator[slice]:
+    at_once = max(1, MOST_AT_ONCE // max(1, designs))
+    return (slice(start, start + at_once) for start in range(0, resamples, at_once))

@@ -2,29 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
-from numpy.typing import NDArray
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.acceptability import Outcomes
-from rgss.tradeoff.alternatives import Array, Mask
-from rgss.tradeoff.columns import condition_column, keeps, value_column
-from rgss.tradeoff.enumeration import violations
-from rgss.tradeoff.evidence_table import EvidenceTable, Samples
+from rgss.tradeoff.alternatives import Mask
+from rgss.tradeoff.columns import condition_column, keeps
+from rgss.tradeoff.evidence_table import EvidenceTable
 from rgss.tradeoff.preferences import Preferences
+from rgss.tradeoff.resampled_outcomes import ResampledOutcomes
 from rgss.tradeoff.resampling import Resamples
 from rgss.tradeoff.weight_set import WeightSet
-
-
-def single_values(preferences: Preferences, table: EvidenceTable) -> Array:
-    """The value of every alternative in each measure with a weight above 0, shape (n, m); NaN where unknown."""
-    columns = [
-        value_column(preferences.value_function(measure), table.column(measure))
-        for measure in preferences.weighting.deciding_measures
-    ]
-    return np.stack(columns, axis=1)
 
 
 def admitted_weights(preferences: Preferences) -> WeightSet:
@@ -65,58 +53,18 @@ def replicate_number(table: EvidenceTable) -> int:
 
 
 def noisy_outcomes(preferences: Preferences, table: EvidenceTable, resamples: Resamples) -> Outcomes:
-    """What the evidence may say: every alternative valued and judged in each resample of the replicates.
-
-    A quantity moves by as much as the mean of its replicates does, an end of an interval included;
-    conditions on replicates are judged by those of the resample.
+    """The outcomes of `ResampledOutcomes` as arrays, for as few alternatives as fit in memory.
 
     Args:
         preferences: What is wanted.
         table: The evidence.
         resamples: The resamples.
     """
-    values, feasible = [], []
-    for drawn in resampled_tables(table, resamples):
-        values.append(single_values(preferences, drawn))
-        feasible.append(~violations(preferences, drawn).any(axis=1))
+    source = ResampledOutcomes.of(preferences, table, resamples)
+    drawn = [source.at(outcome) for outcome in range(source.shape[0])]
     return Outcomes(
-        values=np.array(values),
-        feasible=np.array(feasible),
+        values=np.array([values for values, _ in drawn]),
+        feasible=np.array([feasible for _, feasible in drawn]),
         probabilities=resamples.probabilities,
         exact=resamples.exact,
     )
-
-
-def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Sequence[EvidenceTable]:
-    """The evidence in each of the resamples."""
-    shifts: dict[str, NDArray[np.float64]] = {}
-    for measure, samples in table.samples.items():
-        if measure in table.measures:
-            whole = np.full(samples.values.shape, np.nan)
-            whole[samples.ran] = samples.values[samples.ran]
-            known = np.isfinite(whole)
-            mean = np.divide(
-                np.where(known, whole, 0.0).sum(axis=1),
-                known.sum(axis=1),
-                out=np.full(len(whole), np.nan),
-                where=known.any(axis=1),
-            )
-            shifts[measure] = resamples.means(whole) - mean
-    found = []
-    for place, counts in enumerate(resamples.counts):
-        draw = np.repeat(np.arange(len(counts)), counts)
-        quantities = table.quantities.copy()
-        for measure, moved in shifts.items():
-            quantities[:, table.measures.index(measure)] += moved[place]
-        found.append(
-            EvidenceTable(
-                variants=table.variants,
-                measures=table.measures,
-                quantities=quantities,
-                samples={
-                    measure: Samples(values=samples.values[:, draw], ran=samples.ran[:, draw])
-                    for measure, samples in table.samples.items()
-                },
-            )
-        )
-    return found

@@ -2,37 +2,60 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from enum import Enum
+
 import numpy as np
 
 from rgss.errors import TradeoffError
+from rgss.tradeoff.hit_and_run import walked_weights
 from rgss.tradeoff.polytope import THINNEST, Polytope
 from rgss.tradeoff.weight_set import Array, WeightSet
 
-MOST_TRIES = 400
-"""Rounds of rejection before it is given up."""
+MOST_TRIES = 40
+"""So many points of the simplex are drawn at most for each that is kept; beyond, a walk is faster."""
 
 
-def sample_weights(weights: WeightSet, count: int, generator: np.random.Generator) -> Array:
+class Drawing(str, Enum):
+    """How weights were drawn."""
+
+    INDEPENDENT = "independent"
+    HIT_AND_RUN = "hit_and_run"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DrawnWeights:
+    """Weights and how they were drawn.
+
+    Attributes:
+        weights: The weights, shape (count, m); each row is exactly non-negative.
+        drawn_by: Whether they are exactly uniform, or the ends of random walks that are nearly so.
+    """
+
+    weights: Array
+    drawn_by: Drawing
+
+
+def sample_weights(weights: WeightSet, count: int, generator: np.random.Generator) -> DrawnWeights:
     """Draw weights, independently and uniformly.
 
     The simplex is drawn from directly (Rubinstein, "Generating random vectors uniformly
     distributed inside and on the surface of different regions", 1982). A set that was cut is
     triangulated; a simplex of the triangulation is drawn by its volume, and a point from it. Where
-    there are too many weights for that, points of the simplex outside the set are rejected.
+    there are too many weights for that, points of the simplex outside the set are rejected; where
+    nearly all are, or a weight is fixed, each weight is the end of a random walk of its own
+    (see `walked_weights`).
 
     Args:
         weights: The admitted weights.
         count: How many are drawn.
         generator: Where randomness comes from.
 
-    Returns:
-        The weights, shape (count, m); each row is exactly non-negative.
-
     Raises:
-        TradeoffError: The set has no interior, or is so thin that rejection does not end.
+        TradeoffError: The set has no interior.
     """
     if weights.is_simplex:
-        return _from_simplex(weights.size, count, generator)
+        return DrawnWeights(weights=_from_simplex(weights.size, count, generator), drawn_by=Drawing.INDEPENDENT)
     polytope = Polytope.of(weights)
     ball = polytope.largest_ball()
     dimension = weights.directions().shape[1]
@@ -42,12 +65,15 @@ def sample_weights(weights: WeightSet, count: int, generator: np.random.Generato
             hint="widen a bound, or drop an order",
         )
     if dimension == 0:
-        return np.tile(ball[0], (count, 1))
+        return DrawnWeights(weights=np.tile(ball[0], (count, 1)), drawn_by=Drawing.INDEPENDENT)
     vertices = polytope.vertices(ball[0])
-    if vertices is None:
-        return _rejected(polytope, count, generator)
-    drawn = _from_vertices(vertices, weights.directions(), count, generator)
-    return np.asarray(np.maximum(drawn, 0.0), dtype=np.float64)
+    drawn = None if vertices is None else _from_vertices(vertices, weights.directions(), count, generator)
+    if drawn is not None:
+        return DrawnWeights(weights=np.maximum(drawn, 0.0), drawn_by=Drawing.INDEPENDENT)
+    kept = None if vertices is not None or len(weights.equals) else _rejected(polytope, count, generator)
+    if kept is not None:
+        return DrawnWeights(weights=kept, drawn_by=Drawing.INDEPENDENT)
+    return DrawnWeights(weights=walked_weights(polytope, ball[0], count, generator), drawn_by=Drawing.HIT_AND_RUN)
 
 
 def _from_simplex(size: int, count: int, generator: np.random.Generator) -> Array:
@@ -55,15 +81,19 @@ def _from_simplex(size: int, count: int, generator: np.random.Generator) -> Arra
     return np.asarray(spacings / spacings.sum(axis=1, keepdims=True), dtype=np.float64)
 
 
-def _from_vertices(vertices: Array, directions: Array, count: int, generator: np.random.Generator) -> Array:
+def _from_vertices(vertices: Array, directions: Array, count: int, generator: np.random.Generator) -> Array | None:
+    """Points of a triangulated polytope; None where Qhull gives up."""
     flat = (vertices - vertices[0]) @ directions
     if flat.shape[1] == 1:
         ends = vertices[[int(flat.argmin()), int(flat.argmax())]]
         share = generator.random((count, 1))
         return np.asarray(share * ends[0] + (1.0 - share) * ends[1], dtype=np.float64)
-    from scipy.spatial import Delaunay
+    from scipy.spatial import Delaunay, QhullError
 
-    cells = Delaunay(flat).simplices
+    try:
+        cells = Delaunay(flat).simplices
+    except QhullError:
+        return None
     corners = flat[cells]
     volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
     chosen = generator.choice(len(cells), size=count, p=volumes / volumes.sum())
@@ -71,21 +101,16 @@ def _from_vertices(vertices: Array, directions: Array, count: int, generator: np
     return np.asarray(np.einsum("nk,nkm->nm", shares, vertices[cells[chosen]]), dtype=np.float64)
 
 
-def _rejected(polytope: Polytope, count: int, generator: np.random.Generator) -> Array:
-    if len(polytope.weights.equals):
-        raise TradeoffError(
-            "weights of more than six measures cannot be drawn while one is fixed",
-            hint="give the fixed weight a small range, or fix none",
-        )
+def _rejected(polytope: Polytope, count: int, generator: np.random.Generator) -> Array | None:
+    """Points of the simplex that lie in the set; None where too few do."""
     kept: list[Array] = []
     missing = count
-    for _ in range(MOST_TRIES):
+    for tried in range(1, MOST_TRIES + 1):
         drawn = _from_simplex(polytope.weights.size, count, generator)
         kept.append(drawn[(drawn @ polytope.rows.T <= polytope.limits).all(axis=1)][:missing])
         missing -= len(kept[-1])
         if not missing:
             return np.vstack(kept)
-    raise TradeoffError(
-        f"the elicited bounds and orders leave less than one weight in {MOST_TRIES}",
-        hint="widen a bound, or fix the weights that are known",
-    )
+        if (count - missing) * MOST_TRIES < tried * count // 2:
+            return None
+    return None

@@ -12,7 +12,7 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff.alternatives import Array, Mask, checked_values, classes
 from rgss.tradeoff.dominance import nondominated
 from rgss.tradeoff.polytope import THINNEST, Polytope
-from rgss.tradeoff.sampling import sample_weights
+from rgss.tradeoff.sampling import Drawing, sample_weights
 from rgss.tradeoff.weight_set import WeightSet
 
 SHARE_SAMPLES = 1 << 16
@@ -22,6 +22,18 @@ ALL_RIVALS_TO = 200
 
 _CLEARLY = 1e-6
 """Weights that are drawn where a volume cannot be computed from vertices."""
+
+
+_MOST_WORTHS = 4_000_000
+"""So many weighted values are in memory at once, 32 MB."""
+
+
+class ShareBy(str, Enum):
+    """How the share of a region was found: from the volume of its corners, or by counting drawn weights."""
+
+    VOLUME = "volume"
+    INDEPENDENT = Drawing.INDEPENDENT.value
+    HIT_AND_RUN = Drawing.HIT_AND_RUN.value
 
 
 class RegionKind(str, Enum):
@@ -45,6 +57,7 @@ class WeightRegion:
         high: The largest value of each weight in it, shape (m,); None if it is empty.
         share: Its volume as a share of that of all admitted weights.
         share_error: The standard error of the share; 0 where it was computed from vertices.
+        share_by: How the share was found.
         vertices: Its corners, shape (v, m); None where they were not computed.
     """
 
@@ -56,6 +69,7 @@ class WeightRegion:
     share: float
     share_error: float
     vertices: Array | None
+    share_by: ShareBy = ShareBy.VOLUME
 
 
 def winning_polytope(values: Array, row: int, weights: WeightSet, rivals: Array | None = None) -> Polytope:
@@ -231,8 +245,11 @@ def _sampled_shares(
     regions: list[WeightRegion], values: Array, weights: WeightSet, generator: np.random.Generator
 ) -> list[WeightRegion]:
     """The regions with every share counted among random weights."""
-    drawn = sample_weights(weights, SHARE_SAMPLES, generator)
-    winners = np.bincount((drawn @ values.T).argmax(axis=1), minlength=len(values)) / SHARE_SAMPLES
+    sample = sample_weights(weights, SHARE_SAMPLES, generator)
+    at_once = max(1, _MOST_WORTHS // len(values))
+    blocks = (sample.weights[start : start + at_once] for start in range(0, SHARE_SAMPLES, at_once))
+    firsts = np.concatenate([(block @ values.T).argmax(axis=1) for block in blocks])
+    winners = np.bincount(firsts, minlength=len(values)) / SHARE_SAMPLES
     return [
         WeightRegion(
             kind=region.kind,
@@ -243,6 +260,7 @@ def _sampled_shares(
             share=float(share),
             share_error=math.sqrt(float(share) * (1.0 - float(share)) / SHARE_SAMPLES),
             vertices=region.vertices,
+            share_by=ShareBy(sample.drawn_by.value),
         )
         for region, share in zip(regions, winners, strict=True)
     ]

@@ -18,15 +18,15 @@ from rgss.tradeoff import (
     WeightBounds,
     Weighting,
 )
+from rgss.tradeoff.columns import single_values
 from rgss.tradeoff.evidence_table import tabulated
 from rgss.tradeoff.outcomes import (
     admitted_weights,
     condition_masks,
     noisy_outcomes,
     replicate_number,
-    resampled_tables,
-    single_values,
 )
+from rgss.tradeoff.resampled_outcomes import ResampledTables
 from rgss.tradeoff.resampling import bootstrap
 
 
@@ -85,7 +85,7 @@ def test_demands_on_replicates_are_judged_by_those_of_the_draw():
         requirement="chance:R-1", measure="t", comparison=Comparison.AT_MOST, value=4.0, unit="s", probability=0.5
     )
     problem = problem_of([(1.0, 9.0), (2.0, 3.0)], thresholds=(), risks=(chance,))
-    tables = resampled_tables(tabulated(problem.alternatives), resamples_of(2))
+    tables = ResampledTables(tabulated(problem.alternatives), resamples_of(2))
     kept = {
         tuple(counts): condition_masks(problem, table)[0].tolist()
         for counts, table in zip(resamples_of(2).counts, tables, strict=True)

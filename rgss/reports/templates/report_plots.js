@@ -210,10 +210,10 @@ const startAcceptability = () => {
   const found = data.decision.acceptability;
   const note = byId("acceptability-note");
   if (found === null) {
-    note.textContent = "Acceptability was not analysed, for the choice is not made by weighted value or nothing is feasible.";
+    note.textContent = data.decision.not_computed.find((line) => line.includes("acceptability")) || "Acceptability was not analysed, for the choice is not made by weighted value or nothing is feasible.";
   } else {
     const noise = found.with_noise ? " and the noise of the replicates" : "";
-    note.textContent = `The share of ${found.iterations.toLocaleString("en-US")} draws of ${found.elicited ? "the elicited" : "all"} weights${noise} in which no variant is better.` + (found.more ? ` ${found.more} more come first in some draws.` : "");
+    note.textContent = `The share of ${found.iterations.toLocaleString("en-US")} draws of ${found.elicited ? "the elicited" : "all"} weights${noise} in which no variant is better.` + (found.drawn_by === "hit_and_run" ? " The weights are drawn by random walks (hit-and-run)." : "") + (found.more ? ` ${found.more} more come first in some draws.` : "");
   }
   const rows = () => (found === null ? [] : found.variants.filter((one) => shownMask[placeOf.get(one.variant)]));
   plot("acceptability", () => {

@@ -1,0 +1,111 @@
+"""The parts of an analysis of robustness, each computed by itself: one that fails leaves the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from types import MappingProxyType
+from typing import TypeVar
+
+from rgss.errors import RgssError
+
+Result = TypeVar("Result")
+
+
+class Part(str, Enum):
+    """A part of the analysis, by its place in the document that ``rgss trade --json`` prints."""
+
+    PARETO = "pareto"
+    REGIONS = "weight_changes.regions"
+    NEAREST = "weight_changes.nearest"
+    RANGES = "weight_changes.ranges"
+    ACCEPTABILITY = "weight_changes.acceptability"
+    ASSUMPTIONS = "assumptions"
+    COSTS = "costs"
+    PRICES = "prices"
+    REVERSALS = "rank_reversals.of_the_program"
+    STRETCHED = "rank_reversals.if_values_were_stretched_over_the_sample"
+    EFFECTS = "effects"
+
+    @property
+    def words(self) -> str:
+        """The part as pages for people name it."""
+        return _TITLES[self]
+
+
+_TITLES = MappingProxyType(
+    {
+        Part.PARETO: "Pareto front",
+        Part.REGIONS: "regions of weights",
+        Part.NEAREST: "nearest weights that change the choice",
+        Part.RANGES: "range of each weight",
+        Part.ACCEPTABILITY: "acceptability and confidence",
+        Part.ASSUMPTIONS: "assumptions",
+        Part.COSTS: "all costs together",
+        Part.PRICES: "price of each requirement",
+        Part.REVERSALS: "rank reversal",
+        Part.STRETCHED: "rank reversal of values stretched over the sample",
+        Part.EFFECTS: "effects of the factors",
+    }
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NotComputed:
+    """Why a part could not be computed.
+
+    Attributes:
+        reason: What prevented it.
+        remedy: What to do; empty where nothing is known.
+    """
+
+    reason: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.reason} ({self.remedy})" if self.remedy else self.reason
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PartComputer:
+    """Computes parts one after the other and notes those that fail.
+
+    Attributes:
+        missing: Why each part that failed was not computed.
+    """
+
+    missing: dict[Part, NotComputed] = field(default_factory=dict)
+
+    def compute(self, part: Part, function: Callable[[], Result], otherwise: Result) -> Result:
+        """A part, or what stands for it where it cannot be computed.
+
+        Only errors that carry a reason for the user, and a lack of memory, are noted. All else is a
+        mistake of the program and goes on to the caller.
+
+        Args:
+            part: The part.
+            function: Computes it.
+            otherwise: Its empty value.
+        """
+        try:
+            return function()
+        except RgssError as error:
+            self.missing[part] = NotComputed(reason=error.message, remedy=error.hint)
+        except MemoryError:
+            self.missing[part] = NotComputed(
+                reason="it needs more memory than there is",
+                remedy="decide between fewer variants, or give the process more memory",
+            )
+        return otherwise
+
+
+def not_computed_lines(missing: Mapping[Part, NotComputed]) -> tuple[str, ...]:
+    """A sentence for each reason, which names the parts that it prevented."""
+    parts: dict[NotComputed, list[str]] = {}
+    for part, why in missing.items():
+        parts.setdefault(why, []).append(part.words)
+    return tuple(
+        f"Not computed: {', '.join(titles)}: {why.reason}." + (f" To mend it: {why.remedy}." if why.remedy else "")
+        for why, titles in parts.items()
+    )
