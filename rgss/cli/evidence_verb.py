@@ -202,12 +202,18 @@ def _mend(found: Verification, store: _Store) -> str:
             f"the files {path.name}-wal and {path.name}-shm if they are there, and rename {to.name} to {path.name}."
         )
     removed = take_away(store.path, found, label=store.label)
+    if not removed:
+        return (
+            "The ledger is written anew for the rows that are there; 'rgss sweep' makes anew what it needs of others."
+        )
     return f"{removed} damaged {_plural('row', removed)} taken away; 'rgss sweep' makes anew what was in them."
 
 
 def _how_to_mend(found: Verification) -> str:
     if found.pages_are_damaged:
         return "To mend it: 'rgss evidence verify --mend' saves the sound rows in a new file."
+    if all(damage.row is None for damage in found.damages):
+        return "To mend it: 'rgss evidence verify --mend' goes on with the rows that are there."
     return "To mend it: 'rgss evidence verify --mend' takes these rows away, and 'rgss sweep' makes them anew."
 
 

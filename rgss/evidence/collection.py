@@ -11,6 +11,8 @@ from rgss.errors import EvidenceError
 from rgss.evidence import connection as connecting
 from rgss.evidence.connection import Database, in_our_words
 from rgss.evidence.contents import TrialName, trial_names
+from rgss.evidence.creation import require_content
+from rgss.evidence.ledger import require_ledger, write_ledger
 from rgss.evidence.packing import unpack
 from rgss.evidence.provenance import provenance_from_json
 from rgss.evidence.schema import prepare, require_sound_pages
@@ -99,6 +101,7 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
     Raises:
         EvidenceError: Another process has the store open, or it is damaged or cannot be written.
     """
+    require_content(path, label=label)
     with in_our_words(label):
         connection = connecting.connect(path)
     database = Database(connection, label)
@@ -106,6 +109,7 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
         with in_our_words(label):
             prepare(connection, label)
             require_sound_pages(connection, label)
+            require_ledger(database)
         _take_for_oneself(database)
         before = database.size_bytes()
         with database.transaction():
@@ -118,6 +122,7 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
             ):
                 for key in keys:
                     database.change(f"{table.delete} WHERE {table.key} = ?", [key])
+            write_ledger(connection)
         shrunk = _give_back(connection)
         return Collection(garbage=garbage, before_bytes=before, after_bytes=database.size_bytes(), shrunk=shrunk)
     finally:

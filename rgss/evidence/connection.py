@@ -6,8 +6,9 @@ import errno
 import os
 import sqlite3
 import sys
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +41,11 @@ _HINTS: Mapping[str, str] = {
 _OUTSIDE = ("locked", "full", "disk I/O")
 """What is nobody's mistake, by the words in which SQLite says so."""
 
-_NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+_OUTSIDE_LATER = (*_OUTSIDE, "readonly", "unable to open")
+"""The same once a file could be opened and written."""
+
+_NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EMFILE, errno.ENFILE)
+_SPACE_HINT = "free some space on the disk, or raise the limit; what was put before is kept"
 
 
 class Database:
@@ -57,18 +62,18 @@ class Database:
 
     def one(self, statement: str, values: Iterable[object] = ()) -> Row | None:
         """The first row of a query; None if there is none."""
-        with in_our_words(self.name):
+        with self.in_our_words():
             row: Row | None = self.connection.execute(statement, tuple(values)).fetchone()
         return row
 
     def rows(self, statement: str, values: Iterable[object] = ()) -> list[Row]:
         """All rows of a query."""
-        with in_our_words(self.name):
+        with self.in_our_words():
             return self.connection.execute(statement, tuple(values)).fetchall()
 
     def change(self, statement: str, values: Iterable[object] = ()) -> int:
         """Change rows; returns how many were."""
-        with in_our_words(self.name):
+        with self.in_our_words():
             return self.connection.execute(statement, tuple(values)).rowcount
 
     def size_bytes(self) -> int:
@@ -85,7 +90,7 @@ class Database:
         Raises:
             EvidenceError: The database cannot be read or written.
         """
-        with in_our_words(self.name):
+        with self.in_our_words():
             self.connection.execute(f"BEGIN {kind}")
             try:
                 yield
@@ -98,8 +103,12 @@ class Database:
 
     def close(self) -> None:
         """Close the file; a second time does nothing."""
-        with in_our_words(self.name):
+        with self.in_our_words():
             self.connection.close()
+
+    def in_our_words(self) -> AbstractContextManager[None]:
+        """Turn errors of SQLite into ours, knowing that the file could be opened."""
+        return in_our_words(self.name, outside=_OUTSIDE_LATER)
 
 
 def is_writable(path: Path) -> bool:
@@ -166,8 +175,13 @@ def problem_of(error: Exception) -> str:
 
 
 @contextmanager
-def in_our_words(name: str) -> Iterator[None]:
+def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path | None = None) -> Iterator[None]:
     """Turn errors of SQLite into ours.
+
+    Args:
+        name: The file's name in messages.
+        outside: What is nobody's mistake, by the words in which SQLite says so.
+        folder: Where a file was to be opened: SQLite does not say why it could not be.
 
     Raises:
         StorageError: The disk is full or fails, or another process keeps the file locked.
@@ -177,12 +191,26 @@ def in_our_words(name: str) -> Iterator[None]:
         yield
     except PROBLEMS as error:
         problem = problem_of(error)
+        obstacle = _obstacle(folder) if folder is not None and "unable to open" in problem else None
+        if obstacle is not None:
+            raise StorageError(
+                f"the evidence store {name} cannot be used: {os.strerror(obstacle)}", hint=_SPACE_HINT
+            ) from error
         hints = (hint for words, hint in _HINTS.items() if words in problem)
         hint = next(hints, "'rgss evidence verify' looks for damage")
-        kind = StorageError if any(words in problem for words in _OUTSIDE) else EvidenceError
+        kind = StorageError if any(words in problem for words in outside) else EvidenceError
         raise kind(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error
 
 
+def _obstacle(folder: Path) -> int | None:
+    """Why the system has no room for another file in a folder, as its error number; None if it has."""
+    try:
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        return error.errno if error.errno in _NO_SPACE else None
+    return None
+
+
 def error_of(error: OSError) -> type[EvidenceError]:
-    """The kind of error that a file's is: `StorageError` if the disk is full or fails."""
+    """The kind of error that a file's is: `StorageError` if the disk is full or fails, or no more files can be open."""
     return StorageError if error.errno in _NO_SPACE else EvidenceError

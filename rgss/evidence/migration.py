@@ -1,4 +1,4 @@
-"""From schema 1, which had trials alone and as plain texts, to schema 2."""
+"""From schema 1, which had trials alone and as plain texts, to the present tables."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ _COPY = """INSERT INTO trials (key, variant, seed, fidelity, content_digest, sea
 
 
 def migrate_from_first(connection: sqlite3.Connection, make_tables: Callable[[sqlite3.Connection], None]) -> None:
-    """Bring the trials of schema 1 into the tables of schema 2, within the caller's transaction.
+    """Bring the trials of schema 1 into the present tables, within the caller's transaction.
 
     Rows are carried over with their digests and seals, so that one that was damaged before is
     found to be so after. Their texts are packed.
 
     Args:
         connection: The database, in a transaction.
-        make_tables: Makes the tables of schema 2.
+        make_tables: Makes the present tables.
 
     Raises:
         sqlite3.Error: The database is damaged or cannot be written.

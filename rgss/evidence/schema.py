@@ -8,12 +8,14 @@ from collections.abc import Sequence
 
 from rgss.errors import EvidenceError
 from rgss.evidence import connection as connecting
+from rgss.evidence.ledger import LEDGER_TABLE, write_ledger
 from rgss.evidence.migration import FIRST_TABLE, migrate_from_first
 
 APPLICATION_ID = 0x72677373
 """``rgss`` in ASCII, in the header of the file."""
 
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
+_BEFORE_LEDGER = 2
 
 _PAUSE_S = 0.02
 
@@ -61,11 +63,35 @@ _TABLES: Sequence[tuple[str, str]] = (
     ),
 )
 
+_LEDGER = ("ledger", LEDGER_TABLE)
+
 _INDEX = ("trials_by_variant", "CREATE INDEX trials_by_variant ON trials (variant, seed, fidelity)")
 
 
+def make(connection: sqlite3.Connection) -> None:
+    """Make an empty database a store, in one transaction.
+
+    Args:
+        connection: An open database, in autocommit mode.
+
+    Raises:
+        sqlite3.Error: It cannot be written.
+    """
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+        _make_tables(connection)
+        write_ledger(connection)
+        connection.execute("COMMIT")
+    except BaseException:
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+        raise
+    _log_ahead(connection)
+
+
 def prepare(connection: sqlite3.Connection, name: str) -> None:
-    """Make an empty database a store, bring one of schema 1 to this one, or check that it is one.
+    """Check that a database is a store, and bring one of an older schema to this one.
 
     Args:
         connection: An open database, in autocommit mode.
@@ -76,10 +102,7 @@ def prepare(connection: sqlite3.Connection, name: str) -> None:
             given views, triggers or other tables.
         sqlite3.Error: It is no database, is damaged, or cannot be written.
     """
-    if _is_empty(connection):
-        _create(connection)
-    version = _version(connection, name)
-    if version == 1:
+    if _version(connection, name) != SCHEMA_VERSION:
         _migrate(connection, name)
     require_own_schema(connection, name)
     _log_ahead(connection)
@@ -92,9 +115,10 @@ def require_present(connection: sqlite3.Connection, name: str) -> None:
         EvidenceError: It is none, or one of another schema.
         sqlite3.Error: It is no database, or damaged.
     """
-    if _version(connection, name) != SCHEMA_VERSION:
+    version = _version(connection, name)
+    if version != SCHEMA_VERSION:
         hint = "make the file and its folder writable, so that it can be brought to the present schema"
-        raise EvidenceError(f"{name} has the older schema 1 and cannot be written", hint=hint)
+        raise EvidenceError(f"{name} has the older schema {version} and cannot be written", hint=hint)
     require_own_schema(connection, name)
 
 
@@ -105,7 +129,7 @@ def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
         EvidenceError: It has others, or views or triggers.
         sqlite3.Error: It cannot be read.
     """
-    _check_schema(connection, name, _TABLES, [_INDEX])
+    _check_schema(connection, name, (*_TABLES, _LEDGER), [_INDEX])
 
 
 def require_sound_pages(connection: sqlite3.Connection, name: str) -> None:
@@ -118,41 +142,29 @@ def require_sound_pages(connection: sqlite3.Connection, name: str) -> None:
     _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' tells what is left of it")
 
 
-def _is_empty(connection: sqlite3.Connection) -> bool:
-    (objects,) = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
-    return objects == 0 and _pragma(connection, "application_id") == 0 and _pragma(connection, "user_version") == 0
-
-
-def _create(connection: sqlite3.Connection) -> None:
-    connection.execute("BEGIN IMMEDIATE")
-    try:
-        # Another process may have done it since this one looked.
-        if _is_empty(connection):
-            connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-            _make_tables(connection)
-        connection.execute("COMMIT")
-    except BaseException:
-        if connection.in_transaction:
-            connection.execute("ROLLBACK")
-        raise
-
-
 def _make_tables(connection: sqlite3.Connection) -> None:
-    for _, statement in (*_TABLES, _INDEX):
+    for _, statement in (*_TABLES, _LEDGER, _INDEX):
         connection.execute(statement)
     connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
 
 def _migrate(connection: sqlite3.Connection, name: str) -> None:
-    """Bring a store of schema 1 to this one, all in one transaction."""
+    """Bring a store of an older schema to this one, all in one transaction."""
     connection.execute("BEGIN IMMEDIATE")
     try:
+        version = _version(connection, name)
+        if version == _BEFORE_LEDGER:
+            _check_schema(connection, name, _TABLES, [_INDEX])
+            connection.execute(LEDGER_TABLE)
+            connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
+            write_ledger(connection)
         # Another process may have done it since this one looked.
-        if _version(connection, name) == 1:
+        elif version != SCHEMA_VERSION:
             _check_schema(connection, name, [("trials", FIRST_TABLE)], [])
             # Wholly, for what is left behind now is gone.
             _require_sound(connection, name, "integrity_check(1)", "move the file away and run the sweep again")
             migrate_from_first(connection, _make_tables)
+            write_ledger(connection)
         connection.execute("COMMIT")
     except BaseException:
         if connection.in_transaction:
@@ -164,7 +176,7 @@ def _version(connection: sqlite3.Connection, name: str) -> int:
     if _pragma(connection, "application_id") != APPLICATION_ID:
         raise EvidenceError(f"{name} is not an evidence store", hint="choose another file; this one is left as it is")
     version = _pragma(connection, "user_version")
-    if version not in (1, SCHEMA_VERSION):
+    if version not in (1, _BEFORE_LEDGER, SCHEMA_VERSION):
         age = "newer" if isinstance(version, int) and version > SCHEMA_VERSION else "unknown"
         hint = "use the rgss that wrote it, or another file"
         raise EvidenceError(f"{name} has the {age} schema {version}; this rgss reads {SCHEMA_VERSION}", hint=hint)

@@ -9,6 +9,8 @@ from typing import Any, TypeVar
 
 from rgss.errors import EvidenceError
 from rgss.evidence.connection import Database, Row, connect, in_our_words, is_writable
+from rgss.evidence.creation import create_store, require_content
+from rgss.evidence.ledger import require_ledger
 from rgss.evidence.outcomes import Fidelity
 from rgss.evidence.pieces import Piece, piece_row
 from rgss.evidence.provenance import Provenance
@@ -18,6 +20,7 @@ from rgss.evidence.schema import prepare, require_present, require_sound_pages
 from rgss.evidence.tables import FAILURES, INPUTS, PIECES, TRIALS, Table, brief
 from rgss.evidence.trial_inputs import inputs_row
 from rgss.evidence.trial_rows import StoredTrial, require_key, trial_row
+from rgss.evidence.writing import EvidenceWriter, RowChanges
 
 Value = TypeVar("Value")
 
@@ -36,9 +39,10 @@ class EvidenceStore:
         database: The file, for what looks at it as a whole.
     """
 
-    def __init__(self, database: Database) -> None:
+    def __init__(self, database: Database, path: Path) -> None:
         """Use `EvidenceStore.open` instead."""
         self.database = database
+        self._writer = EvidenceWriter(database, path)
 
     @classmethod
     def open(cls, path: Path, *, create: bool = True, label: str | None = None) -> EvidenceStore:
@@ -51,27 +55,27 @@ class EvidenceStore:
             label: The file's name in messages; the path itself by default.
 
         Raises:
-            EvidenceError: The file is missing, is no store, is one of a newer rgss, is
+            EvidenceError: The file is missing, is empty or no store, is one of a newer rgss, is
                 damaged, or cannot be written.
         """
         name = label if label is not None else str(path)
-        if not create and not path.exists():
-            raise EvidenceError(f"there is no evidence in {name}", hint="run the sweep first")
+        if not path.exists():
+            if not create:
+                raise EvidenceError(f"there is no evidence in {name}", hint="run the sweep first")
+            create_store(path, label=name)
+        require_content(path, label=name)
         read_only = not create and not is_writable(path)
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            hint = "choose a folder that can be written"
-            raise EvidenceError(f"the folder of {name} cannot be made: {error.strerror}", hint=hint) from error
-        with in_our_words(name):
+        with in_our_words(name, folder=path.parent):
             connection = connect(path, read_only=read_only)
             try:
                 (require_present if read_only else prepare)(connection, name)
                 require_sound_pages(connection, name)
+                database = Database(connection, name)
+                require_ledger(database)
+                return cls(database, path)
             except BaseException:
                 connection.close()
                 raise
-        return cls(Database(connection, name))
 
     def __enter__(self) -> EvidenceStore:
         return self
@@ -109,8 +113,8 @@ class EvidenceStore:
         """
         row = inputs_row(inputs)
         if not self._is_there(INPUTS, row[0]):
-            with self.database.transaction():
-                self.database.change(INPUTS.put, row)
+            with self._writer.transaction([(INPUTS, row)]) as changes:
+                changes.put(INPUTS, row)
         return row[0]
 
     def put_many(
@@ -141,15 +145,20 @@ class EvidenceStore:
         trial_rows = [(trial_row(key, record, origin), origin.inputs_digest) for key, record, origin in trials]
         if not (inputs_rows or piece_rows or trial_rows):
             return 0
-        with self.database.transaction():
+        pending: list[tuple[Table[Any], Row]] = [
+            *((INPUTS, row) for row in inputs_rows),
+            *((PIECES, row) for row in piece_rows),
+            *((TRIALS, row) for row, _ in trial_rows),
+        ]
+        with self._writer.transaction(pending) as changes:
             for inputs_put in inputs_rows:
-                self.database.change(INPUTS.put, inputs_put)
-            new = sum(self._put(PIECES, piece, f"{piece[1]} {piece[0][:12]}") for piece in piece_rows)
+                changes.put(INPUTS, inputs_put)
+            new = sum(self._put(changes, PIECES, piece, f"{piece[1]} {piece[0][:12]}") for piece in piece_rows)
             for row, needed in trial_rows:
                 what = f"trial {row[0][:12]} of variant {row[1]}, seed {row[2]}"
                 if needed and not self._is_there(INPUTS, needed):
                     raise EvidenceError(f"{what} refers to inputs that are not kept", hint="put its inputs first")
-                new += self._put(TRIALS, row, what)
+                new += self._put(changes, TRIALS, row, what)
         return new
 
     def put_failure(self, failure: RunFailure) -> bool:
@@ -162,10 +171,11 @@ class EvidenceStore:
             EvidenceError: It is malformed, or the file cannot be written.
         """
         row = failure_row(failure)
-        with self.database.transaction():
+        with self._writer.transaction([(FAILURES, row)]) as changes:
             made = self._is_there(TRIALS, row[0]) or self._is_there(PIECES, row[0])
             if not made:
-                self.database.change(FAILURES.put, row)
+                changes.remove(FAILURES, row[0])
+                changes.put(FAILURES, row)
         return not made
 
     def clear_failures(self, keys: Iterable[str]) -> int:
@@ -177,8 +187,18 @@ class EvidenceStore:
         wanted = list(keys)
         for key in wanted:
             require_key(key)
-        with self.database.transaction():
-            return sum(self._forget(key) for key in wanted)
+        with self._writer.transaction() as changes:
+            return sum(changes.remove(FAILURES, key) for key in wanted)
+
+    def confirm(self) -> None:
+        """Read back what was put since the last time, and check the file that has the store's name.
+
+        Raises:
+            StorageError: The file was removed, replaced or damaged meanwhile; the message says where what
+                could be saved of it is.
+            EvidenceError: The file cannot be read.
+        """
+        self._writer.confirm()
 
     def get(self, key: str) -> StoredTrial | None:
         """The trial with a key; None if there is none.
@@ -274,10 +294,10 @@ class EvidenceStore:
         (row,) = self.database.rows("SELECT count(*) FROM trials")
         return int(row[0])
 
-    def _put(self, table: Table[Value], row: Row, what: str) -> bool:
+    def _put(self, changes: RowChanges, table: Table[Value], row: Row, what: str) -> bool:
         """Put a row whose content is told by a digest; what was there may differ from it in nothing."""
-        self._forget(row[0])
-        if self.database.change(table.put, row) == 1:
+        changes.remove(FAILURES, row[0])
+        if changes.put(table, row):
             return True
         there = self.database.one(table.by_key, [row[0]])
         if there is not None and there[table.content or 0] != row[table.content or 0]:
@@ -285,9 +305,6 @@ class EvidenceStore:
             hint = f"the same inputs must give the same content; {kept} is kept, {other} is not"
             raise EvidenceError(f"non-determinism: {what} has another result than before", hint=hint)
         return False
-
-    def _forget(self, key: str) -> int:
-        return self.database.change(f"{FAILURES.delete} WHERE key = ?", [key])
 
     def _get(self, table: Table[Value], key: str) -> Value | None:
         require_key(key)

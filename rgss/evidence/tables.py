@@ -1,4 +1,4 @@
-"""The four tables of a store: how their rows are found, put and read."""
+"""The four tables of evidence in a store: how their rows are found, put and read."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ class Table(Generic[Value]):
     """A table, with the beginnings of the statements that are made of it.
 
     Attributes:
+        name: Its name in the database.
         what: What one of its rows is called in messages.
         key: The column that its rows are known by, which is the first of them.
         select: Selects whole rows.
@@ -30,9 +31,11 @@ class Table(Generic[Value]):
         put: Puts a whole row, unless its key is there.
         delete: Deletes rows.
         content: Which column has the digest of what was put; None if the key says it all.
+        seal: Which column binds the parts of a row to each other; None if the key says it all.
         read: Makes the value of a whole row; raises what is wrong with it.
     """
 
+    name: str
     what: str
     key: str
     select: str
@@ -40,6 +43,7 @@ class Table(Generic[Value]):
     put: str
     delete: str
     content: int | None
+    seal: int | None
     read: Callable[[Row], Value]
 
     @property
@@ -51,6 +55,15 @@ class Table(Generic[Value]):
     def is_there(self) -> str:
         """Selects something if there is a row with a key."""
         return f"{self.present} WHERE {self.key} = ?"
+
+    @property
+    def identities(self) -> str:
+        """Selects key and seal of every row, for its ledger."""
+        return self.present.replace("SELECT 1", f"SELECT {self.key}, {self._seal_column}", 1)
+
+    @property
+    def _seal_column(self) -> str:
+        return "''" if self.seal is None else "seal"
 
     def value(self, row: Row, store: str) -> Value:
         """Read a row.
@@ -71,6 +84,7 @@ class Table(Generic[Value]):
 
 
 TRIALS: Table[StoredTrial] = Table(
+    name="trials",
     what="trial",
     key="key",
     select="SELECT key, variant, seed, fidelity, content_digest, seal, record, provenance FROM trials",
@@ -78,10 +92,12 @@ TRIALS: Table[StoredTrial] = Table(
     put="INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
     delete="DELETE FROM trials",
     content=4,
+    seal=5,
     read=read_trial,
 )
 
 PIECES: Table[Piece] = Table(
+    name="pieces",
     what="piece",
     key="digest",
     select="SELECT digest, kind, content_digest, seal, content FROM pieces",
@@ -89,10 +105,12 @@ PIECES: Table[Piece] = Table(
     put="INSERT OR IGNORE INTO pieces VALUES (?, ?, ?, ?, ?)",
     delete="DELETE FROM pieces",
     content=2,
+    seal=3,
     read=read_piece,
 )
 
 INPUTS: Table[TrialInputs] = Table(
+    name="inputs",
     what="inputs",
     key="digest",
     select="SELECT digest, content FROM inputs",
@@ -100,10 +118,12 @@ INPUTS: Table[TrialInputs] = Table(
     put="INSERT OR IGNORE INTO inputs VALUES (?, ?)",
     delete="DELETE FROM inputs",
     content=None,
+    seal=None,
     read=read_inputs,
 )
 
 FAILURES: Table[RunFailure] = Table(
+    name="failures",
     what="failure",
     key="key",
     select="SELECT key, what, kind, detail, attempts, seal FROM failures",
@@ -111,6 +131,7 @@ FAILURES: Table[RunFailure] = Table(
     put="INSERT OR REPLACE INTO failures VALUES (?, ?, ?, ?, ?, ?)",
     delete="DELETE FROM failures",
     content=None,
+    seal=5,
     read=read_failure,
 )
 

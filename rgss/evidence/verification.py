@@ -1,4 +1,4 @@
-"""Checking a whole store: its pages, every row, and whether what a trial refers to is there."""
+"""Checking a whole store: its pages, every row, its ledger, and whether what a trial refers to is there."""
 
 from __future__ import annotations
 
@@ -10,13 +10,18 @@ from pathlib import Path
 from typing import Any
 
 from rgss.errors import EvidenceError
-from rgss.evidence.connection import PROBLEMS, Database, Row, connect, in_our_words, is_writable, problem_of
+from rgss.evidence.connection import PROBLEMS, Database, connect, in_our_words, is_writable, problem_of
+from rgss.evidence.ledger import differences, write_ledger
+from rgss.evidence.salvaging import copy_rows, numbered_row, readable_rows, row_numbers
 from rgss.evidence.schema import prepare, require_own_schema, require_present
 from rgss.evidence.tables import INPUTS, PIECES, TABLES, TRIALS, Table, brief
 from rgss.evidence.trial_rows import StoredTrial
 
 PAGES = "pages"
 """What is damaged when it is the file itself and not a row."""
+
+LEDGER = "ledger"
+"""What is damaged when rows are missing or were added, though each that is there is sound."""
 
 _MOST_PAGE_PROBLEMS = 20
 
@@ -26,10 +31,10 @@ class Damage:
     """One thing that is wrong in a store.
 
     Attributes:
-        what: What kind of row it is, such as ``trial``; or ``pages`` of the file.
-        key: What the row is known by, as messages show it; empty for pages.
+        what: What kind of row it is, such as ``trial``; ``pages`` of the file; or its ``ledger``.
+        key: What the row is known by, as messages show it; the table, for the ledger; empty for pages.
         problem: What is wrong with it, in one line.
-        row: The number of the row in its table; None for pages.
+        row: The number of the row in its table; None for pages and the ledger.
     """
 
     what: str
@@ -64,7 +69,7 @@ class Verification:
 
 
 def verify(path: Path, *, label: str) -> Verification:
-    """Check everything that can be checked: pages, digests, seals, contents, references.
+    """Check everything that can be checked: pages, digests, seals, contents, references, ledger.
 
     Args:
         path: The file.
@@ -87,6 +92,9 @@ def _opened(path: Path, label: str) -> Iterator[tuple[sqlite3.Connection | None,
 
     With it comes what was in the way of opening it as others do; empty if nothing was.
     """
+    if path.stat().st_size == 0:
+        yield None, "the file is empty, which no evidence store is"
+        return
     connection, problem = _attempt(path, label, though_damaged=False)
     if connection is None:
         connection, _ = _attempt(path, label, though_damaged=True)
@@ -136,10 +144,11 @@ class _Check:
         # Trials come first: what they refer to was put before them, even while a sweep goes on.
         for table in TABLES:
             self._sound[table.what] = set()
-            numbers, problems = _row_numbers(self._database.connection, table)
+            numbers, problems = row_numbers(self._database.connection, table)
             self._damages += [_pages(f"the rows of {table.what} cannot be listed: {problem}") for problem in problems]
             for number in numbers:
                 self._check(table, number)
+        self._check_ledger()
         inputs = self._sound[INPUTS.what]
         for name, key, number in self._used_inputs:
             if name not in inputs:
@@ -152,10 +161,20 @@ class _Check:
             orphaned_inputs=len(inputs - {name for name, _, _ in self._used_inputs}),
         )
 
+    def _check_ledger(self) -> None:
+        try:
+            with self._database.transaction("DEFERRED"):
+                for table, problem in differences(self._database.connection):
+                    self._damages.append(Damage(what=LEDGER, key=table, problem=problem, row=None))
+        except EvidenceError as error:
+            # Where pages are damaged, they are the damage.
+            if not self._damages:
+                self._damages.append(_pages(error.message))
+
     def _check(self, table: Table[Any], number: int) -> None:
         row = None
         try:
-            row = _row(self._database.connection, table, number)
+            row = numbered_row(self._database.connection, table, number)
             value = table.read(row)
         except (*PROBLEMS, EvidenceError) as error:
             key = f"row {number}" if row is None else brief(row[0])
@@ -169,7 +188,7 @@ class _Check:
 
 
 def take_away(path: Path, verification: Verification, *, label: str) -> int:
-    """Remove the damaged rows, so that the next sweep makes anew what was in them.
+    """Remove the damaged rows and write the ledger anew, so that the next sweep makes what was in them.
 
     Args:
         path: The file, whose pages are sound.
@@ -187,11 +206,13 @@ def take_away(path: Path, verification: Verification, *, label: str) -> int:
         database = Database(connect(path), label)
     try:
         with database.transaction():
-            return sum(
+            removed = sum(
                 database.change(f"{tables[damage.what].delete} WHERE rowid = ?", [damage.row])
                 for damage in verification.damages
                 if damage.row is not None
             )
+            write_ledger(database.connection)
+            return removed
     finally:
         database.close()
 
@@ -218,54 +239,13 @@ def salvage(path: Path, verification: Verification, to: Path, *, label: str) -> 
         if damaged is None:
             hint = "move it away with the files beside it that begin with its name, and run the sweep again"
             raise EvidenceError(f"nothing of {label} can be read any more", hint=hint)
-        with in_our_words(str(to)):
-            new = Database(connect(to), str(to))
-            try:
-                prepare(new.connection, new.name)
-                with new.transaction():
-                    return sum(
-                        new.change(table.put, row)
-                        for table in TABLES
-                        for number, row in _readable_rows(damaged, table)
-                        if (table.what, number) not in damaged_rows
-                    )
-            finally:
-                new.close()
-
-
-def _readable_rows(connection: sqlite3.Connection, table: Table[Any]) -> Iterator[tuple[int, Row]]:
-    for number in _row_numbers(connection, table)[0]:
-        try:
-            row = _row(connection, table, number)
-            table.read(row)
-        except (*PROBLEMS, EvidenceError):
-            continue
-        yield number, row
-
-
-def _row_numbers(connection: sqlite3.Connection, table: Table[Any]) -> tuple[list[int], list[str]]:
-    """The numbers of a table's rows, and what is in the way of reading them.
-
-    They stand in the table and once more in the index of its keys, so that where pages of one are
-    damaged the other still tells of the rows on the sound pages.
-    """
-    statement = table.present.replace("SELECT 1", "SELECT rowid", 1)
-    found: set[int] = set()
-    problems = []
-    for order in ("rowid", table.key):
-        try:
-            for (number,) in connection.execute(f"{statement} ORDER BY {order}"):
-                found.add(number)
-        except PROBLEMS as error:  # noqa: PERF203 - what came before it counts
-            problems.append(problem_of(error))
-    return sorted(found), problems
-
-
-def _row(connection: sqlite3.Connection, table: Table[Any], number: int) -> Row:
-    row: Row | None = connection.execute(f"{table.select} WHERE rowid = ?", (number,)).fetchone()
-    if row is None:
-        raise EvidenceError("it cannot be found again")
-    return row
+        sound = (
+            (table, row)
+            for table in TABLES
+            for number, row in readable_rows(damaged, table)
+            if (table.what, number) not in damaged_rows
+        )
+        return copy_rows(sound, to)
 
 
 def _page_damages(connection: sqlite3.Connection) -> Iterator[Damage]:

@@ -163,7 +163,9 @@ def sweep(
     Raises:
         DefinitionError: A planning limit is longer than the search.
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
-        SimulationError: A worker process cannot be started, or the workers are lost.
+        StorageError: The disk is full; or the store was removed, replaced or damaged meanwhile, and the
+            message says where what could be saved is.
+        SimulationError: Worker processes cannot be started, or the workers are lost.
     """
     trials = trials_of(specs)
     there = store.has(trial.key for trial in trials)
@@ -231,16 +233,13 @@ class _Sweep:
                 self._put_together()
                 self._keeper.flush_if_due()
                 self._tell()
-        except EvidenceError:
-            self._workers.close()
-            raise
         except BaseException:
             self._workers.close()
-            self._keeper.flush()
+            self._write_down()
             raise
         elapsed_s = time.monotonic() - self._begun
         self._workers.close()
-        self._keeper.flush()
+        self._write_down()
         return SweepResult(
             made=dict(self._made),
             reused=dict(self._reused),
@@ -248,6 +247,11 @@ class _Sweep:
             elapsed_s=elapsed_s,
             busy_s=self._busy_s,
         )
+
+    def _write_down(self) -> None:
+        """Put what is finished, and make sure that it is in the store; if it is not, that is the error to report."""
+        self._keeper.flush()
+        self._store.confirm()
 
     def _begin_tasks(self) -> None:
         while self._workers.free and self._work.ready:

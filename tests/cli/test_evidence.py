@@ -141,17 +141,19 @@ def test_damaged_rows_are_told_line_by_line_and_mended(rgss, spoilt):
     told = rgss("evidence", "verify", "--project", spoilt)
 
     assert (told.status, told.errors) == (1, "")
-    one, other, summary, advice = told.output.splitlines()
+    one, other, ledger, summary, advice = told.output.splitlines()
     assert one.endswith(": its record cannot be unpacked")
     assert other.endswith(": its key is none")
     assert "\x1b" not in told.output
-    assert summary == "2 damages; sound: 214 trials, 0 pieces, 0 inputs, 0 failures."
+    assert ledger.endswith(": ledger trials: the 216 rows are not those that were put")
+    assert summary == "3 damages; sound: 214 trials, 0 pieces, 0 inputs, 0 failures."
     assert advice == (
         "To mend it: 'rgss evidence verify --mend' takes these rows away, and 'rgss sweep' makes them anew."
     )
     assert [each["what"] for each in rgss("evidence", "verify", "--json", "--project", spoilt).document["damages"]] == [
         "trial",
         "trial",
+        "ledger",
     ]
 
     told = rgss("evidence", "verify", "--mend", "--project", spoilt)
@@ -159,6 +161,41 @@ def test_damaged_rows_are_told_line_by_line_and_mended(rgss, spoilt):
     assert told.output.splitlines()[-1] == "2 damaged rows taken away; 'rgss sweep' makes anew what was in them."
     assert rgss("evidence", "verify", "--project", spoilt).status == 0
     assert count(spoilt) == 214
+
+
+def test_rows_that_were_deleted_are_told_by_every_command_until_they_are_mended(rgss, spoilt):
+    change(spoilt, "DELETE FROM trials WHERE variant = 7 AND seed = 2")
+    for words in (["measure"], ["trade"], ["sweep", "--only", "7"], ["evidence"], ["evidence", "export", "x.csv"]):
+        told = rgss(*words, "--project", spoilt)
+        assert (told.status, told.output) == (2, "")
+        assert told.complaint.endswith(
+            " was changed outside rgss: table trials: 216 rows were put, 215 are there "
+            "('rgss evidence verify' shows the damage, with --mend it keeps what is sound)"
+        )
+    told = rgss("evidence", "verify", "--project", spoilt)
+    assert told.status == 1
+    assert told.output.splitlines()[1:] == [
+        "1 damage; sound: 215 trials, 0 pieces, 0 inputs, 0 failures.",
+        "To mend it: 'rgss evidence verify --mend' goes on with the rows that are there.",
+    ]
+    told = rgss("evidence", "verify", "--mend", "--project", spoilt)
+    assert told.output.splitlines()[-1] == (
+        "The ledger is written anew for the rows that are there; 'rgss sweep' makes anew what it needs of others."
+    )
+    assert rgss("evidence", "verify", "--project", spoilt).status == 0
+    assert count(spoilt) == 215
+
+
+def test_a_store_that_was_cut_to_nothing_is_not_taken_for_a_new_one(rgss, spoilt):
+    (spoilt / EVIDENCE).write_bytes(b"")
+    for words in (["sweep", "--only", "7"], ["measure"], ["evidence", "gc", "--apply"]):
+        told = rgss(*words, "--project", spoilt)
+        assert (told.status, told.output) == (2, "")
+        assert "is empty, which no evidence store is: it was cut to nothing" in told.complaint
+    told = rgss("evidence", "verify", "--project", spoilt)
+    assert told.status == 1
+    assert "pages: the file is empty" in told.output
+    assert (spoilt / EVIDENCE).stat().st_size == 0
 
 
 def test_a_damaged_file_is_told_and_its_sound_rows_saved(rgss, spoilt):
@@ -203,6 +240,7 @@ def test_an_export_of_a_study_has_its_trials_alone(rgss, spoilt, tmp_path):
         record = replace(next(store.iterate()).record, variant=other.variant, seed=other.seed)
         store.put(key_of(other), record, Provenance(inputs={}, versions={}))
     change(spoilt, "DELETE FROM trials WHERE variant = 7 AND seed = 2")
+    assert rgss("evidence", "verify", "--mend", "--project", spoilt).status == 1
     target = tmp_path / "trials.csv"
 
     def exported(*words):

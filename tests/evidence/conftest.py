@@ -1,5 +1,6 @@
 """Records to keep, of every kind that a trial can leave."""
 
+import contextlib
 import hashlib
 import json
 import os
@@ -25,6 +26,7 @@ from rgss.evidence import (
     record_to_json,
     trial_key,
 )
+from rgss.evidence.ledger import write_ledger
 
 
 def make_record(variant: int = 1, seed: int = 7, **changes: object) -> TrialRecord:
@@ -172,13 +174,28 @@ def filled(path, record, provenance, key):
     return path
 
 
+def run_statement(path, statement, *values):
+    connection = sqlite3.connect(path, isolation_level=None)
+    connection.execute(statement, values)
+    connection.close()
+
+
+@pytest.fixture(scope="session")
+def tamper():
+    """Changes a database file behind the back of the store."""
+    return run_statement
+
+
 @pytest.fixture(scope="session")
 def change():
-    """Changes a database file behind the back of the store."""
+    """Changes a database file behind the back of the store and writes its ledger anew, as a forger would."""
 
     def run(path, statement, *values):
+        run_statement(path, statement, *values)
         connection = sqlite3.connect(path, isolation_level=None)
-        connection.execute(statement, values)
+        connection.text_factory = lambda content: content.decode("utf-8", "surrogateescape")
+        with contextlib.suppress(sqlite3.Error):
+            write_ledger(connection)
         connection.close()
 
     return run

@@ -311,11 +311,11 @@ def test_the_database_of_another_program_is_refused_and_left_as_it_is(path, chan
     assert path.read_bytes() == content
 
 
-@pytest.mark.parametrize(("version", "age"), [(3, "newer"), (2**31 - 1, "newer"), (0, "unknown"), (-1, "unknown")])
+@pytest.mark.parametrize(("version", "age"), [(4, "newer"), (2**31 - 1, "newer"), (0, "unknown"), (-1, "unknown")])
 def test_another_schema_is_refused(filled, change, version, age):
     change(filled, f"PRAGMA user_version = {version}")
     assert refusal(filled) == (
-        f"evidence.sqlite has the {age} schema {version}; this rgss reads 2 "
+        f"evidence.sqlite has the {age} schema {version}; this rgss reads 3 "
         "(use the rgss that wrote it, or another file)"
     )
 

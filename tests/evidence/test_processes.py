@@ -102,16 +102,19 @@ def test_processes_that_disagree_are_found_out(tmp_path, record):
 
 def test_a_store_half_made_by_a_process_that_died_is_completed(tmp_path):
     program = (
-        "import os, sys; from pathlib import Path; import rgss.evidence.schema as schema\n"
-        "schema._create = lambda connection: (connection.execute('BEGIN IMMEDIATE'),"
-        " connection.execute(schema._TABLES[0][1]), os._exit(9))\n"
+        "import os, sys; from pathlib import Path; import rgss.evidence.creation as creation\n"
+        "creation.make = lambda connection: (connection.execute('BEGIN IMMEDIATE'),"
+        " connection.execute('CREATE TABLE trials (key TEXT)'), os._exit(9))\n"
         "from rgss.evidence import EvidenceStore; EvidenceStore.open(Path(sys.argv[1]))"
     )
     path = tmp_path / "evidence.sqlite"
     assert subprocess.run([sys.executable, "-c", program, str(path)], check=False).returncode == 9
-    assert path.exists()
+    # What it had begun is under another name, and goes with the next one that makes the store.
+    assert not path.exists()
+    assert [file.suffix for file in tmp_path.iterdir() if "journal" not in file.name] == [".new"]
     with EvidenceStore.open(path) as store:
         assert store.get(trial_key({})) is None
+    assert [file.name for file in tmp_path.iterdir()] == ["evidence.sqlite"]
 
 
 def test_opening_what_is_not_there_does_not_make_it(tmp_path):

@@ -1,11 +1,12 @@
 """Making and checking the file of a store where processes meet or break off."""
 
+import errno
 import sqlite3
 
 import pytest
 
 from rgss.errors import EvidenceError
-from rgss.evidence import EvidenceStore, schema
+from rgss.evidence import EvidenceStore, creation, schema
 from rgss.evidence import connection as connecting
 
 
@@ -50,12 +51,29 @@ def test_switching_does_not_wait_for_what_will_not_pass():
 
 def test_a_store_that_another_process_made_meanwhile_is_used(tmp_path, monkeypatch, record, provenance):
     path = tmp_path / "evidence.sqlite"
-    with EvidenceStore.open(path) as store:
-        store.put("a" * 64, record(), provenance)
-    is_empty, answers = schema._is_empty, [True]
-    monkeypatch.setattr(schema, "_is_empty", lambda connection: answers.pop() if answers else is_empty(connection))
+    make, others = creation.make, []
+
+    def make_after_another(connection):
+        if not others:
+            others.append(True)
+            with EvidenceStore.open(path) as store:
+                store.put("a" * 64, record(), provenance)
+        make(connection)
+
+    monkeypatch.setattr(creation, "make", make_after_another)
     with EvidenceStore.open(path) as store:
         assert store.get("a" * 64).record == record()
+    assert [file.name for file in tmp_path.iterdir()] == ["evidence.sqlite"]
+
+
+def test_a_store_is_made_where_the_file_system_has_no_links(tmp_path, monkeypatch):
+    def refused(source, target):
+        raise OSError(errno.EPERM, "Operation not permitted")
+
+    monkeypatch.setattr("os.link", refused)
+    with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
+        assert len(store) == 0
+    assert [file.name for file in tmp_path.iterdir()] == ["evidence.sqlite"]
 
 
 def test_a_store_that_could_not_be_made_is_left_empty(tmp_path, monkeypatch):

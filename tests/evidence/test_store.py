@@ -112,10 +112,25 @@ def test_the_folder_is_made(tmp_path):
         assert len(store) == 0
 
 
-def test_an_empty_file_becomes_a_store(path):
+def test_an_empty_file_is_not_taken_for_a_new_store(path):
     path.touch()
+    for create in (True, False):
+        assert refusal(path, create=create) == (
+            "evidence.sqlite is empty, which no evidence store is: it was cut to nothing "
+            "(put a copy of it back, or remove the file to begin anew)"
+        )
+    assert path.stat().st_size == 0
+    path.unlink()
     with EvidenceStore.open(path) as store:
         assert len(store) == 0
+
+
+def test_an_empty_database_is_not_taken_for_a_new_store(path):
+    connection = sqlite3.connect(path)
+    connection.execute("VACUUM")
+    connection.close()
+    assert path.stat().st_size > 0
+    assert refusal(path).startswith("evidence.sqlite is not an evidence store")
 
 
 def test_a_missing_store_is_not_made_on_demand(path):

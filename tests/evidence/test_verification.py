@@ -92,9 +92,36 @@ def test_trials_whose_inputs_are_gone_are_damaged(whole, change, key):
     assert verify(whole, label="it").damages == ()
 
 
-def test_a_piece_that_is_gone_is_no_damage(whole, change):
-    change(whole, "DELETE FROM pieces")
+def test_rows_that_were_deleted_are_told_and_mended_by_a_new_ledger(whole, tamper):
+    for table in ("pieces", "inputs", "failures"):
+        tamper(whole, f"DELETE FROM {table}")  # noqa: S608 - a table's name
+    found = verify(whole, label="it")
+    assert [str(damage) for damage in found.damages[:3]] == [
+        "ledger pieces: 3 rows were put, 0 are there",
+        "ledger inputs: 2 rows were put, 0 are there",
+        "ledger failures: 1 rows were put, 0 are there",
+    ]
+    assert not found.pages_are_damaged
+    with pytest.raises(EvidenceError) as caught:
+        EvidenceStore.open(whole, label="it")
+    assert str(caught.value) == (
+        "it was changed outside rgss: table pieces: 3 rows were put, 0 are there "
+        "('rgss evidence verify' shows the damage, with --mend it keeps what is sound)"
+    )
+    # The trials had inputs that are gone.
+    assert take_away(whole, found, label="it") == 20
     assert verify(whole, label="it").damages == ()
+    with EvidenceStore.open(whole) as store:
+        assert len(store) == 0
+
+
+def test_an_empty_file_has_nothing_left(whole, tmp_path):
+    whole.write_bytes(b"")
+    found = verify(whole, label="it")
+    assert [str(damage) for damage in found.damages] == ["pages: the file is empty, which no evidence store is"]
+    with pytest.raises(EvidenceError, match="nothing of it can be read any more"):
+        salvage(whole, found, tmp_path / "saved.sqlite", label="it")
+    assert whole.stat().st_size == 0
 
 
 def leaf_of_trials(path):

@@ -1,0 +1,71 @@
+"""Custody of an open store: whether the files under its name are still those that SQLite has open.
+
+A file that is deleted or replaced stays readable and writable for who has it open, so that writes
+succeed and are gone in the end. A file that is cut is noticed by SQLite only when it reads the pages.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_LOGS = {"-wal": "write-ahead log", "-shm": "index of its log"}
+
+
+class Custody:
+    """Identity (device and inode) and least size of the files of an open store."""
+
+    def __init__(self, path: Path) -> None:
+        """Take note of the files as they are; nothing is opened, which would end the locks of SQLite.
+
+        Args:
+            path: The file, which is open and has been read.
+
+        Raises:
+            OSError: It has gone already.
+        """
+        # A later change of the working folder must not lead to another file.
+        self.path = path.absolute()
+        self._identity, self._size = _looked_up(self.path)
+        self._logs: dict[str, tuple[int, int]] = {}
+        self._note_logs()
+
+    def problem(self) -> str:
+        """What has happened to the files, in words that follow the store's name; empty if nothing has."""
+        try:
+            identity, size = _looked_up(self.path)
+        except OSError as error:
+            gone = isinstance(error, (FileNotFoundError, NotADirectoryError))
+            return "was removed" if gone else f"cannot be reached: {error.strerror}"
+        if identity != self._identity:
+            return "was replaced by another file"
+        # Only a rewriting of the whole file makes it smaller, which needs it to be open nowhere else.
+        if size < self._size:
+            return f"was cut from {self._size} to {size} bytes"
+        for ending, before in self._logs.items():
+            if _identity_or_none(self._beside(ending)) != before:
+                return f"lost its {_LOGS[ending]}"
+        self._size = size
+        self._note_logs()
+        return ""
+
+    def _note_logs(self) -> None:
+        """Take note of the logs as soon as they are there: SQLite keeps them until the last connection ends."""
+        for ending in _LOGS:
+            identity = _identity_or_none(self._beside(ending))
+            if identity is not None:
+                self._logs.setdefault(ending, identity)
+
+    def _beside(self, ending: str) -> Path:
+        return self.path.with_name(self.path.name + ending)
+
+
+def _looked_up(path: Path) -> tuple[tuple[int, int], int]:
+    found = path.stat()
+    return (found.st_dev, found.st_ino), found.st_size
+
+
+def _identity_or_none(path: Path) -> tuple[int, int] | None:
+    try:
+        return _looked_up(path)[0]
+    except OSError:
+        return None
