@@ -30,6 +30,22 @@ _NAMED = frozenset(
     | {f"{what}-DEFINITION-{kind}" for what in ("ATTRIBUTE", "DATATYPE") for kind in _KINDS}
 )
 """What has an identifier."""
+_CHILDREN: Mapping[str, frozenset[str]] = MappingProxyType(
+    {
+        "DATATYPES": frozenset(f"DATATYPE-DEFINITION-{kind}" for kind in _KINDS),
+        "SPEC-TYPES": frozenset(
+            {"SPEC-OBJECT-TYPE", "SPEC-RELATION-TYPE", "SPECIFICATION-TYPE", "RELATION-GROUP-TYPE"}
+        ),
+        "SPEC-ATTRIBUTES": frozenset(f"ATTRIBUTE-DEFINITION-{kind}" for kind in _KINDS),
+        "SPECIFIED-VALUES": frozenset({"ENUM-VALUE"}),
+        "SPEC-OBJECTS": frozenset({"SPEC-OBJECT"}),
+        "SPEC-RELATIONS": frozenset({"SPEC-RELATION"}),
+        "SPECIFICATIONS": frozenset({"SPECIFICATION"}),
+        "CHILDREN": frozenset({"SPEC-HIERARCHY"}),
+        "VALUES": frozenset(f"ATTRIBUTE-VALUE-{kind}" for kind in _KINDS) | {"ENUM-VALUE-REF"},
+    }
+)
+"""What may stand in an element that holds many of a kind."""
 
 
 def structure_problems(content: bytes, file: str) -> tuple[Finding, ...]:
@@ -76,7 +92,10 @@ class _Reader:
                 self._report(line, f"the identifier {shown(identifier)} stands already in line {before}")
             else:
                 self._identifiers[identifier] = line
-        elif name in _SIMPLE_VALUES and "THE-VALUE" not in attributes:
+        around = self._open[-1][0] if self._open else ""
+        if around in _CHILDREN and name not in _CHILDREN[around]:
+            self._report(line, f"an element {shown(name)} stands in {around}, where it does not belong")
+        if name in _SIMPLE_VALUES and "THE-VALUE" not in attributes:
             self._report(line, f"an element {name} has no THE-VALUE")
         for *_, names in self._open[-3:]:
             names.add(name)
@@ -95,6 +114,12 @@ class _Reader:
         for wanted in _REFERENCES.get(name, ()):
             if wanted not in inner:
                 self._report(line, f"the {name} {shown(identifier)} has no {wanted}")
+        if (
+            name.startswith("ATTRIBUTE-DEFINITION-")
+            and not name.endswith("-REF")
+            and not any(each.startswith("DATATYPE-DEFINITION-") for each in inner)
+        ):
+            self._report(line, f"the {name} {shown(identifier)} has no data type")
         if name.startswith("ATTRIBUTE-VALUE-") and f"{name.replace('VALUE', 'DEFINITION')}-REF" not in inner:
             self._report(line, f"an element {name} does not say of which attribute it is the value")
         if name == "ATTRIBUTE-VALUE-XHTML" and "THE-VALUE" not in inner:

@@ -77,6 +77,9 @@ BREAKS = (
     ('<ENUM-VALUE IDENTIFIER="[^"]*"', "<ENUM-VALUE"),
     ("<SPEC-OBJECT-REF>[^<]*</SPEC-OBJECT-REF>", "<SPEC-OBJECT-REF>_none</SPEC-OBJECT-REF>"),
     ("<ENUM-VALUE-REF>[^<]*<", "<ENUM-VALUE-REF>_none<"),
+    ("<TYPE>\n<DATATYPE-DEFINITION-XHTML-REF>.*?</TYPE>\n", ""),
+    ("<SPEC-OBJECT ([^>]*)>(.*?)</SPEC-OBJECT>", r"<OTHER \1>\2</OTHER>"),
+    ("<ATTRIBUTE-VALUE-XHTML>(.*?)</ATTRIBUTE-VALUE-XHTML>", r"<OTHER>\1</OTHER>"),
     ("<REQ-IF-CONTENT>.*</REQ-IF-CONTENT>\n", ""),
 )
 FOREIGN_WORDS = re.compile(r"NoneType|nsmap|attribute '|KeyError|Traceback|lxml|argument|object has|index out")
