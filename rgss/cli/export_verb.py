@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 HELP = "write the project or its evidence in the format of another tool"
 EXAMPLE = "rgss export reqif -o requirements.reqif"
 MORE_EXAMPLES = (
+    ("rgss export reqif -o requirements.reqifz", "the same in an archive"),
     ("rgss export sysml -o model.sysml", "SysML v2"),
     ("rgss export ompl -o planners.db", "the searches of the study, for OMPL's planner comparison"),
     ("rgss export ompl -o planners.db studies/pick_place.yaml", "those of a study that is named"),
@@ -55,7 +56,7 @@ def run(options: argparse.Namespace) -> int:
 def _write_model(project: Project, options: argparse.Namespace) -> dict[str, int]:
     from rgss.documents.output_files import write_output
 
-    write_output(options.output, _model(project, options.format))
+    write_output(options.output, _model(project, options.format, options.output))
     requirements = project.requirements
     counts = {"requirements": len(requirements.stakeholder) + len(requirements.system)}
     if options.format in ("reqif", "sysml"):
@@ -63,7 +64,7 @@ def _write_model(project: Project, options: argparse.Namespace) -> dict[str, int
     return counts
 
 
-def _model(project: Project, format_name: str) -> bytes:
+def _model(project: Project, format_name: str, path: Path) -> bytes:
     from rgss.exchange.content import content_of
 
     if format_name == "sysml":
@@ -73,9 +74,12 @@ def _model(project: Project, format_name: str) -> bytes:
     measures = {measure.id: measure.definition for measure in project.measures.measures}
     content = content_of(project.requirements, measures)
     if format_name == "reqif":
-        from rgss.exchange.reqif import reqif_text
+        from rgss.exchange.reqif import ARCHIVE_ENDING, archive_of, reqif_text
 
-        return reqif_text(content, title=f"Requirements of the study {project.study.id}").encode("utf-8")
+        text = reqif_text(content, title=f"Requirements of the study {project.study.id}")
+        if path.suffix.lower() == ARCHIVE_ENDING:
+            return archive_of(text, f"{path.stem}.reqif")
+        return text.encode("utf-8")
     from rgss.exchange.tables import csv_text, excel_bytes
 
     # With the mark Excel takes it for UTF-8.

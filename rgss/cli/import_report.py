@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rgss.exchange.applying import FileChange
     from rgss.exchange.comparison import ElementChange
+    from rgss.exchange.content import Content
 
 _LONGEST = 70
 _CONTEXT = 15
 
 
-def print_report(changes: Sequence[ElementChange], notes: Sequence[str]) -> None:
+def print_report(changes: Sequence[ElementChange], foreign: Content) -> None:
     """Print each change by id, attribute by attribute, and what of the file is left aside."""
     for change in changes:
         print(f"{change.kind.value} {change.part.value} {_safe(change.id)}")
@@ -23,17 +24,20 @@ def print_report(changes: Sequence[ElementChange], notes: Sequence[str]) -> None
                 continue
             before = f"{old} -> " if change.kind.value == "changed" else ""
             print(f"  {each.attribute.name}: {before}{new}")
-    for note in notes:
+    for note in foreign.notes:
         print(f"note: {_safe(note)}")
+    for loss in foreign.losses:
+        print(loss)
 
 
 def report_as_json(
-    changes: Sequence[ElementChange], notes: Sequence[str], files: Sequence[FileChange], *, applied: bool
+    changes: Sequence[ElementChange], foreign: Content, files: Sequence[FileChange], *, applied: bool
 ) -> dict[str, Any]:
     """The changes in full, as plain data."""
     return {
         "applied": applied,
-        "files": [file.name for file in files],
+        "files": [file.name for file in files if file.new is not None],
+        "removed_files": [file.name for file in files if file.new is None],
         "changes": [
             {
                 "kind": change.kind.value,
@@ -45,7 +49,9 @@ def report_as_json(
             }
             for change in changes
         ],
-        "notes": list(notes),
+        "elements": len(foreign.rows),
+        "notes": list(foreign.notes),
+        "losses": [{"file": loss.file, "line": loss.line, "message": loss.message} for loss in foreign.losses],
     }
 
 

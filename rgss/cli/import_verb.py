@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Report and, if asked to, apply; 1 if there are changes that are not applied."""
+    """Report and, if asked to, apply; 1 if changes are not applied, or something of the file is not taken over."""
     from rgss.cli.import_report import print_report, report_as_json
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
@@ -57,23 +57,25 @@ def run(options: argparse.Namespace) -> int:
     project = load_project(folder, options.study)
     wishes = _wishes(options)
     foreign = _read(project, options, wishes.part)
-    changes = compare(content_of(project.requirements), foreign, wishes)
+    own = content_of(project.requirements)
+    changes = compare(own, foreign, wishes)
     files: Sequence[FileChange] = planned(folder, project.requirements, changes, remove=options.remove)
     try:
-        rehearsed(folder, files, lambda copy: _check(copy, options, foreign), folders=FOLDERS)
+        rehearsed(folder, files, lambda copy: _check(copy, options, changes, own), folders=FOLDERS)
     except DocumentError as error:
         if not options.json:
-            print_report(changes, foreign.notes)
+            print_report(changes, foreign)
         after = [replace(each, message=f"after the import: {each.message}") for each in error.findings]
         raise DocumentError(after) from error
     if options.apply:
         written(folder, files)
     if options.json:
-        print_json(report_as_json(changes, foreign.notes, files, applied=options.apply))
+        print_json(report_as_json(changes, foreign, files, applied=options.apply))
     else:
-        print_report(changes, foreign.notes)
-        print(_outcome(changes, files, options))
-    return FINDINGS if changes and not options.apply else CLEAN
+        print_report(changes, foreign)
+        print(_outcome(changes, foreign, files, options))
+    taken = foreign.rows or foreign.measures
+    return FINDINGS if not taken or foreign.losses or (changes and not options.apply) else CLEAN
 
 
 def _wishes(options: argparse.Namespace) -> Any:
@@ -104,37 +106,44 @@ def _read(project: Project, options: argparse.Namespace, part: Part | None) -> C
     return read_excel(options.file) if options.format == "xlsx" else read_csv(options.file)
 
 
-def _check(copy: Path, options: argparse.Namespace, foreign: Content) -> None:
-    """Load the project as it would be, and make sure that it says what the file says.
+def _check(copy: Path, options: argparse.Namespace, changes: Sequence[ElementChange], before: Content) -> None:
+    """Load the project as it would be, and make sure that it says what the changes say.
 
     Raises:
         DocumentError: It cannot be loaded.
         DefinitionError: It says something else.
     """
     from rgss.errors import DefinitionError
-    from rgss.exchange.comparison import ChangeKind, compare
+    from rgss.exchange.comparison import not_as_planned
     from rgss.exchange.content import content_of
     from rgss.studies.project import load_project
 
     study = None if options.study is None else str(options.study)
     after = content_of(load_project(copy, study).requirements)
-    left = compare(after, foreign, _wishes(options))
-    if any(options.remove or change.kind is not ChangeKind.REMOVED for change in left):
+    wrong = not_as_planned(changes, before, after, remove=options.remove)
+    if wrong:
         raise DefinitionError(
-            f"the change to {left[0].id!r} cannot be written into its file as that stands", hint="edit the YAML by hand"
+            f"the change to {wrong[0]!r} cannot be written into its file as that stands", hint="edit the YAML by hand"
         )
 
 
-def _outcome(changes: Sequence[ElementChange], files: Sequence[FileChange], options: argparse.Namespace) -> str:
+def _outcome(
+    changes: Sequence[ElementChange], foreign: Content, files: Sequence[FileChange], options: argparse.Namespace
+) -> str:
     from rgss.exchange.comparison import ChangeKind
 
     if not changes:
-        return "No changes."
+        taken = foreign.rows or foreign.measures
+        why = "the notes above say why" if foreign.notes else "it holds no element"
+        return "No changes." if taken else f"Nothing of the file was taken: {why}."
     counts = {kind: sum(change.kind is kind for change in changes) for kind in ChangeKind}
     said = ", ".join(f"{count} {kind.value}" for kind, count in counts.items())
     if not options.apply:
         return f"{said}; nothing is written (--apply writes it)."
     gone = counts[ChangeKind.REMOVED]
     kept = f"; what the file lacks is kept: {gone} (--remove removes it)" if gone and not options.remove else ""
-    into = f"written into {', '.join(file.name for file in files)}" if files else "nothing to write"
-    return f"{said}; {into}{kept}."
+    written = [file.name for file in files if file.new is not None]
+    removed = [file.name for file in files if file.new is None]
+    into = [f"written into {', '.join(written)}"] if written else []
+    into += [f"removed the empty {', '.join(removed)}"] if removed else []
+    return f"{said}; {'; '.join(into) or 'nothing to write'}{kept}."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -93,8 +93,8 @@ def edited(text: str, edits: Sequence[Edit]) -> str:
     Raises:
         DefinitionError: A place is not in the file.
     """
-    editor = _Editor(text)
-    splices = sorted((editor.splice(edit) for edit in edits), key=lambda splice: (splice.start, splice.end))
+    editor = _Editor(text, edits)
+    splices = sorted((*map(editor.splice, edits), *editor.emptied()), key=lambda splice: (splice.start, splice.end))
     parts, done = [], 0
     for splice in splices:
         if splice.start < done:
@@ -105,8 +105,13 @@ def edited(text: str, edits: Sequence[Edit]) -> str:
 
 
 class _Editor:
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, edits: Sequence[Edit]) -> None:
         self._text = text
+        self._removed: dict[Location, set[int]] = {}
+        for edit in edits:
+            if isinstance(edit, RemoveEntry):
+                self._removed.setdefault(edit.location, set()).add(edit.index)
+        self._appended = {(edit.key,) for edit in edits if isinstance(edit, AppendEntry)}
         root = yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
         if root is None:
             raise _missing(())
@@ -129,6 +134,18 @@ class _Editor:
             return self._replace(around, keys.index(edit.key), edit.value)
         behind = max((index for index, key in enumerate(keys) if key in edit.before), default=len(keys) - 1)
         return self._insert(around, behind, edit)
+
+    def emptied(self) -> Iterator[_Splice]:
+        """An empty list in place of each list all of whose entries are removed; its key alone would mean null."""
+        for location, removed in self._removed.items():
+            node = self._at(location)
+            if not isinstance(node, SequenceNode) or node.flow_style or location in self._appended:
+                continue
+            around = self._at(location[:-1])
+            if len(removed) == len(node.value) and isinstance(around, MappingNode):
+                key = next(key for key, value in around.value if value is node)
+                colon = self._text.index(":", key.end_mark.index) + 1
+                yield _Splice(colon, colon, " []")
 
     def _at(self, location: Location) -> Node:
         node = self._root
@@ -236,10 +253,13 @@ class _Editor:
             raise _missing((*edit.location, edit.index))
         items, index = node.value, edit.index
         if node.flow_style:
-            if index:
+            removed = self._removed[edit.location]
+            if not removed.issuperset(range(index)):
                 return _Splice(self._end(items[index - 1]), self._end(items[index]), "")
-            stop = self._end(items[0]) if len(items) == 1 else items[1].start_mark.index
-            return _Splice(items[0].start_mark.index, stop, "")
+            # Nothing is left before it; the last of all takes a comma behind it along.
+            last = index + 1 == len(items)
+            stop = node.end_mark.index - 1 if last else items[index + 1].start_mark.index
+            return _Splice(items[index].start_mark.index, stop, "")
         dash = self._text.rindex("-", 0, items[index].start_mark.index)
         start, stop = self._line_start(dash), self._next_line(self._end(items[index]))
         while self._is_blank(stop) and start and self._is_blank(self._line_start(start - 1)):

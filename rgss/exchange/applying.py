@@ -5,12 +5,13 @@ from __future__ import annotations
 import codecs
 import shutil
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
-from rgss.documents.output_files import write_output
+from rgss.documents.output_files import unwritable, write_output
 from rgss.errors import DefinitionError
 from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.comparison import ChangeKind, ElementChange
@@ -39,12 +40,12 @@ class FileChange:
     Attributes:
         name: Its name, relative to the project.
         old: What it holds.
-        new: What it is to hold.
+        new: What it is to hold; None if it is to be removed, since nothing is left in it.
     """
 
     name: str
     old: bytes
-    new: bytes
+    new: bytes | None
 
 
 def planned(
@@ -78,7 +79,14 @@ def planned(
         elif remove:
             *around, index = place.location
             here.append(RemoveEntry(location=tuple(around), index=int(index)))
-    return tuple(_file_change(folder, name, each) for name, each in sorted(edits.items()) if each)
+    emptied = _emptied(requirements, edits)
+    return tuple(
+        FileChange(name=name, old=read_bytes(folder / name), new=None)
+        if name in emptied
+        else _file_change(folder, name, each)
+        for name, each in sorted(edits.items())
+        if each
+    )
 
 
 def rehearsed(
@@ -97,7 +105,10 @@ def rehearsed(
         for each in folders:
             shutil.copytree(folder / each, copy / each)
         for file in files:
-            (copy / file.name).write_bytes(file.new)
+            if file.new is None:
+                (copy / file.name).unlink()
+            else:
+                (copy / file.name).write_bytes(file.new)
         check(copy)
 
 
@@ -117,12 +128,39 @@ def written(folder: Path, files: Sequence[FileChange]) -> None:
     done: list[FileChange] = []
     try:
         for file in files:
-            write_output(folder / file.name, file.new, replace_source=True)
+            if file.new is None:
+                _removed(folder / file.name)
+            else:
+                write_output(folder / file.name, file.new, replace_source=True)
             done.append(file)
     except BaseException:
         for file in done:
             write_output(folder / file.name, file.old, replace_source=True)
         raise
+
+
+def _removed(path: Path) -> None:
+    try:
+        path.unlink()
+    except OSError as error:
+        raise unwritable(path, error) from error
+
+
+def _emptied(requirements: RequirementSet, edits: Mapping[str, Sequence[Edit]]) -> set[str]:
+    """Files of a folder of which the changes leave nothing, and which are not the last of their folder."""
+    held = Counter(place.document.label for place in requirements.places.values())
+    gone = {
+        name
+        for name, each in edits.items()
+        if len(each) == held[name] and all(isinstance(edit, RemoveEntry) for edit in each)
+    }
+    kept = {_folder_of(name) for name in held if name not in gone}
+    return {name for name in gone if _folder_of(name) in kept}
+
+
+def _folder_of(name: str) -> str:
+    """The folder of a part that a file lies in, as ``requirements/system``; the file itself if it is the whole part."""
+    return "/".join(PurePosixPath(name).parts[:2])
 
 
 def _file_change(folder: Path, name: str, edits: Sequence[Edit]) -> FileChange:

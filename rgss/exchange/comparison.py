@@ -111,6 +111,33 @@ def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChan
     return tuple(change for change in changes if change.kind is not ChangeKind.CHANGED or change.attributes)
 
 
+def not_as_planned(
+    changes: Sequence[ElementChange], before: Content, after: Content, *, remove: bool
+) -> tuple[str, ...]:
+    """Ids of elements that are not what changes were to make of them, once these have been written.
+
+    Args:
+        changes: What was to become of the elements; any other is to stay as it was.
+        before: The project before.
+        after: The project afterwards.
+        remove: Whether elements were to be removed.
+    """
+    cells = {row.id: row.cells for row in after.rows}
+    planned = {change.id for change in changes}
+    wrong = [change.id for change in changes if not _is_done(change, cells.get(change.id), remove=remove)]
+    wrong += [row.id for row in before.rows if row.id not in planned and cells.get(row.id) != row.cells]
+    known = planned | {row.id for row in before.rows}
+    return (*wrong, *(name for name in cells if name not in known))
+
+
+def _is_done(change: ElementChange, cells: Mapping[str, str] | None, *, remove: bool) -> bool:
+    if change.kind is ChangeKind.REMOVED:
+        return not remove or cells is None
+    if cells is None:
+        return False
+    return not any(_differs(each.attribute, each.new, cells[each.attribute.name]) for each in change.attributes)
+
+
 def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> ElementChange | list[Finding]:
     part = row.part or (own.part if own is not None else wishes.part)
     if part is None:
@@ -201,4 +228,4 @@ def _value_problem(part: Part, foreign: Content, row: Row, location: Sequence[st
 
 def _at(foreign: Content, row: Row, name: str, rule: str, message: str, hint: str = "") -> Finding:
     column = row.columns.get(name, 1)
-    return problem(foreign.file, rule, message, line=row.line, column=column, hint=hint)
+    return problem(row.file or foreign.file, rule, message, line=row.line, column=column, hint=hint)

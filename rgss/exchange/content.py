@@ -10,6 +10,7 @@ from typing import Any
 
 from rgss.exchange.attributes import MODELS, Part
 from rgss.exchange.cells import Cells, cells_of
+from rgss.findings import Finding
 from rgss.requirements import Behaviour, Block, Element, Requirement, RequirementSet, StakeholderNeed
 
 _PARTS: Mapping[type[Element], Part] = MappingProxyType(
@@ -31,12 +32,14 @@ class Row:
         cells: Its attributes as texts. What the file does not speak of is not among them.
         line: The line, or the row of a sheet, that it begins in.
         columns: The column of each attribute, where there are columns.
+        file: The file that it stands in, where the content is of several.
     """
 
     part: Part | None
     cells: Cells
     line: int = 1
     columns: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
+    file: str = ""
 
     @property
     def id(self) -> str:
@@ -52,7 +55,8 @@ class Content:
         rows: The elements, in the file's order.
         measures: Id and definition of each measure.
         whole: Parts of which the file has every element, so that one that it lacks is gone.
-        notes: What of the file is not taken over.
+        notes: What of the file is not taken over, since there is no place for it here.
+        losses: What of the elements is not taken over, though it may change what they mean.
         file: The file's name.
     """
 
@@ -60,6 +64,7 @@ class Content:
     measures: tuple[tuple[str, str], ...] = ()
     whole: frozenset[Part] = frozenset(Part)
     notes: tuple[str, ...] = ()
+    losses: tuple[Finding, ...] = ()
     file: str = ""
 
 

@@ -10,10 +10,21 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity
 
 LARGEST_FILE_BYTES = 64 * 1024 * 1024
+LARGEST_REQIF_BYTES = 128 * 1024 * 1024
+"""Thirty thousand of our requirements of 4.3 KiB each; the reader takes some 13 bytes of memory a byte."""
 
 
-def problem(file: str, rule: str, message: str, *, line: int = 1, column: int = 1, hint: str = "") -> Finding:
-    """What makes a file of another tool unusable.
+def problem(
+    file: str,
+    rule: str,
+    message: str,
+    *,
+    line: int = 1,
+    column: int = 1,
+    hint: str = "",
+    severity: Severity = Severity.ERROR,
+) -> Finding:
+    """What is wrong with a file of another tool.
 
     Args:
         file: Its name.
@@ -22,13 +33,14 @@ def problem(file: str, rule: str, message: str, *, line: int = 1, column: int = 
         line: The line, or the row of a sheet.
         column: The column.
         hint: How to mend it.
+        severity: An error makes the file unusable.
     """
     return Finding(
         file=file,
         line=line,
         column=column,
         rule=f"exchange.{rule}",
-        severity=Severity.ERROR,
+        severity=severity,
         # It may show what the file holds, which must not steer a terminal.
         message="".join(each if each.isprintable() else "\ufffd" for each in " ".join(message.split())),
         hint=hint,
@@ -44,8 +56,12 @@ def refusal_of(findings: Sequence[Finding]) -> DocumentError:
     return DocumentError(first)
 
 
-def read_bytes(path: Path) -> bytes:
+def read_bytes(path: Path, *, limit: int = LARGEST_FILE_BYTES) -> bytes:
     """The content of a file.
+
+    Args:
+        path: The file.
+        limit: The most bytes that it may have.
 
     Raises:
         DocumentError: It is not there, cannot be read, or is too large.
@@ -54,11 +70,11 @@ def read_bytes(path: Path) -> bytes:
         if path.is_dir():
             raise DocumentError([problem(str(path), "unreadable", "is a folder, not a file")])
         with path.open("rb") as file:
-            content = file.read(LARGEST_FILE_BYTES + 1)
+            content = file.read(limit + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "not the name of a file"
         raise DocumentError([problem(str(path), "unreadable", f"cannot be read: {reason}")]) from None
-    if len(content) > LARGEST_FILE_BYTES:
-        limit = LARGEST_FILE_BYTES // (1024 * 1024)
-        raise DocumentError([problem(str(path), "size", f"is too large: at most {limit} MiB are read")])
+    if len(content) > limit:
+        message = f"is too large: at most {limit // (1024 * 1024)} MiB are read"
+        raise DocumentError([problem(str(path), "size", message)])
     return content

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
+import re
+import zipfile
 from pathlib import Path
 
 import pytest
+import yaml
 
 from rgss.cli.main import main
 from rgss.requirements import load_requirements
@@ -166,3 +169,96 @@ def test_long_texts_are_shown_where_they_differ(rgss, untouched, exports, tmp_pa
     path.write_bytes(text.replace(b"within 10 mm of", b"within 12 mm of", 1))
     told = rgss("import", "csv", path, "--project", untouched)
     assert "  text: '…ool to within 10 mm of the waypoint.' -> '…ool to within 12 mm of the waypoint.'" in told.output
+
+
+def test_a_default_fills_the_empty_cells_of_a_new_element(rgss, folder, exports, tmp_path):
+    """The rehearsal must know of defaults what the plan knows."""
+    rows = list(csv.DictReader(io.StringIO((exports / "rgss.csv").read_text(encoding="utf-8-sig"), newline="")))
+    new = {
+        **next(row for row in rows if row["id"] == "SYS-002"),
+        "id": "SYS-900",
+        "source": "",
+        "owner": "",
+        "exempt": "",
+    }
+    out = io.StringIO(newline="")
+    writer = csv.DictWriter(out, list(new))
+    writer.writeheader()
+    writer.writerows([*rows, new])
+    path = tmp_path / "table.csv"
+    path.write_text(out.getvalue(), encoding="utf-8", newline="")
+    told = rgss("import", "csv", path, "--project", folder, "--apply", *DEFAULTS)
+
+    assert (told.status, told.errors) == (0, "")
+    assert "1 added, 0 removed, 0 changed; written into" in told.output
+    added = load_requirements(folder / "requirements").requirement("SYS-900")
+    assert (added.source, added.owner) == ("The supplier", "gripper engineer")
+
+
+def test_the_last_requirement_of_a_file_is_removed_with_the_file(rgss, folder, exports, tmp_path):
+    ids = {
+        each["id"]
+        for each in yaml.safe_load((folder / "requirements/system/3-actuator.yaml").read_text(encoding="utf-8"))[
+            "requirements"
+        ]
+    }
+    rows = list(csv.DictReader(io.StringIO((exports / "rgss.csv").read_text(encoding="utf-8-sig"), newline="")))
+    # What names them would be left in the air.
+    named = ("derived_from", "traces", "parent")
+    kept = [row for row in rows if row["id"] not in ids]
+    for row in kept:
+        for name in named:
+            row[name] = "; ".join(each for each in row[name].split("; ") if each not in ids)
+    out = io.StringIO(newline="")
+    writer = csv.DictWriter(out, list(rows[0]))
+    writer.writeheader()
+    writer.writerows(kept)
+    path = tmp_path / "table.csv"
+    path.write_text(out.getvalue(), encoding="utf-8", newline="")
+    told = rgss("import", "csv", path, "--project", folder, "--apply", "--remove")
+
+    assert (told.status, told.errors) == (0, "")
+    assert "removed the empty requirements/system/3-actuator.yaml" in told.output
+    assert not (folder / "requirements/system/3-actuator.yaml").exists()
+    assert ids.isdisjoint(each.id for each in load_requirements(folder / "requirements").system)
+
+
+def test_an_archive_goes_out_and_comes_back(rgss, untouched, exports, tmp_path):
+    path = tmp_path / "rgss.reqifz"
+    assert rgss("export", "reqif", "--project", untouched, "-o", path).status == 0
+    with zipfile.ZipFile(path) as archive:
+        assert archive.namelist() == ["rgss.reqif"]
+        assert archive.read("rgss.reqif") == (exports / "rgss.reqif").read_bytes()
+    told = rgss("import", "reqif", path, "--project", untouched)
+    assert (told.status, told.output) == (0, "No changes.\n")
+
+
+def test_an_import_that_takes_nothing_says_why(rgss, untouched, exports, tmp_path):
+    text = (exports / "rgss.reqif").read_text(encoding="utf-8")
+    strange = re.sub(r'(<SPEC-OBJECT-TYPE IDENTIFIER=")', r"\1_", text).replace(
+        "<SPEC-OBJECT-TYPE-REF>", "<SPEC-OBJECT-TYPE-REF>_"
+    )
+    strange = strange.replace('"ReqIF.ForeignID"', '"Number"').replace('"ReqIF.Text"', '"Words"')
+    path = tmp_path / "foreign.reqif"
+    path.write_text(strange, encoding="utf-8")
+    told = rgss("import", "reqif", path, "--project", untouched)
+
+    assert (told.status, told.errors) == (1, "")
+    assert told.output.splitlines()[-1] == "Nothing of the file was taken: the notes above say why."
+    assert "left aside: they have no id or no text" in told.output
+
+
+def test_what_a_text_loses_is_a_finding(rgss, folder, exports, tmp_path):
+    text = (exports / "rgss.reqif").read_text(encoding="utf-8")
+    place = text.index("<xhtml:div>") + len("<xhtml:div>")
+    path = tmp_path / "foreign.reqif"
+    path.write_text(text[:place] + '<xhtml:object data="a.png"/>' + text[place:], encoding="utf-8")
+    told = rgss("import", "reqif", path, "--project", folder)
+    as_json = rgss("import", "reqif", path, "--project", folder, "--json")
+
+    assert told.status == as_json.status == 1
+    loss, last = told.output.splitlines()
+    assert loss.startswith(f"{path}:")
+    assert loss.endswith("the attachment 'a.png' is left out [exchange.loss]")
+    assert last == "No changes."
+    assert [each["message"].endswith("'a.png' is left out") for each in as_json.document["losses"]] == [True]

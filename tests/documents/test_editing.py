@@ -121,6 +121,24 @@ def test_the_last_entry_goes_and_another_comes():
     assert [each["id"] for each in yaml.safe_load(edited(TEXT, edits))["requirements"]] == ["A", "B", "D"]
 
 
+def test_a_list_that_loses_every_entry_is_an_empty_list():
+    edits = [RemoveEntry(location=("requirements",), index=index) for index in range(3)]
+    after = edited(TEXT, edits)
+    assert yaml.safe_load(after)["requirements"] == []
+    assert yaml.safe_load(edited(TEXT, [*edits, AppendEntry(key="requirements", entry={"id": "D"})])) == {
+        **yaml.safe_load(TEXT),
+        "requirements": [{"id": "D"}],
+    }
+
+
+@pytest.mark.parametrize("text", ["a: [{id: A}, {id: B}, {id: C}]\n", "a: [{id: A}, {id: B}, {id: C},]\n"])
+@pytest.mark.parametrize("gone", [{0}, {1}, {2}, {0, 1}, {0, 2}, {1, 2}, {0, 1, 2}])
+def test_any_entries_of_a_list_on_one_line_may_go(text, gone):
+    edits = [RemoveEntry(location=("a",), index=index) for index in sorted(gone)]
+    left = [each for index, each in enumerate(yaml.safe_load(text)["a"]) if index not in gone]
+    assert yaml.safe_load(edited(text, edits))["a"] == left
+
+
 def test_a_file_without_a_last_line_break_and_one_with_windows_breaks():
     assert edited("a:\n  - id: A", [AppendEntry(key="a", entry={"id": "B"})]) == "a:\n  - id: A\n\n  - id: B"
     windows = TEXT.replace("\n", "\r\n")

@@ -191,3 +191,37 @@ def test_blocks_find_a_file_where_there_is_none_of_theirs(project):
     project.apply(foreign)
     assert project.compare(foreign) == ()
     assert len(project.requirements.architecture.behaviours) == 4
+
+
+def test_a_file_that_loses_its_last_requirement_goes_with_it(project):
+    folder = project.file("system")
+    folder.mkdir()
+    text = project.file("system.yaml").read_text(encoding="utf-8")
+    first, _, second = text.partition("  - id: SYS-2")
+    project.file("system.yaml").unlink()
+    (folder / "a.yaml").write_text(first, encoding="utf-8")
+    (folder / "b.yaml").write_text(f"requirements:\n  - id: SYS-2{second}", encoding="utf-8")
+    fewer = replace(project.content, rows=tuple(row for row in project.content.rows if row.id != "SYS-2"))
+    files = project.plan(fewer)
+    assert [(file.name, file.new) for file in files] == [("requirements/system/b.yaml", None)]
+    copies = []
+    rehearsed(
+        project.folder,
+        files,
+        lambda copy: copies.append(sorted(path.name for path in copy.rglob("*.yaml"))),
+        folders=["requirements"],
+    )
+    assert copies == [["a.yaml", "architecture.yaml", "stakeholder.yaml"]]
+    written(project.folder, files)
+
+    assert [each.id for each in project.requirements.system] == ["SYS-1"]
+    assert not (folder / "b.yaml").exists()
+
+
+def test_the_last_file_of_a_part_stays(project):
+    gone = ("SYS-1", "SYS-2")
+    rows = tuple(row for row in project.content.rows if row.id not in gone and row.id != "SEQ-lift")
+    files = project.plan(replace(project.content, rows=rows))
+    (file,) = [each for each in files if each.name == "requirements/system.yaml"]
+    assert file.new is not None
+    assert b"requirements: []" in file.new

@@ -16,6 +16,10 @@ _ESCAPES_BREAKS = "strictdoc"
 r"""StrictDoc writes a break of a line in a string as ``\n``, since XML would make a blank of it."""
 
 
+class UnsoundObjectError(ValueError):
+    """An object of a file contradicts the types of the file."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForeignObject:
     """One object.
@@ -64,6 +68,8 @@ class ObjectReader:
         self._parts = {name.lower(): kind for kind, name in TYPE_NAMES.items()}
         self._nameless: Counter[str] = Counter()
         self._unused: dict[str, None] = {}
+        self.lost: list[tuple[int, str]] = []
+        """Line and message of everything that a text loses with its markup."""
         self.own_parts = [kind for kind in Part if type_identifier(kind.value) in self._types]
 
     def read(self, objects: Sequence[Any]) -> dict[str, ForeignObject]:
@@ -73,12 +79,12 @@ class ObjectReader:
             objects: The objects as the library has them.
 
         Raises:
-            ValueError: Two objects have one identifier, or one is of no type.
+            UnsoundObjectError: Two objects have one identifier, or one is of no type.
         """
         found: dict[str, ForeignObject] = {}
         for each in objects:
             if each.identifier in found:
-                raise ValueError(f"two objects have the identifier {each.identifier!r}")
+                raise UnsoundObjectError(f"two objects have the identifier {each.identifier!r}")
             made = self._object(each)
             if made is not None:
                 found[each.identifier] = made
@@ -94,16 +100,24 @@ class ObjectReader:
     def _object(self, each: Any) -> ForeignObject | None:
         kind = self._types.get(each.spec_object_type)
         if kind is None:
-            raise ValueError(f"the object {each.identifier!r} is of no type")
+            raise UnsoundObjectError(f"the object {each.identifier!r} is of no type")
         type_name = kind.long_name or kind.identifier
         is_ours = kind.identifier in {type_identifier(own) for own in (*[part.value for part in Part], MEASURE)}
         stated = {definition.identifier: definition for definition in kind.attribute_definitions or ()}
         values: dict[str, str] = {}
-        for value in each.attributes:
-            definition = stated[value.definition_ref]
-            long = definition.long_name or definition.identifier
-            values[long] = self._text(value)
+        losses: dict[str, tuple[int, tuple[str, ...]]] = {}
         line = int(getattr(each.xml_node, "sourceline", None) or 1)
+        for value in each.attributes:
+            definition = stated.get(value.definition_ref)
+            if definition is None:
+                raise UnsoundObjectError(f"the object {each.identifier!r} has a value of no attribute of its type")
+            long = definition.long_name or definition.identifier
+            if value.attribute_type.name == "XHTML":
+                rich = from_xhtml(value.xml_node.find("THE-VALUE"), exact=self._exact)
+                values[long] = rich.text
+                losses[long] = (int(getattr(value.xml_node, "sourceline", None) or line), rich.losses)
+            else:
+                values[long] = self._text(value)
         by_name = {attribute_name(long): text for long, text in values.items()}
         element_id = by_name.get("id", "").strip()
         if not is_ours and not (element_id and by_name.get("text", "").strip()):
@@ -118,6 +132,8 @@ class ObjectReader:
             name = attribute_name(long)
             if (name in names and not names[name].holds_ids) or (part is None and name in ("id", "text")):
                 cells[name] = values.get(long, "")
+                where, phrases = losses.get(long, (line, ()))
+                self.lost += [(where, f"{element_id}: {long}: {phrase}") for phrase in phrases]
                 if names and names[name].form is Form.FLAG and cells[name] == "false":
                     cells[name] = ""
             elif values.get(long, "").strip():
@@ -134,8 +150,9 @@ class ObjectReader:
 
     def _text(self, value: Any) -> str:
         if isinstance(value.value, list):
+            unknown = next((each for each in value.value if each not in self._choices), None)
+            if unknown is not None:
+                raise UnsoundObjectError(f"there is no choice {unknown!r}")
             return "; ".join(self._choices[each] for each in value.value)
-        if value.attribute_type.name == "XHTML":
-            return from_xhtml(value.xml_node.find("THE-VALUE"), exact=self._exact)
         text = str(value.value)
         return text.replace("\\n", "\n") if self._escapes_breaks else text

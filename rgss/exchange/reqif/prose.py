@@ -6,12 +6,11 @@ import re
 from typing import Any
 
 from rgss.errors import DefinitionError
+from rgss.exchange.reqif.rich_text import PlainText, plain_text
 
-_BLOCKS = frozenset({"div", "p", "li", "ul", "ol", "dl", "dt", "dd", "table", "tr", "pre", "blockquote"}) | {
-    f"h{level}" for level in range(1, 7)
-}
 _NO_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _BREAK = "<xhtml:br/>"
+_OWN_ELEMENTS = frozenset({"div", "br"})
 
 
 def escaped(text: str, where: str) -> str:
@@ -32,37 +31,24 @@ def as_xhtml(text: str, where: str) -> str:
     return f"<xhtml:div>{escaped(text, where).replace(chr(10), _BREAK)}</xhtml:div>"
 
 
-def from_xhtml(node: Any, *, exact: bool) -> str:
+def from_xhtml(node: Any, *, exact: bool) -> PlainText:
     """The text of an XHTML value.
 
     Args:
         node: The element around the XHTML, of lxml.
-        exact: It is `as_xhtml` of a text; else blanks and breaks are laid out as a browser does.
+        exact: The file is of ours, so that a value with nothing but our elements is `as_xhtml` of a
+            text; any other is laid out as a browser does.
     """
-    parts: list[str] = []
-    _collect(node, parts, exact=exact)
-    text = "".join(parts)
-    if exact:
-        return text.strip()
-    lines = [" ".join(line.split(" ")).strip() for line in re.sub(r"[ \t\u00a0]+", " ", text).split("\n")]
-    return re.sub(r"\n{3,}", "\n\n", "\n".join(lines)).strip()
+    inner = list(node.iterdescendants())
+    if exact and all(not isinstance(each.tag, str) or _name(each) in _OWN_ELEMENTS for each in inner):
+        parts = [node.text or ""]
+        for each in inner:
+            if isinstance(each.tag, str):
+                parts += ["\n" if _name(each) == "br" else "", each.text or ""]
+            parts.append(each.tail or "")
+        return PlainText(text="".join(parts).strip(), losses=())
+    return plain_text(node)
 
 
-def _collect(node: Any, parts: list[str], *, exact: bool) -> None:
-    name = node.tag.rpartition("}")[2].rpartition(":")[2].lower() if isinstance(node.tag, str) else ""
-    if name == "br":
-        parts.append("\n")
-    if name:
-        parts.append(_laid_out(node.text, exact=exact))
-        for child in node:
-            block = not exact and isinstance(child.tag, str) and child.tag.rpartition("}")[2].lower() in _BLOCKS
-            if block and parts and not parts[-1].endswith("\n"):
-                parts.append("\n")
-            _collect(child, parts, exact=exact)
-            if block:
-                parts.append("\n")
-            parts.append(_laid_out(child.tail, exact=exact))
-
-
-def _laid_out(text: str | None, *, exact: bool) -> str:
-    return (text or "") if exact else re.sub(r"\s+", " ", text or "")
+def _name(node: Any) -> str:
+    return str(node.tag).rpartition("}")[2].rpartition(":")[2].lower()

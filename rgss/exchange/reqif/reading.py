@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from rgss.errors import DefinitionError, DocumentError
 from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.content import Content, Row
-from rgss.exchange.files import problem, read_bytes, refusal_of
-from rgss.exchange.reqif.objects import ForeignObject, ObjectReader
+from rgss.exchange.files import LARGEST_REQIF_BYTES, problem, read_bytes, refusal_of
+from rgss.exchange.reqif.archive import is_archive, reqif_members
+from rgss.exchange.reqif.objects import ForeignObject, ObjectReader, UnsoundObjectError
 from rgss.exchange.reqif.relations import RelationReader
+from rgss.exchange.reqif.structure import structure_problems
 from rgss.exchange.reqif.vocabulary import MEASURE
 from rgss.exchange.xml_guard import require_plain_xml
+from rgss.findings import Severity
 
 _COMMENT = re.compile(r"(<!\[CDATA\[.*?\]\]>)|<!--.*?-->", re.DOTALL)
 
@@ -36,20 +40,36 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
             a relation to an object that is not there.
     """
     file = str(path)
-    content = read_bytes(path)
+    content = read_bytes(path, limit=LARGEST_REQIF_BYTES)
+    if not is_archive(content):
+        return _content(content, file, known or {}, part)
+    read = [
+        (name, _content(member, f"{file} ({name})", known or {}, part)) for name, member in reqif_members(content, file)
+    ]
+    return Content(
+        rows=tuple(replace(row, file=each.file) for _, each in read for row in each.rows),
+        measures=tuple({measure[0]: measure for _, each in read for measure in each.measures}.values()),
+        whole=frozenset(kind for _, each in read for kind in each.whole),
+        notes=tuple(f"{name}: {note}" if len(read) > 1 else note for name, each in read for note in each.notes),
+        losses=tuple(loss for _, each in read for loss in each.losses),
+        file=file,
+    )
+
+
+def _content(content: bytes, file: str, known: Mapping[str, Part], part: Part | None) -> Content:
     require_plain_xml(content, file)
     bundle = _parsed(content, file)
     core = getattr(bundle.core_content, "req_if_content", None)
     if core is None:
         raise DocumentError([problem(file, "empty", "has no content of ReqIF")])
     try:
-        objects = ObjectReader(bundle, known or {}, part)
+        objects = ObjectReader(bundle, known, part)
         found = objects.read(core.spec_objects or [])
         relations = RelationReader(core, found)
         parents = relations.containment()
         links = relations.links()
     except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
-        raise _unreadable(file, error) from None
+        raise _unreadable(content, file, error) from None
     findings = [problem(file, "relation", each, line=line) for line, each in relations.broken]
     if findings:
         raise refusal_of(findings)
@@ -59,6 +79,10 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
         measures=tuple((each.id, each.cells.get("text", "")) for each in found.values() if each.type_name == MEASURE),
         whole=frozenset(objects.own_parts),
         notes=(*objects.notes(), *relations.notes()),
+        losses=tuple(
+            problem(file, "loss", message, line=line, severity=Severity.WARNING)
+            for line, message in sorted((*objects.lost, *relations.lost))
+        ),
         file=file,
     )
 
@@ -74,11 +98,9 @@ def _parsed(content: bytes, file: str) -> Any:
         bundle = library.ReqIFParser.parse_from_string(_without_comments(content.decode("utf-8-sig")))
     # A file that is no ReqIF breaks the library in many ways, none of which it documents.
     except Exception as error:
-        raise _unreadable(file, error) from None
+        raise _unreadable(content, file, error) from None
     if bundle.exceptions:
-        raise DocumentError(
-            [problem(file, "relation", str(each.get_description()), line=_line(each)) for each in bundle.exceptions]
-        )
+        raise _unreadable(content, file, None, line=_line(bundle.exceptions[0]))
     return bundle
 
 
@@ -88,9 +110,14 @@ def _without_comments(text: str) -> str:
     return _COMMENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
 
 
-def _unreadable(file: str, error: Exception) -> DocumentError:
-    reason = str(error) or type(error).__name__
-    return DocumentError([problem(file, "syntax", f"is XML, but not ReqIF that can be read: {reason[:200]}")])
+def _unreadable(content: bytes, file: str, error: Exception | None, *, line: int = 1) -> DocumentError:
+    """What is wrong with the file, in our own words: the library's are about its own code."""
+    found = structure_problems(content, file)
+    if found:
+        return refusal_of(found)
+    reason = f": {error}" if isinstance(error, UnsoundObjectError) else ": it departs from the schema of ReqIF"
+    message = f"is XML, but not ReqIF that can be read{reason}"
+    return DocumentError([problem(file, "syntax", message, line=line, hint="validate it with the tool that wrote it")])
 
 
 def _line(error: Any) -> int:

@@ -41,6 +41,8 @@ class RelationReader:
         self._left: Counter[str] = Counter()
         self.broken: list[tuple[int, str]] = []
         """Line and message of each relation to an object that is not there."""
+        self.lost: list[tuple[int, str]] = []
+        """Line and message of each place in the hierarchy that an element has besides its first."""
 
     @property
     def stated(self) -> frozenset[str]:
@@ -72,21 +74,25 @@ class RelationReader:
         return found
 
     def containment(self) -> dict[str, str]:
-        """The id of the element around each element that stands in another of its part."""
+        """The id of the element around each element that stands in another of its part: the first in the file."""
         found: dict[str, str] = {}
         pending: list[tuple[Any, ForeignObject | None]] = [
             (child, None) for each in self._core.specifications or [] for child in each.children or ()
         ]
+        pending.reverse()
         while pending:
             node, around = pending.pop()
+            line = int(getattr(node.xml_node, "sourceline", None) or 1)
             if node.spec_object not in self._all:
-                line = int(getattr(node.xml_node, "sourceline", None) or 1)
                 message = f"the hierarchy names the object {node.spec_object!r}, which is not there"
                 self.broken.append((line, message))
             here = self._objects.get(node.spec_object)
             if here is not None and around is not None and here.part is around.part and here.part is not None:
-                found[here.id] = around.id
-            pending += [(child, here or around) for child in node.children or ()]
+                first = found.setdefault(here.id, around.id)
+                if first != around.id:
+                    message = f"{here.id}: it stands under {first!r} and under {around.id!r}; {first!r} is kept"
+                    self.lost.append((line, message))
+            pending += [(child, here or around) for child in reversed(node.children or ())]
         return found
 
     def notes(self) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -28,6 +29,8 @@ from rgss.requirements import LinkKind
 NO_TIME = "2000-01-01T00:00:00Z"
 """ReqIF wants a time of the last change of everything; none is known, and that of writing would change the bytes."""
 
+# A quarter of the file. Texts have no break of a line of their own before a "<", see `as_xhtml`.
+_INDENTATION = re.compile(r">\n +<")
 _LONGEST_STRING = "100000"
 _STRING, _XHTML, _FLAG = ("data", "string"), ("data", "xhtml"), ("data", "boolean")
 _MEASURE_ATTRIBUTES = (
@@ -90,7 +93,7 @@ def reqif_text(content: Content, *, title: str) -> str:
         lookup=models.ReqIFObjectLookup.empty(),
         exceptions=[],
     )
-    return str(models.ReqIFUnparser.unparse(bundle))
+    return _INDENTATION.sub(">\n<", str(models.ReqIFUnparser.unparse(bundle)))
 
 
 def _title(text: str) -> str:

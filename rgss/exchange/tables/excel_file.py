@@ -88,8 +88,8 @@ def read_excel(path: Path) -> Content:
                 rows += _rows(file, workbook[part.value], part, findings)
     except DocumentError:
         raise
-    except Exception as error:  # noqa: BLE001, RUF100 - a damaged workbook breaks openpyxl in many ways
-        message = f"is not a workbook that can be read: {type(error).__name__}"
+    except Exception:  # noqa: BLE001, RUF100 - a damaged workbook breaks openpyxl in many ways
+        message = "is not a workbook that can be read: it is damaged, or lacks parts that a workbook has"
         raise DocumentError([problem(file, "syntax", message, hint="save it again as .xlsx")]) from None
     others = [name for name in names if name not in [part.value for part in PARTS]]
     notes = [f"the sheet {name!r} is left aside" for name in others]

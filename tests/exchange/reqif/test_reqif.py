@@ -194,8 +194,8 @@ def test_layout_of_another_tool_becomes_lines(exported, as_xml, project):
     row = next(row for row in read_reqif(as_xml(text.replace(old, new))).rows if row.id == "SYS-2")
     assert [line for line in row.cells["text"].split("\n") if line] == [
         "The gripper shall",
-        "close",
-        "within 2 s.",
+        "- close",
+        "- within 2 s.",
         "Soon",
     ]
 
@@ -254,14 +254,14 @@ def test_xml_that_is_refused_or_no_reqif_is_one_line(as_xml, refused, text, comp
     ("old", "new", "complaint"),
     [
         ("</REQ-IF>", "", "not well-formed XML: no element found"),
-        ("<SPEC-OBJECT-TYPE-REF>", "<SPEC-OBJECT-TYPE-REF>_", "is of no type"),
+        ("<SPEC-OBJECT-TYPE-REF>", "<SPEC-OBJECT-TYPE-REF>_", "the SPEC-OBJECT-TYPE-REF '__"),
         ("<ENUM-VALUE-REF>", "<ENUM-VALUE-REF>_", "is XML, but not ReqIF that can be read"),
         ("<ATTRIBUTE-DEFINITION-XHTML-REF>", "<ATTRIBUTE-DEFINITION-XHTML-REF>_", "but not ReqIF that can be read"),
-        ("<SOURCE>\n            <SPEC-OBJECT-REF>", "<SOURCE>\n            <SPEC-OBJECT-REF>_", "which is not there"),
+        ("<SOURCE>\n<SPEC-OBJECT-REF>", "<SOURCE>\n<SPEC-OBJECT-REF>_", "which is not there"),
         ("<SPEC-RELATION-TYPE-REF>", "<SPEC-RELATION-TYPE-REF>_", "which is not there"),
         (
-            "<OBJECT>\n                <SPEC-OBJECT-REF>",
-            "<OBJECT>\n                <SPEC-OBJECT-REF>_",
+            "<OBJECT>\n<SPEC-OBJECT-REF>",
+            "<OBJECT>\n<SPEC-OBJECT-REF>_",
             "the hierarchy",
         ),
         ('THE-VALUE="STK-2"', 'THE-VALUE="STK-1"', "'STK-1' stands already in line"),

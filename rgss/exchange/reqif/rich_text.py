@@ -1,0 +1,196 @@
+"""Rich text as plain text that means the same, with a list of what could not be kept.
+
+Exponents and indices, lists and tables have a plain form; struck-out text is deleted text and is
+left out; attachments and markup of other languages are lost. Emphasis, fonts and colours are
+taken for decoration.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+from rgss.findings import shown
+
+_BLOCKS = frozenset(
+    {"address", "blockquote", "center", "dd", "div", "dl", "dt", "fieldset", "form", "hr", "li", "ol", "p", "pre"}
+    | {"table", "tbody", "tfoot", "thead", "tr", "ul"}
+) | {f"h{level}" for level in range(1, 7)}
+_DELETED = frozenset({"del", "s", "strike"})
+_FOREIGN = frozenset({"applet", "audio", "canvas", "iframe", "img", "input", "math", "svg", "video"})
+_HIDDEN = frozenset({"head", "script", "style", "template", "title"})
+_CELLS = frozenset({"td", "th"})
+_ORDINALS = frozenset({"st", "nd", "rd", "th"})
+_MARKS = frozenset("™®©°ªº*†‡")
+_LOWERED = str.maketrans("0123456789+-=()aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
+_STRUCK = re.compile(r"text-decoration[^;]*:[^;]*line-through", re.IGNORECASE)
+_SHIFTED = re.compile(r"vertical-align\s*:\s*(super|sub)\b", re.IGNORECASE)
+_GONE = re.compile(r"display\s*:\s*none|visibility\s*:\s*hidden", re.IGNORECASE)
+_SIMPLE = re.compile(r"[+\-\u2212]?\w+(?:\.\d+)?", re.ASCII)
+_BETWEEN_CELLS = " | "
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlainText:
+    """A rich text without its markup.
+
+    Attributes:
+        text: The text.
+        losses: What of it is not in the text, one phrase each.
+    """
+
+    text: str
+    losses: tuple[str, ...]
+
+
+def plain_text(node: Any) -> PlainText:
+    """The plain text of an XHTML value.
+
+    Args:
+        node: The element around the XHTML, of lxml.
+    """
+    reader = _Reader()
+    reader.children(node)
+    lines = [line.rstrip() for line in "".join(reader.parts).replace(_INDENT, "  ").split("\n")]
+    return PlainText(
+        text=re.sub(r"\n{3,}", "\n\n", "\n".join(lines)).strip(), losses=tuple(dict.fromkeys(reader.losses))
+    )
+
+
+_INDENT = "\ue000"
+"""Stands for the indentation of an inner list until blanks have been laid out; of the private use area."""
+
+
+@dataclass(slots=True)
+class _Reader:
+    parts: list[str] = field(default_factory=list)
+    losses: list[str] = field(default_factory=list)
+    counters: list[int | None] = field(default_factory=list)
+    """The number of the last item of each list around; None where items have no numbers."""
+    literal: bool = False
+
+    def children(self, node: Any) -> None:
+        self.say(node.text)
+        for child in node:
+            if isinstance(child.tag, str):
+                self.element(child)
+            self.say(child.tail)
+
+    def say(self, text: str | None) -> None:
+        if not text:
+            return
+        said = text.replace("\u00a0", " ").replace(_INDENT, "\ufffd")
+        if not self.literal:
+            said = re.sub(r"\s+", " ", said)
+            if self.at_line_start() or (self.parts and self.parts[-1].endswith(" ")):
+                said = said.lstrip(" ")
+        if said:
+            self.parts.append(said)
+
+    def at_line_start(self) -> bool:
+        return not self.parts or self.parts[-1].endswith("\n")
+
+    def break_line(self) -> None:
+        if not self.at_line_start():
+            self.parts.append("\n")
+
+    def element(self, node: Any) -> None:
+        name = node.tag.rpartition("}")[2].rpartition(":")[2].lower()
+        style = node.get("style") or ""
+        if name in _HIDDEN:
+            return
+        if name in _DELETED or _STRUCK.search(style) or _GONE.search(style):
+            gone = " ".join("".join(node.itertext()).split())
+            if gone:
+                what = "hidden" if _GONE.search(style) else "struck-out"
+                self.losses.append(f"the {what} text {shown(gone)} is left out")
+            return
+        shift = _SHIFTED.search(style)
+        raised = name == "sup" or (shift is not None and shift[1].lower() == "super")
+        if raised or name == "sub" or shift is not None:
+            self.parts.append(self.shifted(node, raised=raised))
+        elif name == "br":
+            self.parts.append("\n")
+        elif name == "object" or name in _FOREIGN:
+            self.attachment(node, name)
+        elif name == "a":
+            self.link(node)
+        elif name == "q":
+            self.parts.append("“")
+            self.children(node)
+            self.parts.append("”")
+        elif name == "table":
+            self.break_line()
+            self.table(node)
+            self.break_line()
+        elif name in _BLOCKS:
+            self.block(node, name)
+        else:
+            self.children(node)
+
+    def block(self, node: Any, name: str) -> None:
+        self.break_line()
+        if name in ("ul", "ol"):
+            start = node.get("start") or "1"
+            first = int(start) if re.fullmatch(r"-?\d{1,6}", start) else 1
+            self.counters.append(first - 1 if name == "ol" else None)
+            self.children(node)
+            self.counters.pop()
+        elif name == "li":
+            self.parts.append(_INDENT * max(0, len(self.counters) - 1) + self.bullet())
+            self.children(node)
+        else:
+            before, self.literal = self.literal, self.literal or name == "pre"
+            self.children(node)
+            self.literal = before
+        self.break_line()
+
+    def bullet(self) -> str:
+        if not self.counters or self.counters[-1] is None:
+            return "- "
+        self.counters[-1] += 1
+        return f"{self.counters[-1]}. "
+
+    def table(self, node: Any) -> None:
+        for row in node.iter("{*}tr"):
+            # A table within a cell is said with the cell.
+            if next(row.iterancestors("{*}table"), None) is not node:
+                continue
+            cells = [each for each in row if isinstance(each.tag, str) and each.tag.rpartition("}")[2] in _CELLS]
+            self.parts.append(_BETWEEN_CELLS.join(self.apart(each).replace("\n", "; ") for each in cells) + "\n")
+            if any((each.get(span) or "1") != "1" for each in cells for span in ("rowspan", "colspan")):
+                self.losses.append("the table has joined cells, which are said once")
+        caption = next(iter(node.iter("{*}caption")), None)
+        if caption is not None:
+            self.parts.append(self.apart(caption) + "\n")
+
+    def apart(self, node: Any) -> str:
+        """What is in an element, as a text of its own."""
+        inner = _Reader(losses=self.losses)
+        inner.children(node)
+        return "".join(inner.parts).strip()
+
+    def shifted(self, node: Any, *, raised: bool) -> str:
+        text = self.apart(node)
+        if not text or (raised and (text in _ORDINALS or set(text) <= _MARKS)):
+            return text
+        if not raised:
+            lowered = text.translate(_LOWERED)
+            return lowered if not set(text) & set(lowered) else f"_{text}" if _SIMPLE.fullmatch(text) else f"_({text})"
+        plain = text.replace("\u2212", "-")
+        return f"^{plain}" if _SIMPLE.fullmatch(text) else f"^({plain})"
+
+    def link(self, node: Any) -> None:
+        text, target = self.apart(node), (node.get("href") or "").strip()
+        self.parts.append(text)
+        if target and not target.startswith("#") and target.removeprefix("mailto:") != text:
+            self.parts.append(f" ({target})" if text else target)
+
+    def attachment(self, node: Any, name: str) -> None:
+        named = node.get("data") or node.get("src") or node.get("name") or ""
+        what = "attachment" if name == "object" else f"element '{name}'"
+        self.losses.append(f"the {what} {shown(named)} is left out" if named else f"the {what} is left out")
+        if name == "object":
+            # What stands in it is shown where the attachment is not.
+            self.children(node)

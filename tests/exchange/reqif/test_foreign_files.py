@@ -1,0 +1,147 @@
+"""ReqIF of other tools: what is lost is said, what is broken is said in our words, and size is no matter."""
+
+from __future__ import annotations
+
+import random
+import re
+
+import pytest
+
+from rgss.errors import RgssError
+from rgss.exchange.attributes import Part
+from rgss.exchange.content import Content, Row
+from rgss.exchange.reqif import read_reqif, reqif_text
+
+OLD = "<xhtml:div>The gripper shall close within 2 s.</xhtml:div>"
+
+
+@pytest.fixture
+def text(project):
+    return reqif_text(project.content, title="t")
+
+
+@pytest.fixture
+def read(tmp_path):
+    def reading(text):
+        path = tmp_path / "foreign.reqif"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
+        return read_reqif(path)
+
+    return reading
+
+
+def cell(content, name, attribute="text"):
+    return next(row for row in content.rows if row.id == name).cells[attribute]
+
+
+@pytest.mark.parametrize("tool", ["rgss", "DOORS"])
+def test_rich_text_keeps_its_meaning(text, read, tool):
+    new = (
+        "<xhtml:div>at <xhtml:del>5</xhtml:del>6 s and 10<xhtml:sup>3</xhtml:sup> N/m<xhtml:sup>2</xhtml:sup>"
+        '<xhtml:object data="a.png" type="image/png">figure</xhtml:object></xhtml:div>'
+    )
+    foreign = read(text.replace(OLD, new).replace(">rgss<", f">{tool}<"))
+
+    assert cell(foreign, "SYS-2") == "at 6 s and 10^3 N/m^2figure"
+    line = text[: text.index(OLD)].count("\n") - 3
+    assert [(loss.line, loss.severity.value, loss.message) for loss in foreign.losses] == [
+        (line, "warning", "SYS-2: ReqIF.Text: the attachment 'a.png' is left out"),
+        (line, "warning", "SYS-2: ReqIF.Text: the struck-out text '5' is left out"),
+    ]
+
+
+def test_an_object_under_two_parents_is_reported(text, read):
+    gripper = re.search(r'IDENTIFIER="([^"]*)"[^>]*>\n<VALUES>\n<ATTRIBUTE-VALUE-STRING THE-VALUE="BLK-gripper"', text)
+    guest = re.search(r'IDENTIFIER="([^"]*)"[^>]*>\n<VALUES>\n<ATTRIBUTE-VALUE-STRING THE-VALUE="BLK-guest"', text)
+    node = f"<OBJECT>\n<SPEC-OBJECT-REF>{guest[1]}</SPEC-OBJECT-REF>\n</OBJECT>\n"
+    assert node in text
+    second = (
+        f'{node}<CHILDREN>\n<SPEC-HIERARCHY IDENTIFIER="_second" LAST-CHANGE="2000-01-01T00:00:00Z">\n'
+        f"<OBJECT>\n<SPEC-OBJECT-REF>{gripper[1]}</SPEC-OBJECT-REF>\n</OBJECT>\n</SPEC-HIERARCHY>\n</CHILDREN>\n"
+    )
+    foreign = read(text.replace(node, second))
+
+    assert cell(foreign, "BLK-gripper", "parent") == "BLK-guest"
+    assert [loss.message for loss in foreign.losses] == [
+        "BLK-gripper: it stands under 'BLK-guest' and under 'BLK-arm'; 'BLK-guest' is kept"
+    ]
+
+
+BREAKS = (
+    ("<DEFINITION>\n<ATTRIBUTE-DEFINITION-XHTML-REF>[^<]*</ATTRIBUTE-DEFINITION-XHTML-REF>\n</DEFINITION>\n", ""),
+    ("<THE-VALUE>.*?</THE-VALUE>\n", ""),
+    ("<TYPE>\n<SPEC-OBJECT-TYPE-REF>.*?</TYPE>\n", ""),
+    ("<SOURCE>.*?</SOURCE>\n", ""),
+    ("<OBJECT>.*?</OBJECT>\n", ""),
+    ('<SPEC-OBJECT IDENTIFIER="[^"]*"', "<SPEC-OBJECT"),
+    ('<ENUM-VALUE IDENTIFIER="[^"]*"', "<ENUM-VALUE"),
+    ("<SPEC-OBJECT-REF>[^<]*</SPEC-OBJECT-REF>", "<SPEC-OBJECT-REF>_none</SPEC-OBJECT-REF>"),
+    ("<ENUM-VALUE-REF>[^<]*<", "<ENUM-VALUE-REF>_none<"),
+    ("<TYPE>\n<DATATYPE-DEFINITION-XHTML-REF>.*?</TYPE>\n", ""),
+    ("<SPEC-OBJECT ([^>]*)>(.*?)</SPEC-OBJECT>", r"<OTHER \1>\2</OTHER>"),
+    ("<ATTRIBUTE-VALUE-XHTML>(.*?)</ATTRIBUTE-VALUE-XHTML>", r"<OTHER>\1</OTHER>"),
+    ("<REQ-IF-CONTENT>.*</REQ-IF-CONTENT>\n", ""),
+)
+FOREIGN_WORDS = re.compile(r"NoneType|nsmap|attribute '|KeyError|Traceback|lxml|argument|object has|index out")
+OURS = re.compile("not there|not ReqIF that can be read: |has no content of ReqIF")
+
+
+@pytest.mark.parametrize(("pattern", "new"), BREAKS)
+def test_what_is_broken_is_said_in_our_words(text, read, refused, pattern, new):
+    broken, count = re.subn(pattern, new, text, count=1, flags=re.DOTALL)
+    assert count == 1
+    lines = refused(read, broken)
+
+    assert not FOREIGN_WORDS.search("\n".join(lines)), lines
+    assert all(OURS.search(line) for line in lines), lines
+    assert not any("departs from the schema" in line for line in lines), lines
+
+
+def test_mutated_files_end_in_a_content_or_an_error_of_ours(project, text, read):
+    """Elements and texts are dropped, doubled, emptied and moved; 300 files by a fixed seed."""
+    source = random.Random("reqif")  # noqa: S311 - no secret
+    tokens = re.findall(r"<[^>]*>|[^<]+", text)
+    complaints = []
+    for _ in range(300):
+        mutated = list(tokens)
+        for _ in range(source.choice((1, 1, 2, 4))):
+            place = source.randrange(len(mutated))
+            kind = source.randrange(5)
+            if kind == 0:
+                del mutated[place]
+            elif kind == 1:
+                mutated.insert(place, source.choice(tokens))
+            elif kind == 2:
+                mutated[place] = re.sub(r' [A-Z-]+="[^"]*"', "", mutated[place], count=1)
+            elif kind == 3:
+                mutated[place] = re.sub(r"^[^<]+$", "_none", mutated[place])
+            else:
+                mutated[place] = re.sub(r'="[^"]*"', '=""', mutated[place], count=1)
+        try:
+            project.compare(read("".join(mutated)))
+        except RgssError as error:
+            complaints.append(str(error))
+    assert 20 < len(complaints) < 280
+    assert not [each for each in complaints if FOREIGN_WORDS.search(each)]
+
+
+def many(count):
+    cells = {"id": "", "kind": "design", "parent": "", "text": "The arm shall stop.", "rationale": "r" * 300}
+    cells |= {"source": "s", "priority": "low", "status": "draft", "owner": "o", "exempt": ""}
+    rows = tuple(
+        Row(part=Part.STAKEHOLDER, cells={**cells, "id": f"R-{n}", "parent": f"R-{n // 9}" if n else ""})
+        for n in range(count)
+    )
+    return Content(rows=rows)
+
+
+@pytest.mark.parametrize("count", [200, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_many_requirements_come_back(read, count):
+    content = many(count)
+    text = reqif_text(content, title="t")
+    foreign = read(text)
+
+    assert len(foreign.rows) == count
+    assert reqif_text(foreign, title="t") == text
+    # Thirty thousand of them are to fit into what is read.
+    assert len(text) / count < 128 * 1024 * 1024 / 30_000
