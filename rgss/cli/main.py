@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from rgss.cli.command_parser import BAD_INPUT, CommandParser
+from rgss.cli.safe_output import safe_output
 from rgss.errors import DocumentError, MotionError, RgssError, SimulationError, StorageError
 from rgss.findings import printable
 
@@ -52,6 +53,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # Start-up makes some hundred thousand objects that all stay; looking through them again and again for
     # circles takes a tenth of a short command's time.
     gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
+    with safe_output():
+        return _run(arguments)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     try:
         options = command_line().parse_args(arguments)
         status = int(options.handler(options))

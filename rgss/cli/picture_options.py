@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rgss.cli.safe_output import own_stream
 from rgss.cli.sweep_verb import shown_path
 from rgss.errors import DefinitionError
 
@@ -270,6 +271,6 @@ def _progress(total: int) -> Iterator[Callable[[], None]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("Frames"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(file=sys.stderr), disable=not sys.stderr.isatty()) as bar:
+    with Progress(*columns, console=Console(file=own_stream(sys.stderr)), disable=not sys.stderr.isatty()) as bar:
         task = bar.add_task("frames", total=total)
         yield lambda: bar.advance(task)

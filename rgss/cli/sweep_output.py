@@ -89,6 +89,7 @@ _FAILED = {
     "timed_out": "took too long",
     "out_of_memory": "ran out of memory",
     "raised": "failed",
+    "wrong_answer": "was answered wrongly",
 }
 
 

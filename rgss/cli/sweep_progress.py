@@ -7,6 +7,8 @@ from collections import Counter
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
+from rgss.cli.safe_output import own_stream
+
 if TYPE_CHECKING:
     from rgss.studies.sweep import SweepState
 
@@ -40,7 +42,7 @@ class SweepProgress:
             # In a narrow terminal the end of these words gives way, not the numbers before them.
             TextColumn("{task.fields[course]}", table_column=Column(no_wrap=True, ratio=1)),
             expand=True,
-            console=Console(file=sys.stderr),
+            console=Console(file=own_stream(sys.stderr)),
         )
         self._progress.start()
         self._task = self._progress.add_task("trials", total=self._total, outcomes="", course="")

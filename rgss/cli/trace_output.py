@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rgss.cli.safe_output import data_stream
 from rgss.errors import DefinitionError
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def deliver(order: TraceOrder, report: TraceReport, found: Chain | Impact | None
         _print_text(order, report, found)
     elif order.prints:
         ((_, content),) = _contents(order, report, found).items()
-        sys.stdout.write(content.decode("utf-8-sig"))
+        data_stream().write(content.decode("utf-8-sig"))
     elif order.output is not None:
         _write(order, _contents(order, report, found))
     if order.diagrams is not None:

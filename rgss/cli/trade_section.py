@@ -53,11 +53,15 @@ def text_with_place(file: Path) -> str:
     Raises:
         DefinitionError: The file cannot be read, or has not each marker once.
     """
+    from rgss.documents.reader import LARGEST_FILE_BYTES
+    from rgss.documents.regular_file import chunks_of
     from rgss.errors import DefinitionError
 
     try:
-        text = file.read_bytes().decode("utf-8")  # with its ends of lines, which stay
-    except (OSError, UnicodeDecodeError) as error:
+        text = b"".join(chunks_of(file, largest=LARGEST_FILE_BYTES)).decode(
+            "utf-8"
+        )  # with its ends of lines, which stay
+    except (OSError, ValueError) as error:
         raise DefinitionError(f"{str(file)!r} cannot be read", hint="name a Markdown file") from error
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
         raise DefinitionError(

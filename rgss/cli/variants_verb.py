@@ -35,6 +35,7 @@ def run(options: argparse.Namespace) -> int:
     import sys
 
     from rgss.cli.output import print_json
+    from rgss.cli.safe_output import data_stream
     from rgss.cli.variants_table import print_variants
     from rgss.designs import picked, variants_csv
 
@@ -43,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json or options.format == "json":
         print_json([{"id": variant.id, "parameters": dict(variant.columns())} for variant in variants])
     elif options.format == "csv":
-        sys.stdout.write(variants_csv(variants))
+        data_stream().write(variants_csv(variants))
     else:
         print_variants(designs, variants)
     for line in _left_out(designs):

@@ -45,7 +45,7 @@ _OUTSIDE_LATER = (*_OUTSIDE, "readonly", "unable to open")
 """The same once a file could be opened and written."""
 
 _NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EMFILE, errno.ENFILE)
-_SPACE_HINT = "free some space on the disk, or raise the limit; what was put before is kept"
+SPACE_HINT = "free some space on the disk, or raise the limit; what was put before is kept"
 
 
 class Database:
@@ -194,7 +194,7 @@ def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path |
         obstacle = _obstacle(folder) if folder is not None and "unable to open" in problem else None
         if obstacle is not None:
             raise StorageError(
-                f"the evidence store {name} cannot be used: {os.strerror(obstacle)}", hint=_SPACE_HINT
+                f"the evidence store {name} cannot be used: {os.strerror(obstacle)}", hint=SPACE_HINT
             ) from error
         hints = (hint for words, hint in _HINTS.items() if words in problem)
         hint = next(hints, "'rgss evidence verify' looks for damage")

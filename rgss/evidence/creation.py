@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from rgss.errors import EvidenceError
-from rgss.evidence.connection import connect, error_of, in_our_words
+from rgss.errors import EvidenceError, StorageError
+from rgss.evidence.connection import SPACE_HINT, connect, error_of, in_our_words
 from rgss.evidence.schema import make
 
 _NO_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)
@@ -37,8 +37,9 @@ def create_store(path: Path, *, label: str) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        hint = "choose a folder that can be written"
-        raise error_of(error)(f"the folder of {label} cannot be made: {error.strerror}", hint=hint) from error
+        kind = error_of(error)
+        hint = SPACE_HINT if kind is StorageError else "choose a folder that can be written"
+        raise kind(f"the folder of {label} cannot be made: {error.strerror}", hint=hint) from error
     for attempt in range(_ATTEMPTS):
         try:
             _make_and_link(path, label)

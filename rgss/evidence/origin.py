@@ -12,9 +12,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import rgss
+from rgss.documents.regular_file import chunks_of
 from rgss.errors import EvidenceError
 
 _PATIENCE_S = 5.0
+
+LARGEST_FILE_BYTES = 4 * 1024**3
+"""Bytes of the largest input file: a folder of inputs is no place for recordings."""
 
 
 def code_revision() -> str:
@@ -54,10 +58,14 @@ def file_digests(folder: Path, names: Iterable[str]) -> dict[str, str]:
 
 
 def _file_digest(name: str, path: Path) -> str:
+    """The SHA-256 of a file, which is read piece by piece: a mesh or a point cloud may be larger than the memory."""
+    hashed = hashlib.sha256()
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        for chunk in chunks_of(path, largest=LARGEST_FILE_BYTES):
+            hashed.update(chunk)
     except OSError as error:
         raise EvidenceError(f"the input file {name} cannot be read: {error.strerror}") from error
+    return hashed.hexdigest()
 
 
 def _files(path: Path) -> list[Path]:

@@ -8,7 +8,7 @@ from enum import Enum
 from rgss.documents.digests import digest as digest_of
 from rgss.errors import EvidenceError
 from rgss.evidence.digests import is_digest
-from rgss.findings import shown
+from rgss.findings import printable, shown
 
 LONGEST_DETAIL = 500
 """Characters of a detail that are kept."""
@@ -21,6 +21,7 @@ class RunFailureKind(str, Enum):
     TIMED_OUT = "timed_out"
     OUT_OF_MEMORY = "out_of_memory"
     RAISED = "raised"
+    WRONG_ANSWER = "wrong_answer"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,7 +32,7 @@ class RunFailure:
         key: Digest of the piece, or key of the trial.
         what: What it is, such as ``execution`` or ``trial``.
         kind: How the run failed.
-        detail: One line: the signal, the limit in seconds, the line of the exception.
+        detail: One line: the signal, the limit in seconds, the line of the exception; see `detail_line`.
         attempts: How often it was tried.
     """
 
@@ -53,7 +54,7 @@ def failure_row(failure: RunFailure) -> tuple[str, str, str, str, int, str]:
     if not (type(failure.attempts) is int and 0 < failure.attempts < 2**31):
         raise EvidenceError(f"a run cannot fail after {shown(failure.attempts)} attempts")
     kind = RunFailureKind(failure.kind).value
-    row = (failure.key, _line(failure.what), kind, _line(failure.detail), failure.attempts)
+    row = (failure.key, detail_line(failure.what), kind, detail_line(failure.detail), failure.attempts)
     return (*row, digest_of(list(row)))
 
 
@@ -78,5 +79,14 @@ def read_failure(row: tuple[object, ...]) -> RunFailure:
     return RunFailure(key=key, what=what, kind=RunFailureKind(kind), detail=detail, attempts=attempts)
 
 
-def _line(text: str) -> str:
-    return " ".join(text.split()).encode("utf-8", "replace").decode("utf-8")[:LONGEST_DETAIL]
+def detail_line(text: str) -> str:
+    """A text from a process, an engine or a file as messages show it: one line, of bounded length, that steers nothing.
+
+    Characters that are not printable, such as escapes and controls of the direction of text, are replaced.
+
+    Args:
+        text: The text.
+    """
+    # What is far beyond the bound is not looked at.
+    line = printable(" ".join(text[: 20 * LONGEST_DETAIL].split()))
+    return line if len(line) <= LONGEST_DETAIL else line[: LONGEST_DETAIL - 1] + "…"

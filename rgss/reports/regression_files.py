@@ -6,6 +6,7 @@ import re
 from typing import Any
 from xml.etree import ElementTree as ET
 
+from rgss.documents.steering import escaped_for_xml
 from rgss.invisible_characters import visible
 from rgss.regression.comparing import Comparison, Outcome
 from rgss.regression.report import RegressionReport, Trouble
@@ -88,7 +89,8 @@ def report_to_junit(report: RegressionReport) -> bytes:
         else:
             ET.SubElement(case, "system-out").text = _xml(text)
     ET.indent(suite)
-    return bytes(ET.tostring(suite, encoding="utf-8", xml_declaration=True)) + b"\n"
+    text = escaped_for_xml(ET.tostring(suite, encoding="unicode"))
+    return f"<?xml version='1.0' encoding='utf-8'?>\n{text}\n".encode()
 
 
 def report_to_markdown(report: RegressionReport) -> str:

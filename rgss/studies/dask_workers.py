@@ -19,6 +19,7 @@ from typing import Any
 
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
+from rgss.studies.answers import is_end_of, wrong_answer
 from rgss.studies.dask_tasks import Differs, Order, carry_out, stop
 from rgss.studies.workers import Ended, Trouble
 
@@ -145,7 +146,7 @@ class DaskWorkers:
 
         future = self._running.pop(key)
         try:
-            ended = future.result()
+            ended: object = future.result()
         except KilledWorker as error:
             detail = f"{error.allowed_failures + 1} Dask workers were lost at it"
             trouble = Trouble(kind=RunFailureKind.CRASHED, detail=detail, may_pass=True)
@@ -163,8 +164,8 @@ class DaskWorkers:
             ) from error
         finally:
             future.release()
-        if not isinstance(ended, Ended):
-            raise SimulationError(f"the Dask cluster at {self._address} answers something else than was asked")
+        if not is_end_of(ended, key):
+            return wrong_answer(key, "a Dask worker answered something else than it was asked")
         if isinstance(ended.result, Differs):
             raise SimulationError(
                 self._differs(ended.result), hint="every worker needs the same engines and the same rgss"

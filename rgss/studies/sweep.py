@@ -8,7 +8,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rgss.errors import EvidenceError
-from rgss.evidence import EvidenceStore, Piece, RunFailure, TrialRecord, trial_key
+from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind, TrialRecord, trial_key
+from rgss.evidence.run_failures import detail_line
+from rgss.studies.answers import checked, record_problem
 from rgss.studies.inline_workers import InlineWorkers
 from rgss.studies.keeping import Keeper, Origin
 from rgss.studies.work import Trial, Work
@@ -145,7 +147,8 @@ def sweep(
     Records depend neither on the number of processes nor on the order of the work, nor on whether
     pieces are shared. When it is interrupted, what was finished is kept, and the next sweep goes on
     from there. A task whose worker crashes, hangs or runs out of memory is tried once more; then it
-    is recorded as a failure of the run, and the sweep goes on without it.
+    is recorded as a failure of the run, and the sweep goes on without it; so it is with a task whose answer
+    is not what was asked for.
 
     Args:
         specs: The trials.
@@ -263,6 +266,7 @@ class _Sweep:
 
     def _take_in(self, ended: Ended) -> None:
         task = self._running.pop(ended.key)
+        ended = checked(ended, task)
         if ended.trouble is not None:
             self._lament(task, ended.trouble)
             return
@@ -285,30 +289,45 @@ class _Sweep:
         """Put the records together whose pieces are all there."""
         for trial in self._work.complete():
             pieces = {kind: self._piece(digest) for kind, digest in trial.pieces.items()}
-            self._keeper.keep_trial(trial, record_of(trial.spec, pieces))
-            self._used += len(pieces)
+            record = self._assembled(trial, pieces)
+            if record is not None:
+                self._keeper.keep_trial(trial, record)
+                self._used += len(pieces)
             for digest in trial.pieces.values():
                 self._release(digest)
             self._keeper.flush_if_due()
+
+    def _assembled(self, trial: Trial, pieces: Mapping[PieceKind, Piece]) -> TrialRecord | None:
+        """The record of a trial; None, and a failure of the run, if its pieces do not fit each other."""
+        try:
+            record = record_of(trial.spec, pieces)
+            problem = record_problem(trial.spec, record)
+        # Each piece is one that can be read, but together they may break anything.
+        except Exception as error:
+            problem = f"{type(error).__name__}: {error}"
+        if not problem:
+            return record
+        self._lose("trial", trial.key, RunFailureKind.WRONG_ANSWER, f"its pieces make no record: {problem}", (trial,))
+        return None
 
     def _lament(self, task: Task, trouble: Trouble) -> None:
         attempts = self._attempts[task.digest]
         if trouble.may_pass and attempts < MOST_ATTEMPTS:
             self._work.give_back(task)
             return
-        failure = RunFailure(
-            key=task.digest,
-            what="trial" if isinstance(task, TrialTask) else task.kind.value,
-            kind=trouble.kind,
-            detail=trouble.detail,
-            attempts=attempts,
-        )
-        self._store.put_failure(failure)
         lost = self._work.give_up(task.digest)
         self._held = {digest: piece for digest, piece in self._held.items() if self._work.is_used(digest)}
-        self._lost.append(
-            LostTrials(failure=failure, trials=tuple((trial.spec.variant, trial.spec.seed) for trial in lost))
-        )
+        what = "trial" if isinstance(task, TrialTask) else task.kind.value
+        self._lose(what, task.digest, trouble.kind, trouble.detail, lost, attempts=attempts)
+
+    def _lose(
+        self, what: str, key: str, kind: RunFailureKind, detail: str, trials: Sequence[Trial], *, attempts: int = 1
+    ) -> None:
+        """Record a failure of the run, and the trials that have no record for it."""
+        failure = RunFailure(key=key, what=what, kind=kind, detail=detail_line(detail), attempts=attempts)
+        self._store.put_failure(failure)
+        lost = tuple((trial.spec.variant, trial.spec.seed) for trial in trials)
+        self._lost.append(LostTrials(failure=failure, trials=lost))
 
     def _piece(self, digest: str) -> Piece:
         """A piece that was made now, or before, and is needed now."""

@@ -12,14 +12,17 @@ import pickle
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from multiprocessing import connection, parent_process
+from dataclasses import dataclass, replace
+from multiprocessing import connection, parent_process, resource_tracker
 from typing import Any
+
+from rgss.studies.worker_wire import LONGEST_ANSWER, BlockingChannel
 
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
 _OBJECTS_BETWEEN_COLLECTIONS = 50_000
 _MIB = 1024 * 1024
+_LARGEST_OUTPUT = 16 * _MIB
 # The numbers of two settings of glibc's malloc (malloc.h).
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3
 
@@ -40,6 +43,7 @@ class Answer:
     """What came of a task.
 
     Attributes:
+        task: The number that the task was given.
         result: The result; None if there is none.
         error: The exception that ended it, in one line; empty if there was none.
         ours: Whether that exception is one that this package raises by intention.
@@ -47,6 +51,7 @@ class Answer:
         took_s: The task's time by the wall clock.
     """
 
+    task: int
     result: Any
     error: str
     ours: bool
@@ -64,46 +69,65 @@ def settle() -> None:
     gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
 
 
-def serve(function: bytes, asked: connection.Connection, memory_limit_bytes: int, output: str) -> None:
+def serve(
+    function: bytes, asked: connection.Connection, memory_limit_bytes: int, output: connection.Connection
+) -> None:
     """Answer tasks until the other end is closed.
 
     Args:
         function: What makes a result from a task's arguments, pickled by its name.
-        asked: Arguments come in here, answers go out.
+        asked: Numbered arguments come in here, answers go out.
         memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
         output: File for what engines print, which nobody may want but who asks why one has crashed.
     """
     settle()
+    _leave_the_tracker()
     _redirect_output(output)
     _limit_memory(memory_limit_bytes)
+    _limit_output()
     _end_with_parent()
+    channel = BlockingChannel(asked)
     # From here on engines may be loaded. What is read here was written by the process that started this one.
     try:
         make = pickle.loads(function)  # noqa: S301
     # Importing the function's module can break on anything; the parent is told instead of left waiting.
     except Exception as error:
-        asked.send(Ready(error=_line(error)))
+        channel.send(pickle.dumps(Ready(error=_line(error))))
         return
-    asked.send(Ready())
+    channel.send(pickle.dumps(Ready()))
     while True:
         try:
-            arguments = asked.recv()
+            task, arguments = pickle.loads(channel.receive())  # noqa: S301
         except (EOFError, OSError):
             return
         # What is in the file when the process dies was printed by the task that it died of.
         os.ftruncate(_STANDARD_OUTPUT, 0)
         try:
-            asked.send(answer_to(make, arguments))
+            channel.send(_packed(answer_to(make, arguments, task=task)))
         except OSError:
             return
 
 
-def answer_to(make: Callable[..., Any], arguments: Sequence[Any]) -> Answer:
+def _packed(answer: Answer) -> bytes:
+    """An answer as it is sent; in place of a result that cannot be sent, why it cannot."""
+    try:
+        packed = pickle.dumps(answer)
+        if len(packed) <= LONGEST_ANSWER:
+            return packed
+        problem = f"the result has {len(packed)} bytes; at most {LONGEST_ANSWER} are read"
+    # A result may be of anything, and its pickling run anything.
+    except Exception as error:
+        problem = _line(error)
+    return pickle.dumps(replace(answer, result=None, error=problem))
+
+
+def answer_to(make: Callable[..., Any], arguments: Sequence[Any], *, task: int = 0) -> Answer:
     """Carry out one task.
 
     Args:
         make: What makes a result.
         arguments: What it is called with.
+        task: The number that the task was given.
     """
     from time import perf_counter
 
@@ -120,7 +144,8 @@ def answer_to(make: Callable[..., Any], arguments: Sequence[Any]) -> Answer:
     # A task that breaks costs itself and not the worker.
     except Exception as caught:
         error = _line(caught)
-    return Answer(result=result, error=error, ours=ours, out_of_memory=out_of_memory, took_s=perf_counter() - begun)
+    took_s = perf_counter() - begun
+    return Answer(task=task, result=result, error=error, ours=ours, out_of_memory=out_of_memory, took_s=took_s)
 
 
 def _line(error: Exception) -> str:
@@ -129,11 +154,33 @@ def _line(error: Exception) -> str:
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
-def _redirect_output(file: str) -> None:
-    descriptor = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o600)
+def _redirect_output(output: connection.Connection) -> None:
     for standard in (_STANDARD_OUTPUT, _STANDARD_ERROR):
-        os.dup2(descriptor, standard)
-    os.close(descriptor)
+        os.dup2(output.fileno(), standard)
+    output.close()
+
+
+def _leave_the_tracker() -> None:
+    """Close the pipe to the process in which Python tracks what is shared: nothing is, and it is the sweep's."""
+    tracker = getattr(resource_tracker, "_resource_tracker", None)
+    descriptor = getattr(tracker, "_fd", None)
+    if isinstance(descriptor, int):
+        with contextlib.suppress(OSError):
+            os.close(descriptor)
+        # It would be begun anew if it were needed.
+        setattr(tracker, "_fd", None)  # noqa: B010 - the name is not public
+
+
+def _limit_output() -> None:
+    """Let writes beyond a size fail, so that a library that prints without end fills neither memory nor disk."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    limits = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (min([_LARGEST_OUTPUT, *limits]), hard))
 
 
 def _limit_memory(limit_bytes: int) -> None:

@@ -2,36 +2,40 @@
 
 Each worker has a pipe of its own and at most one task, so that it is known exactly which task a
 worker was at when it was killed, hung or ran out of memory, and no lock can stay behind with it.
+Nothing here waits for a worker: what it takes and what it says is sent and read as far as that is
+possible at once, and an answer counts only if it is whole and that of the task.
 (``concurrent.futures`` and loky give up all tasks when one worker dies and know no time limits;
 pebble has both, but its workers share a lock that dies with its holder.)
 """
 
 from __future__ import annotations
 
-import contextlib
 import itertools
 import math
 import multiprocessing
 import pickle
+import selectors
 import signal
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from multiprocessing import connection
 from multiprocessing.process import BaseProcess
-from pathlib import Path
 from types import TracebackType
 from typing import Any, Protocol
 
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
+from rgss.evidence.run_failures import detail_line
+from rgss.studies.worker_output import WorkerOutput
 from rgss.studies.worker_process import Answer, Ready, serve
+from rgss.studies.worker_wire import Channel, WireError
 
 _ENDING_S = 5.0
+_ENDING_LOOK_S = 0.01
 _STARTING_S = 120.0
-_LONGEST_WORDS = 300
+_FAILED_STARTS = 2
+"""How many processes more than the pool has may end one after another before one of them has done a task."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,10 +97,12 @@ class Workers(Protocol):
 @dataclass(slots=True, kw_only=True, eq=False)
 class _Worker:
     process: BaseProcess
-    pipe: connection.Connection
-    output: Path
+    channel: Channel
+    output: WorkerOutput
     ready: bool
+    proved: bool
     key: str | None
+    task: int
     ends_at: float
 
 
@@ -110,6 +116,7 @@ class WorkerPool:
         size: int,
         time_limit_s: float = math.inf,
         memory_limit_bytes: int = 0,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Prepare the pool; processes are started when they are wanted.
 
@@ -119,6 +126,7 @@ class WorkerPool:
             size: Greatest number of processes.
             time_limit_s: Greatest time of a task by the wall clock.
             memory_limit_bytes: Greatest size of a worker's data; 0 for no limit.
+            clock: Gives the time that limits are compared with, in seconds.
         """
         self._function = pickle.dumps(function)
         self._size = size
@@ -128,7 +136,8 @@ class WorkerPool:
         self._context = multiprocessing.get_context("spawn")
         self._workers: list[_Worker] = []
         self._numbers = itertools.count()
-        self._outputs = tempfile.TemporaryDirectory(prefix="rgss-", ignore_cleanup_errors=True)
+        self._clock = clock
+        self._failed_starts = 0
 
     def __enter__(self) -> WorkerPool:
         return self
@@ -153,9 +162,19 @@ class WorkerPool:
 
         Args:
             tasks: How many tasks are being done or could be.
+
+        Raises:
+            SimulationError: The system lets no process be started, and there is none.
         """
         for _ in range(min(tasks, self._size) - len(self._workers)):
-            self._start()
+            try:
+                self._start()
+            except OSError as error:  # noqa: PERF203 - it ends the loop
+                # With fewer it takes longer, and there may be room for more later.
+                if self._workers:
+                    return
+                hint = "see what else the machine is doing, or raise its limits ('ulimit -n', 'ulimit -u')"
+                raise SimulationError(f"a worker process cannot start: {error.strerror}", hint=hint) from error
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
         """Begin a task; only while one is free.
@@ -165,11 +184,10 @@ class WorkerPool:
             arguments: What the function is called with.
         """
         worker = next(worker for worker in self._workers if worker.ready and worker.key is None)
-        worker.key = key
-        worker.ends_at = time.monotonic() + self._time_limit_s
+        worker.key, worker.task = key, next(self._numbers)
+        worker.ends_at = self._clock() + self._time_limit_s
         # If it has died meanwhile, that is noticed and told when its end is waited for.
-        with contextlib.suppress(OSError):
-            worker.pipe.send(arguments)
+        worker.channel.send(pickle.dumps((worker.task, arguments)))
 
     def wait(self, timeout_s: float) -> list[Ended]:
         """Wait until tasks end, workers become free, or the time is over; returns what has ended.
@@ -178,14 +196,12 @@ class WorkerPool:
             timeout_s: The longest time to wait.
 
         Raises:
-            SimulationError: A worker could not be started.
+            SimulationError: Workers could not be started, one after another.
         """
         first = min((worker.ends_at for worker in self._workers), default=math.inf)
-        patience_s = max(0.0, min(timeout_s, first - time.monotonic()))
-        pipes = {worker.pipe: worker for worker in self._workers}
-        spoke = set(connection.wait(list(pipes), patience_s))
-        ended = [self._heard(worker) for pipe, worker in pipes.items() if pipe in spoke]
-        now = time.monotonic()
+        self._wait_for_any(max(0.0, min(timeout_s, first - self._clock())))
+        ended = [self._looked_at(worker) for worker in list(self._workers)]
+        now = self._clock()
         ended += [self._too_late(worker) for worker in list(self._workers) if worker.ends_at <= now]
         return [each for each in ended if each is not None]
 
@@ -195,62 +211,133 @@ class WorkerPool:
             worker.process.kill()
         for worker in list(self._workers):
             self._dismiss(worker)
-        self._outputs.cleanup()
 
     def _start(self) -> None:
-        here, there = self._context.Pipe()
-        output = Path(self._outputs.name) / f"{next(self._numbers)}.txt"
+        output = WorkerOutput()
+        try:
+            here, there = self._context.Pipe()
+        except OSError:
+            output.close()
+            raise
         process = self._context.Process(
-            target=serve, args=(self._function, there, self._memory_limit_bytes, str(output)), daemon=True
+            target=serve, args=(self._function, there, self._memory_limit_bytes, output.end), daemon=True
         )
         with _interrupts_held_back():
-            process.start()
-            there.close()
-            begun = time.monotonic()
+            try:
+                process.start()
+            except OSError:
+                here.close()
+                output.close()
+                raise
+            finally:
+                there.close()
             self._workers.append(
-                _Worker(process=process, pipe=here, output=output, ready=False, key=None, ends_at=begun + _STARTING_S)
+                _Worker(
+                    process=process,
+                    channel=Channel(here),
+                    output=output,
+                    ready=False,
+                    proved=False,
+                    key=None,
+                    task=-1,
+                    ends_at=self._clock() + _STARTING_S,
+                )
             )
 
-    def _heard(self, worker: _Worker) -> Ended | None:
+    def _wait_for_any(self, patience_s: float) -> None:
+        """Wait until a worker has said something or takes more of what it is sent."""
+        with selectors.PollSelector() as selector:
+            for worker in self._workers:
+                writes = selectors.EVENT_WRITE if worker.channel.has_unsent else 0
+                selector.register(worker.channel, selectors.EVENT_READ | writes)
+            selector.select(patience_s)
+
+    def _looked_at(self, worker: _Worker) -> Ended | None:
+        """What has become of a worker since it was looked at before."""
+        worker.channel.flush()
+        # Asked before its last words are read, which then are all that there will be.
+        has_ended = worker.process.exitcode is not None
         try:
-            message = worker.pipe.recv()
-        except (EOFError, OSError, pickle.UnpicklingError):
+            messages = worker.channel.receive()
+        except EOFError:
             return self._died(worker)
-        if isinstance(message, Ready):
+        except WireError as error:
+            return self._wrong(worker, str(error))
+        if messages:
+            return self._heard(worker, messages)
+        return self._died(worker) if has_ended else None
+
+    def _heard(self, worker: _Worker, messages: list[bytes]) -> Ended | None:
+        try:
+            message = pickle.loads(messages[0])  # noqa: S301 - our own process wrote it, as its checksum shows
+        # The parts of a message may break on anything where they are put together.
+        except Exception as error:
+            return self._wrong(worker, f"its answer cannot be read: {type(error).__name__}: {error}")
+        if isinstance(message, Ready) and not worker.ready and len(messages) == 1:
             if message.error:
                 raise _not_started(message.error)
             worker.ready, worker.ends_at = True, math.inf
             return None
-        answer: Answer = message
-        key, worker.key, worker.ends_at = worker.key or "", None, math.inf
-        if answer.out_of_memory:
+        if worker.key is None or len(messages) > 1 or not _is_answer(message, worker.task):
+            return self._wrong(worker, "it answered something else than it was asked")
+        key, worker.key, worker.ends_at, worker.proved = worker.key, None, math.inf, True
+        self._failed_starts = 0
+        if message.out_of_memory:
             # What an engine makes of a failed allocation is not known, so this worker does no more.
             self._dismiss(worker)
-        return ended_by(answer, key)
+        return ended_by(message, key)
+
+    def _wrong(self, worker: _Worker, problem: str) -> Ended | None:
+        """Do without a worker that says what it should not."""
+        self._dismiss(worker)
+        return self._failed(worker, RunFailureKind.WRONG_ANSWER, f"the worker was ended: {problem}")
 
     def _died(self, worker: _Worker) -> Ended | None:
-        worker.process.join(_ENDING_S)
-        how = _ending(worker.process.exitcode) + _last_words(worker.output)
+        how = _ending(worker.process)
+        words = worker.output.tail()
         self._dismiss(worker)
-        if not worker.ready:
-            raise _not_started(f"it {how}")
-        return None if worker.key is None else _failed(worker.key, RunFailureKind.CRASHED, f"the worker {how}")
+        return self._failed(worker, RunFailureKind.CRASHED, f"the worker {how}" + (f": {words}" if words else ""))
 
     def _too_late(self, worker: _Worker) -> Ended | None:
         self._dismiss(worker)
         if not worker.ready:
-            raise SimulationError(
-                f"a worker process has not started after {_STARTING_S:g} s", hint="see what else the machine is doing"
-            )
-        detail = f"not done after {self._time_limit_s:g} s"
-        return None if worker.key is None else _failed(worker.key, RunFailureKind.TIMED_OUT, detail)
+            return self._failed(worker, RunFailureKind.TIMED_OUT, f"the worker has not started after {_STARTING_S:g} s")
+        return self._failed(worker, RunFailureKind.TIMED_OUT, f"not done after {self._time_limit_s:g} s")
+
+    def _failed(self, worker: _Worker, kind: RunFailureKind, detail: str) -> Ended | None:
+        """The end of the task that a worker had; one that had none is replaced, but not for ever.
+
+        Raises:
+            SimulationError: Too many in a row have ended before they had done anything.
+        """
+        if worker.key is not None:
+            return _failed(worker.key, kind, detail)
+        if not worker.proved:
+            self._failed_starts += 1
+            if self._failed_starts > self._size + _FAILED_STARTS:
+                raise _not_started(f"{detail}, and so did {self._failed_starts - 1} before it")
+        return None
 
     def _dismiss(self, worker: _Worker) -> None:
         worker.process.kill()
         worker.process.join(_ENDING_S)
-        worker.pipe.close()
-        worker.output.unlink(missing_ok=True)
+        worker.channel.close()
+        worker.output.close()
         self._workers.remove(worker)
+
+
+def _is_answer(message: object, task: int) -> bool:
+    """Whether a message is the answer to a task, and each part of it of its type."""
+    return (
+        type(message) is Answer
+        and type(message.task) is int
+        and message.task == task
+        and type(message.error) is str
+        and type(message.ours) is bool
+        and type(message.out_of_memory) is bool
+        and type(message.took_s) is float
+        and 0.0 <= message.took_s < math.inf
+    )
 
 
 def ended_by(answer: Answer, key: str) -> Ended:
@@ -271,24 +358,18 @@ def _failed(key: str, kind: RunFailureKind, detail: str, *, may_pass: bool = Tru
 
 
 def _not_started(how: str) -> SimulationError:
-    return SimulationError(f"a worker process cannot start: {how}", hint="is its memory limit too low?")
+    return SimulationError(f"a worker process cannot start: {detail_line(how)}", hint="is its memory limit too low?")
 
 
-def _last_words(output: Path) -> str:
-    """The last line that a worker has printed, by which libraries say why they end the process."""
-    try:
-        with output.open("rb") as file:
-            file.seek(max(0, output.stat().st_size - _LONGEST_WORDS))
-            lines = file.read().decode("utf-8", "replace").split("\n")
-    except OSError:
-        return ""
-    words = next((" ".join(line.split()) for line in reversed(lines) if line.strip()), "")
-    return f": {words}" if words else ""
-
-
-def _ending(status: int | None) -> str:
-    """How a process ended, from its exit status."""
-    if status is not None and status < 0:
+def _ending(process: BaseProcess) -> str:
+    """How a process has ended whose end of the pipe is closed."""
+    latest = time.monotonic() + _ENDING_S
+    while process.exitcode is None and time.monotonic() < latest:
+        time.sleep(_ENDING_LOOK_S)
+    status = process.exitcode
+    if status is None:
+        return "closed its pipe and did not end"
+    if status < 0:
         try:
             return f"was killed by {signal.Signals(-status).name}"
         except ValueError:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 
+from rgss.documents.regular_file import chunks_of
 from rgss.errors import EvidenceError
 from rgss.measures import StaleCause, Verdict
 from rgss.requirements import Requirement, VerificationMethod
@@ -24,6 +25,7 @@ SOFTWARE = "rgss.software"
 REQUIREMENT_PREFIX = "rgss.requirement."
 """With a requirement's id, name of the property that holds its digest at the time of the run."""
 
+_LARGEST_BYTES = 256 * 1024 * 1024
 TESTED_FOLDERS = ("rgss", "tests", "designs", "scenes", "studies")
 TESTED_FILES = ("requirements.lock", "pyproject.toml", "requirements/measures.yaml")
 _SUFFIXES = frozenset({".py", ".yaml", ".csv", ".urdf", ".json"})
@@ -154,14 +156,25 @@ def software_digest(project: Path) -> str:
     """
     content = hashlib.sha256()
     for path in _tested(project):
-        try:
-            data = path.read_bytes()
-        except OSError as error:
-            raise EvidenceError(f"{path.name} cannot be read: {error.strerror}", hint="check its permissions") from None
         content.update(path.relative_to(project).as_posix().encode())
         content.update(b"\0")
-        content.update(hashlib.sha256(data.replace(b"\r\n", b"\n")).digest())
+        try:
+            content.update(_text_digest(path))
+        except OSError as error:
+            raise EvidenceError(f"{path.name} cannot be read: {error.strerror}", hint="check its permissions") from None
     return content.hexdigest()
+
+
+def _text_digest(path: Path) -> bytes:
+    """The SHA-256 of a text whose lines end as they do here; it is read piece by piece."""
+    hashed, held = hashlib.sha256(), b""
+    for chunk in chunks_of(path, largest=_LARGEST_BYTES):
+        text = held + chunk
+        # The end of a line may be cut in two.
+        held = text[-1:] if text.endswith(b"\r") else b""
+        hashed.update(text[: len(text) - len(held)].replace(b"\r\n", b"\n"))
+    hashed.update(held)
+    return hashed.digest()
 
 
 def _tested(project: Path) -> list[Path]:

@@ -10,13 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from rgss.errors import DefinitionError, EvidenceError, SimulationError
+from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore, Failure, RunFailure, RunFailureKind, record_digest
 from rgss.studies import keeping
 from rgss.studies.expansion import trial_specs
 from rgss.studies.keeping import Origin, origin_of
 from rgss.studies.project import load_project
-from rgss.studies.sweep import LostTrials, WorkerLimits, key_of, sweep, trials_of
+from rgss.studies.sweep import LostTrials, key_of, sweep, trials_of
+from rgss.studies.workers import WorkerPool
 from rgss.trials.run import run_trial
 from rgss.trials.spec import digests_of
 from rgss.trials.versions import versions
@@ -320,11 +321,20 @@ def test_without_sharing_nothing_is_taken_from_the_store_or_kept_for_others(spec
     assert digests_in(apart) == digests_in(shared)
 
 
-def test_every_kind_of_trouble_is_recorded_and_the_sweep_goes_on(specs_of, store, run, doubles):
+@pytest.fixture
+def one_worker(tmp_path):
+    """Workers, of whom there is one, whose time goes on only when a task is known to hang."""
+
+    def clock():
+        return 1000.0 * len([*(tmp_path / "marks").glob("hanging-*")])
+
+    return lambda maker: WorkerPool(maker, size=1, time_limit_s=3.0, memory_limit_bytes=1 * GIB, clock=clock)
+
+
+def test_every_kind_of_trouble_is_recorded_and_the_sweep_goes_on(specs_of, store, run, doubles, one_worker):
     """Seed 1 is well; 2 crashes, 3 hangs, 4 eats memory, 5 is refused, 6 dies once, the execution of 7 raises."""
     specs = specs_of(1, 2, seeds=range(1, 8), fidelity="kinematic")
-    limits = WorkerLimits(time_s=3.0, memory_bytes=1 * GIB)
-    finished, result = run(specs, store, jobs=2, maker=doubles.troubled, limits=limits)
+    finished, result = run(specs, store, maker=doubles.troubled, workers_for=one_worker)
     plans = {trial.spec.seed: trial.digests.plan for trial in trials_of(specs)}
     execution = next(trial.digests.execution for trial in trials_of(specs) if trial.spec.seed == 7)
 
@@ -349,22 +359,6 @@ def test_every_kind_of_trouble_is_recorded_and_the_sweep_goes_on(specs_of, store
     assert len(again) == 14
     assert result.lost == ()
     assert store.failures([*plans.values(), execution]) == {}
-
-
-def test_a_whole_trial_that_fails_is_named_as_such(specs_of, store, run, doubles):
-    def refused(task, needed):
-        if task.spec.variant == 2:
-            raise SimulationError("no world", hint="make one")
-        return doubles.quick(task, needed)
-
-    specs = specs_of(1, 2)
-    finished, result = run(specs, store, share=False, maker=refused)
-
-    (lost,) = result.lost
-    assert lost.trials == ((2, 1),)
-    assert (lost.failure.what, lost.failure.key, lost.failure.attempts) == ("trial", key_of(specs[1]), 1)
-    assert lost.failure.detail == "no world (make one)"
-    assert [trial.record.variant for trial in finished] == [1]
 
 
 @pytest.mark.engine

@@ -150,10 +150,10 @@ def test_a_file_that_cannot_be_read_is_told(tmp_path, monkeypatch):
     (tmp_path / "rgss").mkdir()
     (tmp_path / "rgss/a.py").write_text("1\n", encoding="utf-8")
 
-    def refuse(_):
+    def refuse(*_):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
+    monkeypatch.setattr("os.open", refuse)
     with pytest.raises(EvidenceError, match=r"a\.py cannot be read: Permission denied"):
         software_digest(tmp_path)
 

@@ -1,0 +1,54 @@
+"""Standard output and error that nothing can steer: the one place through which all that a verb prints goes."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, TextIO, cast
+
+from rgss.documents.steering import escaped_for_json, steers
+
+
+class _SafeStream:
+    """A stream that escapes what would steer a terminal; everything else of it is the stream's own."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self.own = stream
+
+    def write(self, text: str) -> int:
+        self.own.write(escaped_for_json(text) if steers(text) else text)
+        return len(text)
+
+    def writelines(self, lines: Iterator[str]) -> None:
+        for line in lines:
+            self.write(line)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.own, name)
+
+
+@contextmanager
+def safe_output() -> Iterator[None]:
+    """Let what is printed in the block steer no terminal; JSON that is printed keeps its meaning."""
+    before = sys.stdout, sys.stderr
+    # Without a console there is no stream.
+    sys.stdout, sys.stderr = (stream if stream is None else cast("TextIO", _SafeStream(stream)) for stream in before)
+    try:
+        yield
+    finally:
+        sys.stdout, sys.stderr = before
+
+
+def own_stream(stream: TextIO) -> TextIO:
+    """The stream itself, for what draws on a terminal by our will and has no text of a user's in it.
+
+    Args:
+        stream: Standard output or error.
+    """
+    return stream.own if isinstance(stream, _SafeStream) else stream
+
+
+def data_stream() -> TextIO:
+    """Where a file's content goes that is printed: as it is, but on a terminal."""
+    return sys.stdout if sys.stdout.isatty() else own_stream(sys.stdout)

@@ -1,0 +1,55 @@
+"""Characters that steer who shows a text: controls, escapes, directions of writing; found and escaped.
+
+They are legal in a text and invisible in it, and a terminal, a reviewer's page or a log viewer obeys
+them. `rgss.findings.printable` replaces them where a text is made for people; here they are escaped
+where a whole document leaves the program, in the notation of the document, so that a program that
+reads it gets the same text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+# Controls but tab and end of line; marks, embeddings, overrides and isolates of direction; separators of lines and
+# paragraphs; invisible operators, annotations and tags; halves of characters.
+_STEERING = re.compile(
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u180e\u200e\u200f\u2028-\u202e\u2060-\u206f\ufff9-\ufffb"
+    "\U000e0000-\U000e007f\ud800-\udfff]"
+)
+
+
+def steers(text: str) -> bool:
+    """Whether a text has a character that steers who shows it.
+
+    Args:
+        text: The text.
+    """
+    return _STEERING.search(text) is not None
+
+
+def escaped_for_json(text: str) -> str:
+    r"""A JSON document, or a text for a terminal, with such characters as ``\uXXXX``.
+
+    Args:
+        text: The document.
+    """
+    return _escaped(text, _as_json)
+
+
+def escaped_for_xml(text: str) -> str:
+    """An XML document with such characters as references, as far as XML may have them.
+
+    Args:
+        text: The document.
+    """
+    return _escaped(text, lambda sign: f"&#x{ord(sign):x};")
+
+
+def _escaped(text: str, write: Callable[[str], str]) -> str:
+    return _STEERING.sub(lambda found: write(found[0]), text)
+
+
+def _as_json(sign: str) -> str:
+    units = sign.encode("utf-16-be", "surrogatepass")
+    return "".join(f"\\u{units[at] << 8 | units[at + 1]:04x}" for at in range(0, len(units), 2))

@@ -1,0 +1,85 @@
+"""What a verb prints goes through one place, where nothing of it can steer a terminal."""
+
+from __future__ import annotations
+
+import ast
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+from rgss.cli import main as main_module
+from rgss.cli.main import main
+from rgss.cli.safe_output import data_stream, own_stream, safe_output
+from rgss.documents.steering import steers
+from rgss.errors import DefinitionError, SimulationError
+
+HOSTILE = "\x1b]0;owned\x07\x1b[2J\u202eabc\u2066 \x9b31m [bold red]🤖"
+
+
+@pytest.fixture
+def verb(monkeypatch):
+    """Lets the verb ``schema`` do something else."""
+
+    def let(handler):
+        from rgss.cli import schema_verb
+
+        monkeypatch.setattr(schema_verb, "run", handler)
+        return main(["schema"])
+
+    return let
+
+
+def test_what_is_printed_steers_nothing_and_json_says_the_same(verb, capsys):
+    def handler(options):
+        sys.stdout.write(json.dumps({"detail": HOSTILE}, ensure_ascii=False) + "\n")
+        sys.stderr.write(f"{HOSTILE}\n")
+        sys.stderr.writelines([HOSTILE, "\n"])
+        return 0
+
+    assert verb(handler) == 0
+    captured = capsys.readouterr()
+    assert not steers(captured.out + captured.err)
+    assert json.loads(captured.out) == {"detail": HOSTILE}
+    assert captured.err == 2 * ("\\u001b]0;owned\\u0007\\u001b[2J\\u202eabc\\u2066 \\u009b31m [bold red]🤖\n")
+
+
+@pytest.mark.parametrize("error", [DefinitionError(HOSTILE, hint=HOSTILE), SimulationError(HOSTILE)])
+def test_so_it_is_with_complaints(verb, capsys, error):
+    def handler(options):
+        raise error
+
+    assert verb(handler) in {2, 3}
+    assert not steers(capsys.readouterr().err)
+
+
+def test_the_streams_are_what_they_were_afterwards(verb):
+    before = sys.stdout, sys.stderr
+    verb(lambda options: 0)
+    assert (sys.stdout, sys.stderr) == before
+    with safe_output():
+        assert sys.stdout is not before[0]
+        assert own_stream(sys.stdout) is before[0]
+        assert own_stream(before[0]) is before[0]
+    assert (sys.stdout, sys.stderr) == before
+
+
+def test_the_content_of_a_file_is_as_it_is_but_on_a_terminal(capsys, monkeypatch):
+    with safe_output():
+        data_stream().write(HOSTILE)
+        assert capsys.readouterr().out == HOSTILE
+        monkeypatch.setattr(own_stream(sys.stdout), "isatty", lambda: True)
+        data_stream().write(HOSTILE)
+        assert not steers(capsys.readouterr().out)
+
+
+def test_no_verb_goes_round_it():
+    """Nothing in the command line takes the streams that Python keeps beside these, or their descriptors."""
+    found = [
+        f"{path.name}:{node.lineno}"
+        for path in Path(main_module.__file__).parent.glob("*.py")
+        for node in ast.walk(ast.parse(path.read_bytes()))
+        if isinstance(node, ast.Attribute) and node.attr in {"__stdout__", "__stderr__", "buffer"}
+    ]
+    assert found == []
