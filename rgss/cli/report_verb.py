@@ -54,11 +54,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Write the page; 1 if no variant meets every requirement."""
+    """Write the page; 1 if no variant meets every requirement, or if a choice is not proven best."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.report_pictures import ordered_look, trial_pictures
     from rgss.cli.sweep_verb import shown_path
-    from rgss.cli.trade_verb import fleet_of
+    from rgss.cli.trade_verb import fleet_of, is_settled
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
     from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
@@ -88,6 +88,7 @@ def run(options: argparse.Namespace) -> int:
         decision = choose(project, measured, problem=problem)
         trace = _trace(project, measured, decision, recorded, options.junit)
         found = analyse_robustness(project, measured, decision, problem=problem)
+        fleet = fleet_of(project, store)
         document = report_document(
             project,
             measured,
@@ -96,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
             store,
             evidence=label,
             screened=screened,
-            fleet=fleet_of(project, store),
+            fleet=fleet,
         )
     notable = notable_trials(measured, decision.chosen)
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
@@ -111,7 +112,7 @@ def run(options: argparse.Namespace) -> int:
     ).encode("utf-8")
     _write(options.out, page)
     _tell(options, document, len(page))
-    return CLEAN if decision.chosen is not None and not found.not_computed else FINDINGS
+    return CLEAN if is_settled(decision, fleet) and not found.not_computed else FINDINGS
 
 
 def _check_films(options: argparse.Namespace) -> None:

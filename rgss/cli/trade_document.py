@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rgss.studies.what_if import Scenario
     from rgss.tradeoff import Decision, FleetDecision
 
-SCHEMA = 1
+SCHEMA = 2
 """Rises when a key goes or changes its meaning; new keys do not count."""
 
 
@@ -57,6 +57,8 @@ def trade_document(
 
 
 def _fleet(fleet: FleetDecision) -> dict[str, Any]:
+    from rgss.tradeoff import checks_to_json
+
     return {
         "status": fleet.status.value,
         "members": list(fleet.members),
@@ -68,6 +70,9 @@ def _fleet(fleet: FleetDecision) -> dict[str, Any]:
         "value_recomputed": fleet.objective_recomputed,
         "gap": fleet.gap,
         "by_size": list(fleet.by_size),
+        "by_size_gap": list(fleet.by_size_gap),
         "unserved": list(fleet.unserved),
-        "enumeration_agrees": fleet.enumeration_agrees,
+        "enumeration_agrees": fleet.enumeration_agrees.value,
+        "checks": checks_to_json(fleet.checks),
+        "cut": None if fleet.cut is None else fleet.cut.value,
     }

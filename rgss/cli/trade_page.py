@@ -45,23 +45,35 @@ def print_cautions(project: Project, decision: Decision) -> None:
 
 
 def print_certificate(decision: Decision, evidence: str) -> None:
-    """Show what the decision is proven by, and on which evidence it stands."""
+    """Show what the decision is proven by, and its evidence."""
     from rgss.cli.output import number
+    from rgss.tradeoff import Agreement
 
     certificate = decision.certificate
-    agrees = "agrees" if certificate.enumeration_agrees else "DISAGREES"
+    compared = {
+        Agreement.AGREED: f"enumeration of all {certificate.alternatives} variants agrees",
+        Agreement.DISAGREED: f"enumeration of all {certificate.alternatives} variants DISAGREES",
+        Agreement.NOT_ENUMERATED: "not enumerated",
+    }[certificate.enumeration_agrees]
     print(
-        f"Certificate: {certificate.status.value} by {certificate.solver}, gap {number(certificate.gap)}; "
-        f"enumeration of all {certificate.alternatives} variants {agrees}."
+        f"Certificate: {certificate.status.value} by {certificate.solver}, gap {number(certificate.gap)}; {compared}."
     )
+    for check in certificate.checks:
+        if not check.agrees:
+            print(f"Check: {check.text}.")
     print(f"Evidence: {evidence}")
 
 
 def print_fleet(fleet: FleetDecision) -> None:
     """Show a portfolio of designs and who serves which study."""
     from rgss.cli.output import number, print_table
+    from rgss.tradeoff import DecisionStatus
 
     print("\nFleet")
+    cut = "" if fleet.cut is None else f" ({fleet.cut.value})"
+    if fleet.status is DecisionStatus.UNDECIDED:
+        print(f"No fleet that serves every study was found{cut}, nor that there is none was proved.")
+        return
     if fleet.objective is None:
         print(f"No fleet of this size serves every study; by itself unserved: {', '.join(fleet.unserved) or 'none'}.")
         return
@@ -70,6 +82,15 @@ def print_fleet(fleet: FleetDecision) -> None:
     print_table(["study", "served by", "variant", "value"], rows, right=(2, 3))
     sizes = ", ".join(f"{size}: {number(best)}" for size, best in enumerate(fleet.by_size, start=1))
     print(f"Value with at most so many members: {sizes}.")
+    proof = "proven best"
+    if fleet.status is DecisionStatus.BEST_FOUND:
+        proof = f"best found, not proven best: another one can be better by at most {number(fleet.gap)}{cut}"
+    elif fleet.cut is not None:
+        proof += f"; of fewer members not every value is{cut}"
+    print(f"Certificate: {proof}; enumeration of all fleets: {fleet.enumeration_agrees.value}.")
+    for check in fleet.checks:
+        if not check.agrees:
+            print(f"Check: {check.text}.")
 
 
 def _print_comparison(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> None:

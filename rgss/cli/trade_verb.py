@@ -41,6 +41,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "catalogue.COMPONENT.cost (or another property) or measures.CONSTANT, and show before and after; "
         "may be given several times",
     )
+    parser.add_argument(
+        "--time-limit",
+        metavar="TIME",
+        help='how long to prove a fleet best, such as "60 s" (default: a count of operations, about 10 s, which '
+        "gives the same answer on every machine)",
+    )
     parser.add_argument("--brief", action="store_true", help="only the decision and why")
     parser.add_argument("--effects", action="store_true", help="also what each level of each factor does to a measure")
     parser.add_argument("--section", action="store_true", help="print the decision as a section in Markdown")
@@ -50,7 +56,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Decide; 1 if no variant meets every requirement, or a part of the page could not be computed."""
+    """Decide; 1 if no variant meets every requirement, a choice is not proven best, or a part is not computed."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.screening_output import reopened_lines, screening_lines
     from rgss.cli.sweep_verb import shown_path
@@ -66,6 +72,7 @@ def run(options: argparse.Namespace) -> int:
         raise DefinitionError("--into needs --section", hint="the section is what goes into the file")
     if options.section and (options.what_if or options.json):
         raise DefinitionError("--section is of the study as it is", hint="leave --what-if and --json away")
+    time_limit = seconds_of(options.time_limit)
     place = None if options.into is None else text_with_place(options.into)
     project = chosen_project(options)
     scenario = suppose(project, options.what_if) if options.what_if else None
@@ -73,7 +80,7 @@ def run(options: argparse.Namespace) -> int:
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store)
         more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
-        fleet = fleet_of(project, store)
+        fleet = fleet_of(project, store, time_limit=time_limit)
     before = (project, measured, choose(project, measured))
     now = before
     if scenario is not None:
@@ -93,7 +100,35 @@ def run(options: argparse.Namespace) -> int:
         _print_page(options, before, now, scenario, found, fleet, label)
         if screened is not None:
             print("\n" + "\n".join([*screening_lines(screened), *reopened_lines(more)]))
-    return CLEAN if now[2].chosen is not None and (found is None or not found.not_computed) else FINDINGS
+    is_whole = found is None or not found.not_computed
+    return CLEAN if is_settled(now[2], fleet) and is_whole else FINDINGS
+
+
+def is_settled(decision: Decision, fleet: FleetDecision | None) -> bool:
+    """Whether a variant is chosen, the fleet too where there is one, and both are proven best."""
+    from rgss.tradeoff import DecisionStatus
+
+    return decision.status is DecisionStatus.OPTIMAL and (fleet is None or fleet.status is DecisionStatus.OPTIMAL)
+
+
+def seconds_of(text: str | None) -> float | None:
+    """A time limit in seconds; None without one.
+
+    Raises:
+        DefinitionError: It is not a time above 0.
+    """
+    from rgss.errors import DefinitionError, QuantityError
+    from rgss.quantities import parse_quantity
+
+    if text is None:
+        return None
+    try:
+        seconds = parse_quantity(text, "s")
+    except QuantityError as error:
+        raise DefinitionError(f"--time-limit: {error.message}", hint=error.hint or 'write "60 s"') from None
+    if seconds <= 0.0:
+        raise DefinitionError(f"--time-limit must be above 0 s, got {text}", hint='give a time, such as "60 s"')
+    return seconds
 
 
 def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, store: EvidenceStore) -> tuple[int, ...]:
@@ -118,15 +153,16 @@ def _robustness(side: tuple[Project, Sequence[VariantMeasures], Decision]) -> Ro
     return analyse_robustness(*side)
 
 
-def fleet_of(project: Project, store: Any) -> FleetDecision | None:
-    """The portfolio that the study asks for, from the evidence of every study that it serves."""
+def fleet_of(project: Project, store: Any, *, time_limit: float | None = None) -> FleetDecision | None:
+    """The portfolio of the study, from the evidence of every study that it serves; None if it has none."""
     if project.study.trade_off.fleet is None:
         return None
     from rgss.studies.fleets import choose_fleet, fleet_projects
     from rgss.studies.screening import measure_survivors
 
     projects = fleet_projects(project)
-    return choose_fleet(project, {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()})
+    measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
+    return choose_fleet(project, measured, time_limit=time_limit)
 
 
 def _print_page(

@@ -26,16 +26,22 @@ def fleet_projects(project: Project) -> Mapping[str, Project]:
     return {study: load_project(project.folder, study) for study, _ in _fleet(project).studies}
 
 
-def choose_fleet(project: Project, measured: Mapping[str, tuple[Project, Sequence[VariantMeasures]]]) -> FleetDecision:
+def choose_fleet(
+    project: Project,
+    measured: Mapping[str, tuple[Project, Sequence[VariantMeasures]]],
+    *,
+    time_limit: float | None = None,
+) -> FleetDecision:
     """Choose the designs that together serve every study best.
 
     Args:
         project: The project with the study that asks for the fleet.
         measured: For each of its studies the project with it and every variant with its estimates.
+        time_limit: Seconds to prove the fleet best, in place of a count of operations.
 
     Raises:
         EvidenceError: Trials of a study have no evidence.
-        TradeoffError: The choice is ill posed, or no optimum was proved.
+        TradeoffError: The choice is ill posed.
         DefinitionError: The studies have different designs, or no one knows what a member is.
     """
     choice = _fleet(project)
@@ -59,7 +65,8 @@ def choose_fleet(project: Project, measured: Mapping[str, tuple[Project, Sequenc
             if choice.member is None
             else {one.variant.id: _member(one.variant, choice.member) for one in variants},
             aim=choice.aim,
-        )
+        ),
+        time_limit=time_limit,
     )
 
 

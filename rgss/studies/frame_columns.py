@@ -258,6 +258,8 @@ _FLEET = FrameDescription(
         Column(name="member", meaning="member of the fleet that serves it: a component, or a variant"),
         Column(name="variant", meaning="id of the design variant that serves it", unit="1", kind=Kind.COUNT),
         Column(name="value", meaning="its weighted value in that study", unit="1", kind=Kind.NUMBER),
+        Column(name="status", meaning="of the fleet: optimal, or best found where that is not proven"),
+        Column(name="gap", meaning="by how much another fleet can be better at most", unit="1", kind=Kind.NUMBER),
     ),
 )
 

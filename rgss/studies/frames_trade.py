@@ -156,7 +156,14 @@ def changes_frame(scenario: Scenario | None) -> pd.DataFrame:
 def fleet_frame(fleet: FleetDecision) -> pd.DataFrame:
     """One row for each study that the fleet serves; none if no fleet serves all of them."""
     rows = [
-        {"study": one.task, "member": one.member, "variant": one.variant, "value": one.value}
+        {
+            "study": one.task,
+            "member": one.member,
+            "variant": one.variant,
+            "value": one.value,
+            "status": fleet.status.value,
+            "gap": fleet.gap,
+        }
         for one in fleet.assignments
     ]
     return described_frame("fleet", rows)

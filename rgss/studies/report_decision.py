@@ -16,7 +16,7 @@ from rgss.studies.robustness_export import assumptions_to_json, costs_to_json
 from rgss.studies.robustness_parts import not_computed_lines
 from rgss.studies.screening import ScreeningResult, screening_summary
 from rgss.trace.figures import value_in_words
-from rgss.tradeoff import Decision, FleetDecision
+from rgss.tradeoff import Decision, DecisionStatus, FleetDecision
 from rgss.tradeoff.columns import condition_column
 from rgss.tradeoff.conditions import Comparison
 from rgss.tradeoff.evidence_table import tabulated
@@ -79,7 +79,8 @@ def decision_part(
             "alternatives": certificate.alternatives,
             "objective": certificate.objective,
             "objective_recomputed": certificate.objective_recomputed,
-            "enumeration_agrees": certificate.enumeration_agrees,
+            "enumeration_agrees": certificate.enumeration_agrees.value,
+            "checks": [check.text for check in certificate.checks],
         },
         "acceptability": _acceptability(found),
         "weight_ranges": _weight_ranges(found),
@@ -160,10 +161,19 @@ def _cautions(project: Project, decision: Decision) -> Iterator[str]:
 
 
 def _fleet(fleet: FleetDecision) -> str:
+    if fleet.objective is None and fleet.status is DecisionStatus.UNDECIDED:
+        return f"No fleet that serves every study was found before the {_cut(fleet)}; there may be one."
     if fleet.objective is None:
         return f"No fleet of this size serves every study; unserved: {', '.join(fleet.unserved) or 'none'}."
     served = "; ".join(f"{one.task} by {one.member} (variant {one.variant})" for one in fleet.assignments)
-    return f"Fleet: {', '.join(fleet.members)} together serve every study: {served}."
+    text = f"Fleet: {', '.join(fleet.members)} together serve every study: {served}."
+    if fleet.status is DecisionStatus.BEST_FOUND:
+        text += f" Best found, not proven best: another one can be better by at most {fleet.gap:.4g} ({_cut(fleet)})."
+    return text
+
+
+def _cut(fleet: FleetDecision) -> str:
+    return "end of the proof" if fleet.cut is None else fleet.cut.value
 
 
 def _acceptability(found: Robustness) -> Plain | None:

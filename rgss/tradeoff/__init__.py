@@ -1,6 +1,7 @@
 """Trade-off: values, weights and thresholds in; a certified and explained decision out."""
 
 from rgss.tradeoff.certificate import Certificate, ConstraintResidual, StageCertificate
+from rgss.tradeoff.checks import Agreement, Check, CheckKind
 from rgss.tradeoff.conditions import ChanceBound, Comparison, Condition, Risk, TailBound, Threshold
 from rgss.tradeoff.conflicts import (
     Conflicts,
@@ -21,8 +22,10 @@ from rgss.tradeoff.decision import (
     RankedAlternative,
 )
 from rgss.tradeoff.evidence_table import Alternative, EvidenceTable, Samples
-from rgss.tradeoff.export import certificate_to_json, decision_to_json, fleet_to_json
-from rgss.tradeoff.fleet import Assignment, FleetAim, FleetDecision, FleetProblem, FleetTask, decide_fleet
+from rgss.tradeoff.export import certificate_to_json, checks_to_json, decision_to_json, fleet_to_json
+from rgss.tradeoff.fleet import Assignment, FleetDecision, FleetProblem, FleetTask, decide_fleet
+from rgss.tradeoff.fleet_checks import FleetAim
+from rgss.tradeoff.fleet_work import Cut
 from rgss.tradeoff.hierarchy import CriterionNode, weighting_of, weights_of_criteria
 from rgss.tradeoff.level_problem import LevelDecision, LevelProblem, decide_levels
 from rgss.tradeoff.level_selection import LevelTable, smallest_table
@@ -40,11 +43,14 @@ from rgss.tradeoff.weighting import RankRule, Weighting, weights_from_points, we
 
 __all__ = [
     "AdditiveValue",
+    "Agreement",
     "Aim",
     "Alternative",
     "Assignment",
     "Certificate",
     "ChanceBound",
+    "Check",
+    "CheckKind",
     "Comparison",
     "Condition",
     "ConflictSurvival",
@@ -53,6 +59,7 @@ __all__ = [
     "Contribution",
     "Counts",
     "CriterionNode",
+    "Cut",
     "Decision",
     "DecisionStatus",
     "ElicitedInterval",
@@ -100,6 +107,7 @@ __all__ = [
     "Weighting",
     "best_alternatives",
     "certificate_to_json",
+    "checks_to_json",
     "decide",
     "decide_fleet",
     "decide_levels",

@@ -1,12 +1,13 @@
-"""The certificate of a decision: the solver's answer recomputed and held against enumeration."""
+"""Certificate of a decision: the solver's answer re-evaluated and checked independently."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from rgss.tradeoff.checks import Agreement, Check, CheckKind
 from rgss.tradeoff.status import DecisionStatus
 from rgss.tradeoff.values import TIE_TOLERANCE
 
@@ -55,7 +56,7 @@ class Certificate:
     """Why a decision can be trusted.
 
     Attributes:
-        status: What the solver proved.
+        status: What was proved; best found where a stage's optimality was not.
         solver: Which solver.
         program: Which program.
         alternatives: How many alternatives the problem has.
@@ -66,10 +67,14 @@ class Certificate:
         objective: The last stage's objective as the solver has it; None if infeasible.
         objective_recomputed: The same in NumPy from the evidence; None if infeasible or unknown.
         gap: How much better the best feasible alternative of the enumeration is; 0 up to the
-            tolerance of ties; None if infeasible, or if the choice is not even feasible.
+            tolerance of ties; where nothing was enumerated, how much better one can be by the bound
+            that was proved. None if infeasible, or if the choice is not even feasible.
         residuals: The constraints at the solver's choice; empty if infeasible.
-        enumeration_agrees: Enumeration comes to the same status, and for an optimum: the solver's
+        enumeration_agrees: Whether exhaustive enumeration agrees with the solver's answers; true only
+            where it was made and agrees: it comes to the same status, and for an optimum the solver's
             choice is among the tied best, its objective is right and it violates nothing.
+        recomputation_agrees: The same, among those alternatives that were evaluated.
+        checks: The independent checks that were made.
     """
 
     status: DecisionStatus
@@ -83,19 +88,27 @@ class Certificate:
     objective_recomputed: float | None
     gap: float | None
     residuals: tuple[ConstraintResidual, ...]
-    enumeration_agrees: bool
+    enumeration_agrees: Agreement
+    recomputation_agrees: bool
+    checks: tuple[Check, ...]
 
 
 def certify(
-    preferences: Preferences, enumeration: Enumeration, solutions: Sequence[StageSolution], *, considered: int
+    preferences: Preferences,
+    enumeration: Enumeration,
+    solutions: Sequence[StageSolution],
+    *,
+    considered: int,
+    whole: bool = True,
 ) -> Certificate:
-    """Hold the solver's answer against the evidence and against enumeration.
+    """Compare the solver's answer with the evidence and with enumeration.
 
     Args:
         preferences: What is wanted.
-        enumeration: Every alternative evaluated.
+        enumeration: Every alternative evaluated, or those that are known.
         solutions: The solver's answers, stage by stage; of an infeasible problem the one that says so.
         considered: How many alternatives the program held.
+        whole: Whether the enumeration has every alternative.
 
     Returns:
         The certificate, whether or not the two agree.
@@ -118,20 +131,49 @@ def certify(
             and math.isclose(last.objective, recomputed, rel_tol=TIE_TOLERANCE, abs_tol=TIE_TOLERANCE)
             and all(residual.residual == 0.0 for residual in residuals[1:])
         )
+    enumerated, checks = _checks(solutions, agrees=agrees, enumerated=len(enumeration.table) if whole else None)
+    best_found = last.alternative is not None and any(one.status is DecisionStatus.BEST_FOUND for one in solutions)
     return Certificate(
-        status=last.status,
+        status=DecisionStatus.BEST_FOUND if best_found else last.status,
         solver="HIGHS",
         program=preferences.program.name,
-        alternatives=len(enumeration.table),
+        alternatives=len(enumeration.table) if whole else considered,
         considered=considered,
         stages=stage_certificates(solutions),
         solver_choice=None if last.alternative is None else last.alternative.variant,
         objective=last.objective,
         objective_recomputed=recomputed,
-        gap=gap,
+        gap=gap if whole else _unproven_gap(solutions),
         residuals=residuals,
-        enumeration_agrees=agrees,
+        enumeration_agrees=enumerated,
+        recomputation_agrees=agrees,
+        checks=checks,
     )
+
+
+def _unproven_gap(solutions: Sequence[StageSolution]) -> float | None:
+    """The last stage's gap, and what earlier stages that are not proven may add to it; None if infeasible."""
+    last = solutions[-1].gap
+    earlier = [one.gap for one in solutions[:-1] if one.status is DecisionStatus.BEST_FOUND and one.gap is not None]
+    return None if last is None else last + max(earlier, default=0.0)
+
+
+def _checks(
+    solutions: Sequence[StageSolution], *, agrees: bool, enumerated: int | None
+) -> tuple[Agreement, tuple[Check, ...]]:
+    """Agreement with enumeration, and every check that was made, with the stage where there are several."""
+    checks = [
+        replace(check, detail=f"{solution.name}: {check.detail}") if len(solutions) > 1 else check
+        for solution in solutions
+        for check in solution.checks
+    ]
+    if enumerated is not None:
+        detail = f"the whole program evaluated at {enumerated} alternatives"
+        checks.append(Check(kind=CheckKind.ENUMERATION, agrees=agrees, detail=detail))
+    elif not all(solution.exhaustive for solution in solutions):
+        return Agreement.NOT_ENUMERATED, tuple(checks)
+    right = all(check.agrees for check in checks if check.kind is CheckKind.ENUMERATION)
+    return Agreement.AGREED if right else Agreement.DISAGREED, tuple(checks)
 
 
 def stage_certificates(solutions: Sequence[StageSolution]) -> tuple[StageCertificate, ...]:

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.certificate import Certificate, certify
+from rgss.tradeoff.checks import Agreement, Check, CheckKind
 from rgss.tradeoff.conflicts import Conflicts, find_conflicts
 from rgss.tradeoff.decision import Counts, Decision
 from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.selection import Selection, VariantSelection
-from rgss.tradeoff.stage import StageSolver
+from rgss.tradeoff.stage import RUNS, StageSolver
 from rgss.tradeoff.terms import Exclusion
 
 if TYPE_CHECKING:
@@ -137,12 +138,30 @@ def _certified(problem: TradeProblem, enumeration: Enumeration, excluded: tuple[
         model = LevelModel.of(problem.levels, considered, tuple(problem.measures_named))
         select = lambda: LevelSelection(model)  # noqa: E731
         exclusions = tuple(Exclusion(alternative=one) for one in excluded)
-    solver = StageSolver(select=select, constraints=(*problem.constraints, *exclusions))
-    solutions = problem.program.solve(problem, solver)
-    certificate = certify(problem, enumeration, solutions, considered=len(considered))
-    if not certificate.enumeration_agrees:
-        raise _disagreement(enumeration, certificate)
-    return certificate
+    contradicted: TradeoffError | None = None
+    for run in RUNS:
+        solver = StageSolver(select=select, constraints=(*problem.constraints, *exclusions), run=run)
+        try:
+            solutions = problem.program.solve(problem, solver)
+        except TradeoffError as error:
+            contradicted = error
+            continue
+        certificate = certify(problem, enumeration, solutions, considered=len(considered))
+        if certificate.enumeration_agrees is Agreement.AGREED:
+            return _noted(certificate, contradicted)
+        contradicted = _disagreement(enumeration, certificate)
+    assert contradicted is not None  # noqa: S101 - there is at least one run
+    raise contradicted
+
+
+def _noted(certificate: Certificate, contradicted: TradeoffError | None) -> Certificate:
+    """The certificate with the answer of an earlier run that was discarded."""
+    if contradicted is None:
+        return certificate
+    check = Check(
+        kind=CheckKind.SECOND_RUN, agrees=False, detail=f"an earlier run was discarded: {contradicted.message}"
+    )
+    return replace(certificate, checks=(*certificate.checks, check))
 
 
 def _explained(problem: TradeProblem, enumeration: Enumeration, seed: int, resamples: int | None) -> Conflicts | None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 
 from rgss.tradeoff.certificate import Certificate
+from rgss.tradeoff.checks import Check
 from rgss.tradeoff.conflicts import Conflicts, LimitChange, RequirementCount
 from rgss.tradeoff.decision import Contribution, Decision, InfeasibleAlternative
 from rgss.tradeoff.fleet import FleetDecision
@@ -63,7 +64,9 @@ def decision_to_json(decision: Decision) -> dict[str, object]:
 def certificate_to_json(certificate: Certificate) -> dict[str, object]:
     """Turn a certificate into plain values."""
     return {
-        "enumeration_agrees": certificate.enumeration_agrees,
+        "enumeration_agrees": certificate.enumeration_agrees.value,
+        "recomputation_agrees": certificate.recomputation_agrees,
+        "checks": checks_to_json(certificate.checks),
         "status": certificate.status.value,
         "solver": certificate.solver,
         "program": certificate.program,
@@ -88,6 +91,11 @@ def certificate_to_json(certificate: Certificate) -> dict[str, object]:
     }
 
 
+def checks_to_json(checks: Iterable[Check]) -> list[dict[str, object]]:
+    """Turn the independent checks of an answer into plain values."""
+    return [{"kind": check.kind.value, "agrees": check.agrees, "detail": check.detail} for check in checks]
+
+
 def fleet_to_json(decision: FleetDecision) -> dict[str, object]:
     """Turn the choice of a fleet into plain values."""
     return {
@@ -99,13 +107,15 @@ def fleet_to_json(decision: FleetDecision) -> dict[str, object]:
         ],
         "objective": decision.objective,
         "by_size": list(decision.by_size),
+        "by_size_gap": list(decision.by_size_gap),
         "unserved": list(decision.unserved),
         "certificate": {
-            "solver": "HIGHS",
             "considered": decision.considered,
             "objective_recomputed": decision.objective_recomputed,
             "gap": decision.gap,
-            "enumeration_agrees": decision.enumeration_agrees,
+            "enumeration_agrees": decision.enumeration_agrees.value,
+            "checks": checks_to_json(decision.checks),
+            "cut": None if decision.cut is None else decision.cut.value,
         },
     }
 

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-import itertools
 import math
+import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from enum import Enum
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
+from rgss.tradeoff.checks import Agreement, Check, CheckKind
+from rgss.tradeoff.fleet_checks import (
+    LARGEST_SOLVED,
+    FleetAim,
+    best_portfolio,
+    portfolio_objective,
+    solved_portfolio,
+)
+from rgss.tradeoff.fleet_work import MOST_WORK, Cut, Work
 from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.program import AdditiveValue
-from rgss.tradeoff.selection import INTEGRALITY_TOLERANCE
-from rgss.tradeoff.stage import OBJECTIVE_SCALE, proven_gap, solve_program
 from rgss.tradeoff.status import DecisionStatus
 from rgss.tradeoff.values import TIE_TOLERANCE
 from rgss.tradeoff.weighting import Weighting
@@ -22,15 +28,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-MOST_ENTRIES = 20_000_000
-"""So many values of members in tasks are looked at to enumerate all portfolios and check the solver's answer."""
-
-
-class FleetAim(str, Enum):
-    """What a portfolio is judged by: the weighted mean of the tasks' values, or the worst of them."""
-
-    MEAN = "mean"
-    WORST = "worst"
+    from rgss.tradeoff.fleet_mean import SizeAnswer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,18 +117,23 @@ class FleetDecision:
     """The outcome of choosing a fleet.
 
     Attributes:
-        status: Optimal, or infeasible if no fleet of the size serves every task.
-        members: The chosen members: of the tied best portfolios one with the fewest, and of these
-            the first in the order of their smallest variants.
+        status: Optimal; best found where a limit ended the proof; infeasible if no fleet of the size
+            serves every task; undecided where a limit ended the search for one.
+        members: The chosen members: of the tied best portfolios one with the fewest, and of these,
+            where all were enumerated, the first in the order of their smallest variants.
         assignments: Who serves each task.
-        objective: Mean or worst value; None if infeasible.
-        by_size: The best objective with at most 1, 2, … members; None where infeasible.
+        objective: Mean or worst value; None if there is none.
+        by_size: The best objective with at most 1, 2, … members that was found; None where there is
+            none. It never falls.
+        by_size_gap: How much better a portfolio of each size can be at most; None where none was found.
         unserved: Tasks that no alternative serves at all.
-        gap: How far the bound that the solver proved is from its objective; None if infeasible.
-        objective_recomputed: The objective of the chosen members in NumPy; None if infeasible.
+        gap: How far the bound that was proved is from the objective; None if there is none.
+        objective_recomputed: The objective of the chosen members in NumPy; None if there is none.
         considered: How many members were left after exact reduction.
-        enumeration_agrees: Whether enumeration of all portfolios comes to the same objective; None
-            where there are too many.
+        enumeration_agrees: Whether enumeration of all portfolios comes to the same objective.
+        checks: The independent checks that were made.
+        cut: The limit that ended a proof; None if all are complete. Under a time limit the answer
+            depends on the machine.
     """
 
     status: DecisionStatus
@@ -138,78 +141,166 @@ class FleetDecision:
     assignments: tuple[Assignment, ...]
     objective: float | None
     by_size: tuple[float | None, ...]
+    by_size_gap: tuple[float | None, ...]
     unserved: tuple[str, ...]
     gap: float | None
     objective_recomputed: float | None
     considered: int
-    enumeration_agrees: bool | None
+    enumeration_agrees: Agreement
+    checks: tuple[Check, ...]
+    cut: Cut | None
 
 
-def decide_fleet(problem: FleetProblem) -> FleetDecision:
-    """Choose the best portfolio and prove it.
+def decide_fleet(
+    problem: FleetProblem, *, time_limit: float | None = None, most_work: int = MOST_WORK
+) -> FleetDecision:
+    """Choose the best portfolio, with a bound on how much better another one can be.
 
-    A member's value in a task is that of its best feasible alternative. ``max Σ_t w_t Σ_g h_gt x_gt``
-    (or the least of ``Σ_g h_gt x_gt``) with ``Σ_g x_gt = 1``, ``x_gt <= y_g``, ``Σ_g y_g <= k``, y boolean:
-    the facility-location model. A member that another is at least as good as in every task is left
-    out before.
+    A member's value in a task is that of its best feasible alternative. A member that another is at
+    least as good as in every task is left out before. For each size a portfolio is searched for by
+    greedy choice and exchanges, and proven best by branch and bound: with Lagrangian bounds for the
+    mean, over covers for the worst task. Both bounds are computed in NumPy from the values alone.
+    Where it is small enough, HiGHS solves the mixed-integer program as well, and all portfolios are
+    enumerated; what they find better is used.
+
+    Args:
+        problem: The problem.
+        time_limit: Seconds for the proofs, in place of the work limit; the answer then depends on the
+            machine.
+        most_work: The work limit: so many values are looked at, the same on every machine.
 
     Raises:
-        TradeoffError: The solver failed or contradicts enumeration.
+        TradeoffError: The time limit is not positive.
     """
     import numpy as np
 
+    if time_limit is not None and not (math.isfinite(time_limit) and time_limit > 0.0):
+        raise TradeoffError(f"the time limit must be positive, got {time_limit:g} s", hint="give seconds, such as 60")
     names, values, best_variants = _member_values(problem)
     weights = np.array([task.weight for task in problem.tasks])
     unserved = tuple(task.name for task, column in zip(problem.tasks, values.T, strict=True) if (column < 0.0).all())
     kept = _undominated(values)
-    by_size: list[float | None] = []
-    solved: tuple[tuple[int, ...], float, float] | None = None
-    for size in range(1, min(problem.at_most, len(kept)) + 1):
-        solved = _solved(values[kept], weights, size, problem.aim)
-        by_size.append(None if solved is None else solved[1])
-    by_size += by_size[-1:] * (problem.at_most - len(by_size))
-    enumerated = _enumerated(values[kept], weights, problem.at_most, problem.aim)
-    infeasible = FleetDecision(
-        status=DecisionStatus.INFEASIBLE,
-        members=(),
-        assignments=(),
-        objective=None,
-        by_size=tuple(by_size),
-        unserved=unserved,
-        gap=None,
-        objective_recomputed=None,
-        considered=len(kept),
-        enumeration_agrees=None if enumerated is None else enumerated[0] is None,
-    )
-    if solved is None:
-        if enumerated is not None and enumerated[0] is not None:
-            raise _contradiction(None, enumerated[1])
-        return infeasible
-    rows, objective, gap = solved
-    agrees = None
+    answers, cut = _by_size(problem, values[kept], weights, time_limit, most_work)
+    best, bound = answers[-1].objective, answers[-1].bound
+    # Of equally good sizes the smallest.
+    rows = next(one.rows for one in answers if one.objective >= best - TIE_TOLERANCE)
+    rows, checks = _checked(problem, values[kept], weights, rows)
+    enumerated = best_portfolio(values[kept], weights, problem.at_most, problem.aim)
+    agreement = Agreement.NOT_ENUMERATED
     if enumerated is not None:
-        members, best = enumerated
-        if members is None or abs(best - objective) > TIE_TOLERANCE:
-            raise _contradiction(objective, best)
-        rows, agrees = members, True
-    chosen = [int(kept[row]) for row in rows]
-    recomputed = float(_objective(values[chosen], weights, problem.aim))
-    if abs(recomputed - objective) > TIE_TOLERANCE:
-        raise _contradiction(objective, recomputed)
+        found = enumerated[0] or ()
+        same = abs(enumerated[1] - _score(problem, values[kept], weights, answers[-1].rows)) <= TIE_TOLERANCE
+        agreement = Agreement.AGREED if same else Agreement.DISAGREED
+        rows, bound, cut = found, enumerated[1], None
+        checks.append(Check(kind=CheckKind.ENUMERATION, agrees=same, detail="all portfolios evaluated"))
+    objective = _score(problem, values[kept], weights, rows)
+    # A member that serves no task best is left out.
+    chosen = sorted({int(kept[rows[place]]) for place in values[kept[list(rows)]].argmax(axis=0)}) if rows else []
+    by_size, gaps = _sizes(answers, objective, bound, problem.at_most)
+    if rows:
+        # A portfolio above its bound contradicts the proof, so that nothing is proven.
+        proven = abs(bound - objective) <= TIE_TOLERANCE
+        status = DecisionStatus.OPTIMAL if proven else DecisionStatus.BEST_FOUND
+    else:
+        status = DecisionStatus.INFEASIBLE if bound < 0.0 else DecisionStatus.UNDECIDED
+    recomputed = float(portfolio_objective(values[chosen], weights, problem.aim)) if chosen else None
     return FleetDecision(
-        status=DecisionStatus.OPTIMAL,
+        status=status,
         members=tuple(names[row] for row in chosen),
         assignments=tuple(
             _assignment(task, [(float(values[row, at]), -best_variants[row][at], names[row]) for row in chosen])
             for at, task in enumerate(problem.tasks)
+            if chosen
         ),
-        objective=objective,
-        by_size=tuple(by_size),
+        objective=objective if rows else None,
+        by_size=by_size,
+        by_size_gap=gaps,
         unserved=unserved,
-        gap=gap,
+        gap=max(0.0, bound - objective) if rows else None,
         objective_recomputed=recomputed,
         considered=len(kept),
-        enumeration_agrees=agrees,
+        enumeration_agrees=agreement,
+        checks=tuple(checks),
+        cut=cut,
+    )
+
+
+def _by_size(
+    problem: FleetProblem,
+    values: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    time_limit: float | None,
+    most_work: int,
+) -> tuple[list[SizeAnswer], Cut | None]:
+    """The best portfolio of each size, each at least as good as the one before, and what cut a proof."""
+    from rgss.tradeoff.fleet_mean import best_mean
+    from rgss.tradeoff.fleet_primal import profits_of, search_portfolio
+    from rgss.tradeoff.fleet_worst import best_worst, worst_of
+
+    profits = profits_of(values, weights)
+    sizes = range(1, min(problem.at_most, len(values)) + 1)
+    began = time.monotonic()
+    answers: list[SizeAnswer] = []
+    cut: Cut | None = None
+    rows: tuple[int, ...] = ()
+    for size in sizes:
+        deadline = None if time_limit is None else began + time_limit * size / len(sizes)
+        work = Work(most_work // len(sizes) if time_limit is None else None, deadline)
+        if problem.aim is FleetAim.MEAN:
+            answer = best_mean(profits, size, rows, TIE_TOLERANCE, work)
+        else:
+            candidates = (rows, search_portfolio(profits, size, (rows,)))
+            start = max(candidates, key=lambda one: worst_of(values, one))
+            answer = best_worst(values, size, start, TIE_TOLERANCE, work)
+        if answers and answers[-1].rows and answer.objective < answers[-1].objective:
+            answer = replace(answers[-1], bound=max(answer.bound, answers[-1].objective))
+        answers.append(answer)
+        rows = answer.rows
+        cut = cut or work.cut
+    # More members never serve worse, so what bounds many bounds fewer as well.
+    for at in range(len(answers) - 2, -1, -1):
+        answers[at] = replace(answers[at], bound=min(answers[at].bound, answers[at + 1].bound))
+    return answers, cut
+
+
+def _checked(
+    problem: FleetProblem, values: NDArray[np.float64], weights: NDArray[np.float64], rows: tuple[int, ...]
+) -> tuple[tuple[int, ...], list[Check]]:
+    """The better of a portfolio and the solver's, and what the solver came to."""
+    if values.size > LARGEST_SOLVED:
+        return rows, []
+    ours = _score(problem, values, weights, rows)
+    try:
+        found = solved_portfolio(values, weights, min(problem.at_most, len(values)), problem.aim) or ()
+    except TradeoffError as error:
+        detail = f"the mixed-integer program was not completed: {error.message}"
+        return rows, [Check(kind=CheckKind.SECOND_RUN, agrees=False, detail=detail)]
+    theirs = _score(problem, values, weights, found)
+    agrees = abs(theirs - ours) <= TIE_TOLERANCE
+    detail = "HiGHS on the mixed-integer program"
+    if not agrees:
+        detail += f": {'no portfolio' if theirs < 0.0 else f'{theirs:.9g}'} instead of {ours:.9g}; the better is used"
+    better = found if theirs > ours + TIE_TOLERANCE else rows
+    return better, [Check(kind=CheckKind.SECOND_RUN, agrees=agrees, detail=detail)]
+
+
+def _score(
+    problem: FleetProblem, values: NDArray[np.float64], weights: NDArray[np.float64], rows: tuple[int, ...]
+) -> float:
+    """The objective of a portfolio; -1 if it is empty or serves a task not at all."""
+    return float(portfolio_objective(values[list(rows)], weights, problem.aim)) if rows else -1.0
+
+
+def _sizes(
+    answers: list[SizeAnswer], objective: float, bound: float, at_most: int
+) -> tuple[tuple[float | None, ...], tuple[float | None, ...]]:
+    """The objective and the gap of each size; the last is what is decided."""
+    found = [*answers[:-1], replace(answers[-1], objective=objective, bound=max(bound, objective))]
+    found += found[-1:] * (at_most - len(found))
+    known = [one if one.objective >= 0.0 else None for one in found]
+    return (
+        tuple(None if one is None else one.objective for one in known),
+        tuple(None if one is None else max(0.0, one.bound - one.objective) for one in known),
     )
 
 
@@ -245,76 +336,3 @@ def _undominated(values: NDArray[np.float64]) -> NDArray[np.intp]:
     _, first = np.unique(values, axis=0, return_index=True)
     rows = np.sort(first)
     return np.asarray(rows[nondominated(values[rows])], dtype=np.intp)
-
-
-def _objective(values: NDArray[np.float64], weights: NDArray[np.float64], aim: FleetAim) -> Any:
-    """The objective of portfolios, shape (..., members, tasks) to (...); negative where a task is not served."""
-    import numpy as np
-
-    best = values.max(axis=-2)
-    served = (best >= 0.0).all(axis=-1)
-    score = best @ weights if aim is FleetAim.MEAN else best.min(axis=-1)
-    return np.where(served, score, -1.0)
-
-
-def _solved(
-    values: NDArray[np.float64], weights: NDArray[np.float64], at_most: int, aim: FleetAim
-) -> tuple[tuple[int, ...], float, float] | None:
-    """The chosen rows, the objective and the gap of the mixed-integer program; None if infeasible."""
-    import cvxpy
-    import numpy as np
-
-    members, tasks = values.shape
-    chosen = cvxpy.Variable(members, boolean=True)
-    serves = cvxpy.Variable((members, tasks), nonneg=True)
-    able = values >= 0.0
-    constraints = [
-        cvxpy.sum(serves, axis=0) == 1.0,
-        serves <= cvxpy.multiply(able, chosen[:, None] @ np.ones((1, tasks))),
-        cvxpy.sum(chosen) <= float(at_most),
-    ]
-    by_task = cvxpy.sum(cvxpy.multiply(np.where(able, values, 0.0), serves), axis=0)
-    objective = weights @ by_task if aim is FleetAim.MEAN else cvxpy.min(by_task)
-    program = cvxpy.Problem(cvxpy.Maximize(OBJECTIVE_SCALE * objective), constraints)
-    if not solve_program(program):
-        return None
-    answer = np.asarray(chosen.value, dtype=np.float64)
-    error = float(np.abs(answer - answer.round()).max())
-    if error > INTEGRALITY_TOLERANCE:
-        raise TradeoffError(
-            f"the solver's answer selects no fleet (off by {error:.3g})",
-            hint="the answer is not used; look for measures of extreme magnitude",
-        )
-    open_rows = np.flatnonzero(answer > 0.5)
-    # The program may choose a member that is the best in no task; it is left out.
-    rows = tuple(sorted({int(open_rows[place]) for place in values[open_rows].argmax(axis=0)}))
-    return rows, float(_objective(values[list(rows)], weights, aim)), proven_gap(program) / OBJECTIVE_SCALE
-
-
-def _enumerated(
-    values: NDArray[np.float64], weights: NDArray[np.float64], at_most: int, aim: FleetAim
-) -> tuple[tuple[int, ...] | None, float] | None:
-    """The best portfolio of all, with the fewest members; None if there are too many to look at."""
-    import numpy as np
-
-    count = len(values)
-    sizes = range(1, min(at_most, count) + 1)
-    if sum(math.comb(count, size) * size for size in sizes) * values.shape[1] > MOST_ENTRIES:
-        return None
-    best: tuple[tuple[int, ...] | None, float] = (None, -1.0)
-    for size in sizes:
-        portfolios = np.array(list(itertools.combinations(range(count), size)), dtype=np.intp)
-        scores = _objective(values[portfolios], weights, aim)
-        top = float(scores.max())
-        if top >= 0.0 and (best[0] is None or top > best[1] + TIE_TOLERANCE):
-            place = int(np.flatnonzero(scores >= top - TIE_TOLERANCE)[0])
-            best = (tuple(portfolios[place].tolist()), top)
-    return best
-
-
-def _contradiction(solver: float | None, ours: object) -> TradeoffError:
-    theirs = "no fleet" if solver is None else f"a fleet of value {solver}"
-    return TradeoffError(
-        f"the solver finds {theirs}, enumeration finds {ours}",
-        hint="no decision is made on contradictory answers; look for measures of extreme magnitude",
-    )

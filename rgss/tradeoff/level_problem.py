@@ -15,14 +15,20 @@ from rgss.tradeoff.level_space import LevelSpace
 from rgss.tradeoff.preferences import Preferences, check_preferences
 from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.program import AdditiveValue, Program
-from rgss.tradeoff.stage import StageSolver
+from rgss.tradeoff.stage import StageSolution
 from rgss.tradeoff.status import DecisionStatus
 from rgss.tradeoff.values import ValueFunction
 from rgss.tradeoff.weight_bounds import WeightBounds
 from rgss.tradeoff.weighting import Weighting
 
-LARGEST_ENUMERATED = 100_000
-"""Up to so many combinations are enumerated to check the solver's answer."""
+LARGEST_ENUMERATED = 5_000_000
+"""Up to so many combinations are evaluated, block by block, to check each stage of the solver's answer."""
+
+LARGEST_TABULATED = 1_000_000
+"""Up to so many combinations are held in one table, by which the whole program is checked at once."""
+
+MOST_ROUNDS = 3
+"""So often a program is solved anew where a later stage finds better designs than an earlier one."""
 
 Table = LevelTable[float | None]
 
@@ -135,15 +141,14 @@ class LevelDecision:
     """The outcome of a choice of levels.
 
     Attributes:
-        status: Optimal or infeasible.
+        status: Optimal, best found or infeasible.
         levels: The level of each factor; empty if infeasible.
         variant: The number of the combination among all, from 1; None if infeasible.
         measures: What the design is in every measure; empty if infeasible.
         combinations: How many combinations of levels there are, excluded ones included.
-        certificate: What the solver proved, recomputed from the tables. Where there are more than
-            `LARGEST_ENUMERATED` combinations it is held against the designs that the solver met on
-            the way alone, and the proof of optimality is the solver's bound.
-        enumerated: Whether it is held against all combinations.
+        certificate: What was proved and by which checks, recomputed from the tables.
+        enumerated: Whether each stage was compared with all combinations, which is done up to
+            `LARGEST_ENUMERATED`.
     """
 
     status: DecisionStatus
@@ -159,13 +164,17 @@ def decide_levels(problem: LevelProblem) -> LevelDecision:
     """Choose the best combination of levels and prove it.
 
     The size of the program is that of the tables, not of all combinations. Of equally good ones,
-    any may be chosen.
+    any may be chosen. Every answer of the solver is checked: by evaluating all combinations where
+    these are few enough, elsewhere by a second run with other options, a primal search and interval
+    branch and bound. An answer that a check contradicts is replaced by the better one; what then is
+    not proven is called best found, with its gap.
 
     Raises:
-        TradeoffError: The solver failed, proved neither optimality nor infeasibility, or its
-            answer violates a constraint or contradicts enumeration; or no combination is a design.
+        TradeoffError: Neither a feasible design was found nor that there is none was proved, the
+            stages contradict each other, or no combination is a design.
     """
-    from rgss.tradeoff.enumeration import enumerate_alternatives
+    from rgss.tradeoff.level_grid import LevelGrid
+    from rgss.tradeoff.level_guard import GuardedStageSolver
 
     first = problem.some_design()
     model = LevelModel(
@@ -175,31 +184,64 @@ def decide_levels(problem: LevelProblem) -> LevelDecision:
         alternative_of=problem.alternative,
         levels_of=problem.levels_of,
     )
-    solver = StageSolver(select=lambda: LevelSelection(model), constraints=problem.constraints)
-    solutions = problem.program.solve(problem, solver)
-    last = solutions[-1].alternative
-    met = {solution.alternative.variant: solution.alternative for solution in solutions if solution.alternative}
-    enumerated = problem.space.size <= LARGEST_ENUMERATED
-    if enumerated or not met:
-        some = problem.enumerated() if enumerated else problem.among((first,))
+    exhaustive = problem.space.size <= LARGEST_ENUMERATED
+    grid = LevelGrid.of(problem.space, problem.tables)
+    solver = GuardedStageSolver(
+        select=lambda: LevelSelection(model),
+        constraints=problem.constraints,
+        grid=grid,
+        model=model,
+        exhaustive=exhaustive,
+    )
+    tabulated = (
+        problem.among(grid.table()) if problem.space.size <= min(LARGEST_TABULATED, LARGEST_ENUMERATED) else None
+    )
+    for _ in range(MOST_ROUNDS):
+        solutions = problem.program.solve(problem, solver)
+        certificate = _certified(problem, first, solutions, tabulated)
+        if certificate is not None:
+            break
     else:
-        some = problem.among(tuple(met.values()))
-    certificate = certify(problem, enumerate_alternatives(some), solutions, considered=problem.space.size)
-    if not certificate.enumeration_agrees:
         raise TradeoffError(
-            f"the solver chooses the levels of design {certificate.solver_choice}, which enumeration does not",
+            f"the stages of the {problem.program.name} program contradict each other",
             hint="no decision is made on contradictory answers; look for measures of extreme magnitude",
         )
+    last = solutions[-1].alternative
     levels = () if last is None else problem.levels_of(last.variant)
     return LevelDecision(
-        status=solutions[-1].status,
+        status=certificate.status,
         levels=dict(zip((factor.id for factor in problem.space.factors), levels, strict=False)),
         variant=None if last is None else last.variant,
         measures={} if last is None else dict(last.measures),
         combinations=problem.space.size,
         certificate=certificate,
-        enumerated=enumerated,
+        enumerated=exhaustive,
     )
+
+
+def _certified(
+    problem: LevelProblem, first: Alternative, solutions: Sequence[StageSolution], tabulated: TradeProblem | None
+) -> Certificate | None:
+    """The certificate of the stages' answers; None where they contradict each other as a whole."""
+    from rgss.tradeoff.enumeration import enumerate_alternatives
+
+    if tabulated is None:
+        met = {solution.alternative.variant: solution.alternative for solution in solutions if solution.alternative}
+        some = problem.among(tuple(met.values()) or (first,))
+    else:
+        some = tabulated
+    enumeration = enumerate_alternatives(some)
+    if solutions[-1].alternative is None and tabulated is None:
+        # Designs that earlier stages met say nothing of a stage that proved that there is none.
+        return certify(
+            problem,
+            enumerate_alternatives(problem.among((first,))),
+            solutions,
+            considered=problem.space.size,
+            whole=False,
+        )
+    certificate = certify(problem, enumeration, solutions, considered=problem.space.size, whole=tabulated is not None)
+    return certificate if certificate.recomputation_agrees else None
 
 
 def _check_table(space: LevelSpace, measure: str, table: Table) -> None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 from rgss.errors import TradeoffError
+from rgss.tradeoff.checks import Check
 from rgss.tradeoff.evidence_table import Alternative
 from rgss.tradeoff.selection import Selection
 from rgss.tradeoff.status import DecisionStatus
@@ -16,19 +17,56 @@ from rgss.tradeoff.terms import ConstraintTerm, ObjectiveTerm
 OBJECTIVE_SCALE = 1e3
 """Values from 0 to 1 are scaled by it in the solver, so that its tolerances lie far below a tie's."""
 
-# HiGHS stops by default within 1e-4 of the optimum; here the optimum itself is wanted.
-HIGHS_OPTIONS = {
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolverRun:
+    """A named set of options of HiGHS.
+
+    Attributes:
+        name: The name, as certificates give it.
+        options: The options.
+    """
+
+    name: str
+    options: Mapping[str, Any] = field(hash=False)
+
+
+_COMMON = {
+    # HiGHS stops by default within 1e-4 of the optimum; here the optimum itself is wanted.
     "mip_rel_gap": 0.0,
     "mip_abs_gap": 0.0,
-    "mip_feasibility_tolerance": 1e-10,
-    "primal_feasibility_tolerance": 1e-10,
-    "dual_feasibility_tolerance": 1e-10,
-    # The presolve of HiGHS calls some feasible mixed-integer programs infeasible (among others
-    # ERGO-Code/HiGHS#3090; 1.15 does so with choices of levels that the tests hold).
-    "presolve": "off",
+    # Below 1e-6 HiGHS 1.15 proves wrong bounds: benchmarks/tradeoff_guard.py measures it.
+    "mip_feasibility_tolerance": 1e-6,
+    "primal_feasibility_tolerance": 1e-7,
+    "dual_feasibility_tolerance": 1e-7,
     # One thread, so that the same program gives the same answer on every machine.
     "threads": 1,
+    # A count of nodes, not of seconds: the same answer on every machine.
+    "mip_max_nodes": 200_000,
 }
+
+FIRST_RUN = SolverRun(name="HiGHS without presolve", options={**_COMMON, "presolve": "off"})
+"""The presolve of HiGHS calls some feasible mixed-integer programs infeasible (among others
+ERGO-Code/HiGHS#3090), so the first run leaves it off."""
+
+SECOND_RUN = SolverRun(
+    name="HiGHS with presolve and another seed", options={**_COMMON, "presolve": "on", "random_seed": 7}
+)
+"""Another path through the same solver: other rows, other cuts, other branching."""
+
+THIRD_RUN = SolverRun(
+    name="HiGHS without heuristics and restarts",
+    options={
+        **_COMMON,
+        "presolve": "off",
+        "random_seed": 42,
+        "mip_heuristic_effort": 0.0,
+        "mip_allow_restart": False,
+    },
+)
+"""Asked where the first two do not agree."""
+
+RUNS = (FIRST_RUN, SECOND_RUN, THIRD_RUN)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,13 +97,15 @@ class StageSolution:
 
     Attributes:
         name: The name of the stage.
-        status: Optimal or infeasible.
+        status: Optimal, best found or infeasible.
         alternative: The selected alternative; None if infeasible.
         objective: What was optimised, as people read it; None if infeasible.
         gap: How far the bound that the solver proved is from its objective, in the objective's own
             unit (or ranks); None if infeasible.
         selection_error: How far the solver's variables are from selecting exactly that
             alternative: the largest difference from 0 or 1; 0 if infeasible.
+        checks: The independent checks of the answer.
+        exhaustive: Whether one of them evaluated every alternative.
     """
 
     name: str
@@ -74,6 +114,8 @@ class StageSolution:
     objective: float | None
     gap: float | None
     selection_error: float
+    checks: tuple[Check, ...] = ()
+    exhaustive: bool = False
 
     @property
     def chosen(self) -> Alternative:
@@ -90,10 +132,12 @@ class StageSolver:
     Attributes:
         select: Makes new decision variables.
         constraints: The constraints of every stage.
+        run: The options of the solver.
     """
 
     select: Callable[[], Selection]
     constraints: tuple[ConstraintTerm, ...]
+    run: SolverRun = FIRST_RUN
 
     def solve(self, stage: Stage) -> StageSolution:
         """Solve a stage to proven optimality or proven infeasibility.
@@ -102,7 +146,7 @@ class StageSolver:
             TradeoffError: The solver is missing, failed, or proved neither.
         """
         problem, selection = self.compiled(stage)
-        if not solve_program(problem):
+        if not solve_program(problem, self.run):
             return StageSolution(
                 name=stage.name,
                 status=DecisionStatus.INFEASIBLE,
@@ -134,11 +178,12 @@ class StageSolver:
         return cvxpy.Problem(cvxpy.Maximize(stage.scale * maximised), constraints), selection
 
 
-def solve_program(problem: Any) -> bool:
+def solve_program(problem: Any, run: SolverRun = FIRST_RUN) -> bool:
     """Solve a CVXPY problem by HiGHS.
 
     Args:
         problem: The problem.
+        run: The options of the solver.
 
     Returns:
         True if an optimum is proven, False if it is proven that there is none.
@@ -153,7 +198,7 @@ def solve_program(problem: Any) -> bool:
             # These two only repeat the status, which is judged below.
             warnings.filterwarnings("ignore", message=r"\s*Solution may be inaccurate")
             warnings.filterwarnings("ignore", message=r"\s*The problem is either infeasible or unbounded")
-            problem.solve(solver=cvxpy.HIGHS, **HIGHS_OPTIONS)
+            problem.solve(solver=cvxpy.HIGHS, **run.options)
     except cvxpy.SolverError as error:
         raise TradeoffError(
             f"the solver failed: {' '.join(str(error).split())}",

@@ -1,4 +1,4 @@
-"""How a trade-off can end."""
+"""Outcomes of a trade-off."""
 
 from __future__ import annotations
 
@@ -6,7 +6,14 @@ from enum import Enum
 
 
 class DecisionStatus(str, Enum):
-    """The two outcomes of a trade-off; whatever else a solver may say is an error, not a decision."""
+    """Outcome of a trade-off; whatever else a solver may answer is an error, not a decision.
+
+    Optimal and infeasible are proven. Best found is a choice that meets every demand and whose
+    optimality is not proven: its gap says how much better another one could be. Undecided: a limit ended the
+    search before it found a choice, or proved that there is none.
+    """
 
     OPTIMAL = "optimal"
+    BEST_FOUND = "best found"
     INFEASIBLE = "infeasible"
+    UNDECIDED = "undecided"

@@ -161,7 +161,7 @@ def test_trade_as_json(rgss, with_evidence):
     assert (told.status, told.errors) == (0, "")
     assert {"status", "chosen", "runner_up", "ranking", "infeasible", "certificate"} <= set(document)
     assert document["status"] == "optimal"
-    assert document["certificate"]["enumeration_agrees"] is True
+    assert document["certificate"]["enumeration_agrees"] == "agreed"
     assert document["ranking"][0]["variant"] == document["chosen"]
     assert document["ranking"][1]["variant"] == document["runner_up"]
     values = [entry["value"] for entry in document["ranking"]]

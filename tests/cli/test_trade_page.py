@@ -95,9 +95,9 @@ def test_the_page_says_what_the_document_says(page):
 def test_the_document_is_the_decision_with_more(page):
     _, document = page
 
-    assert document["schema"] == 1
+    assert document["schema"] == 2
     assert (document["study"], document["what_if"], document["fleet"]) == ("pick_place", None, None)
-    assert document["certificate"]["enumeration_agrees"] is True
+    assert document["certificate"]["enumeration_agrees"] == "agreed"
     assert document["robustness"]["refused"] == {}
 
 
@@ -288,7 +288,8 @@ def test_a_fleet_of_one_gripper_for_two_studies(rgss, with_evidence, tmp_path):
     assert f"\nFleet\n{found['members'][0]} together serve every study; value " in told.output
     assert [one["study"] for one in found["assignments"]] == ["studies/pick_place.yaml", "studies/payload.yaml"]
     assert found["value"] == pytest.approx(sum(one["value"] for one in found["assignments"]) / 2)
-    assert found["enumeration_agrees"] is True
+    assert found["enumeration_agrees"] == "agreed"
+    assert (found["status"], found["gap"], found["cut"]) == ("optimal", pytest.approx(0.0, abs=1e-9), None)
     assert "Value with at most so many members: 1: " in told.output
 
 

@@ -93,6 +93,18 @@ def cases():
 
 
 @pytest.fixture(scope="session")
+def guard_cases():
+    """Random level problems and fleets with their brute force, as the benchmark of the guard draws them."""
+    return _from_benchmarks("tradeoff_guard_cases")
+
+
+@pytest.fixture(scope="session")
+def guard(guard_cases):
+    """The benchmark of the guard, which compares decisions with brute force."""
+    return _from_benchmarks("tradeoff_guard")
+
+
+@pytest.fixture(scope="session")
 def oracle():
     """The right decisions, from the definitions alone."""
     return _from_benchmarks("tradeoff_oracle")

@@ -55,7 +55,9 @@ def test_of_a_choice(payload_and_time):
     (stage,) = certificate.pop("stages")
     assert stage == {"name": "value", "variant": 1, "objective": pytest.approx(0.5, abs=1e-9), "gap": 0.0}
     assert certificate == {
-        "enumeration_agrees": True,
+        "enumeration_agrees": "agreed",
+        "recomputation_agrees": True,
+        "checks": [{"kind": "enumeration", "agrees": True, "detail": "the whole program evaluated at 5 alternatives"}],
         "status": "optimal",
         "solver": "HIGHS",
         "program": "additive",
@@ -110,7 +112,11 @@ def test_of_no_choice(build_problem):
         "demands": {"R": "a >= 0.5 kg"},
         "counts": {"alternatives": 2, "feasible": 0, "excluded_better": 0},
         "certificate": {
-            "enumeration_agrees": True,
+            "enumeration_agrees": "agreed",
+            "recomputation_agrees": True,
+            "checks": [
+                {"kind": "enumeration", "agrees": True, "detail": "the whole program evaluated at 2 alternatives"}
+            ],
             "status": "infeasible",
             "solver": "HIGHS",
             "program": "additive",

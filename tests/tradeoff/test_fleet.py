@@ -9,9 +9,14 @@ import numpy as np
 import pytest
 
 import rgss.tradeoff.fleet
+import rgss.tradeoff.fleet_checks
+import rgss.tradeoff.fleet_mean
 from rgss.errors import TradeoffError
 from rgss.tradeoff import (
     AdditiveValue,
+    Agreement,
+    CheckKind,
+    Cut,
     DecisionStatus,
     FleetAim,
     FleetProblem,
@@ -66,7 +71,7 @@ def test_by_hand(fleet, at_most, aim, members, objective):
     assert decision.objective == pytest.approx(objective)
     assert decision.objective_recomputed == pytest.approx(objective)
     assert decision.gap == pytest.approx(0.0, abs=1e-9)
-    assert decision.enumeration_agrees
+    assert decision.enumeration_agrees is Agreement.AGREED
     # The fourth is nowhere better than the third.
     assert decision.considered == 3
 
@@ -104,7 +109,7 @@ def test_too_few_members_to_serve_every_task(fleet):
     table = {1: (0.9, -1.0), 2: (-1.0, 0.8)}
     decision = decide_fleet(fleet(table))
     assert (decision.status, decision.members, decision.objective) == (DecisionStatus.INFEASIBLE, (), None)
-    assert (decision.by_size, decision.unserved, decision.enumeration_agrees) == ((None,), (), True)
+    assert (decision.by_size, decision.unserved, decision.enumeration_agrees) == ((None,), (), Agreement.AGREED)
     assert decide_fleet(fleet(table, at_most=2)).by_size == (None, pytest.approx(0.85))
 
 
@@ -114,17 +119,103 @@ def test_a_task_that_no_design_serves(fleet):
 
 
 def test_more_portfolios_than_are_enumerated(fleet, monkeypatch):
-    monkeypatch.setattr(rgss.tradeoff.fleet, "MOST_ENTRIES", 2)
+    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", 2)
     decision = decide_fleet(fleet(TABLE, at_most=3))
-    assert (set(decision.members), decision.enumeration_agrees) == ({"2", "3"}, None)
+    assert (set(decision.members), decision.enumeration_agrees) == ({"2", "3"}, Agreement.NOT_ENUMERATED)
     assert decision.objective == pytest.approx(2.9 / 3)
 
 
-@pytest.mark.parametrize("answer", [None, ((0,), 0.2, 0.0)])
-def test_no_decision_on_contradictory_answers(fleet, monkeypatch, answer):
-    monkeypatch.setattr(rgss.tradeoff.fleet, "_solved", lambda *arguments: answer)
-    with pytest.raises(TradeoffError, match=r"the solver finds .*, enumeration finds 0\.7"):
-        decide_fleet(fleet(TABLE))
+@pytest.mark.parametrize("aim", list(FleetAim))
+@pytest.mark.parametrize("answer", [None, (1,)], ids=["false infeasible", "not optimal"])
+def test_a_wrong_answer_of_the_solver_is_not_used(fleet, monkeypatch, answer, aim):
+    right = decide_fleet(fleet(TABLE, at_most=2, aim=aim))
+    monkeypatch.setattr(rgss.tradeoff.fleet, "solved_portfolio", lambda *arguments: answer)
+    for most in (20_000_000, 0):
+        monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", most)
+        decision = decide_fleet(fleet(TABLE, at_most=2, aim=aim))
+        assert (decision.status, decision.members) == (DecisionStatus.OPTIMAL, right.members)
+        assert decision.objective == pytest.approx(right.objective)
+        assert [check.agrees for check in decision.checks if check.kind is CheckKind.SECOND_RUN] == [False]
+
+
+def test_a_wrong_bound_is_seen_by_the_solver(fleet, monkeypatch):
+    """The proof is made to end at once with a poor portfolio: the solver's better one contradicts it."""
+
+    def wrong(profits, size, start, tolerance, work):
+        return rgss.tradeoff.fleet_mean.SizeAnswer(rows=(0,), objective=0.6, bound=0.6)
+
+    monkeypatch.setattr(rgss.tradeoff.fleet_mean, "best_mean", wrong)
+    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", 0)
+    decision = decide_fleet(fleet(TABLE, at_most=2))
+    assert (decision.status, set(decision.members)) == (DecisionStatus.BEST_FOUND, {"2", "3"})
+    assert not decision.checks[0].agrees
+    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", 20_000_000)
+    enumerated = decide_fleet(fleet(TABLE, at_most=2))
+    assert (enumerated.status, enumerated.enumeration_agrees) == (DecisionStatus.OPTIMAL, Agreement.DISAGREED)
+    assert set(enumerated.members) == {"2", "3"}
+
+
+def random_table(seed, members, tasks):
+    values = np.random.default_rng(seed).random((members, tasks))
+    return {row + 1: tuple(values[row].tolist()) for row in range(members)}
+
+
+@pytest.mark.parametrize("aim", list(FleetAim))
+def test_a_thousand_designs_for_twenty_tasks_by_twenty_members(fleet, aim):
+    decision = decide_fleet(fleet(random_table(0, 1000, 20), at_most=20, aim=aim))
+    assert decision.status is DecisionStatus.OPTIMAL
+    assert (decision.gap, decision.cut) == (pytest.approx(0.0, abs=1e-9), None)
+    assert list(decision.by_size) == sorted(decision.by_size)
+    values = np.array(list(random_table(0, 1000, 20).values()))
+    ideal = values.max(axis=0).mean() if aim is FleetAim.MEAN else values.max(axis=0).min()
+    assert decision.objective == pytest.approx(ideal)
+
+
+@pytest.mark.parametrize("aim", list(FleetAim))
+def test_an_answer_that_the_work_limit_cuts_has_a_gap_that_holds(fleet, aim):
+    """Every size has a portfolio and a bound, and more work changes neither for the worse."""
+    problem = fleet(random_table(3, 60, 30), at_most=6, aim=aim)
+    cut, whole = decide_fleet(problem, most_work=60_000), decide_fleet(problem)
+    assert (cut.status, cut.cut) == (DecisionStatus.BEST_FOUND, Cut.WORK)
+    assert whole.status is DecisionStatus.OPTIMAL
+    assert list(cut.by_size) == sorted(cut.by_size)
+    assert cut.gap > 0.0
+    for found, gap, best in zip(cut.by_size, cut.by_size_gap, whole.by_size, strict=True):
+        assert found <= best + 1e-12
+        assert best <= found + gap + 1e-9
+    assert cut == decide_fleet(problem, most_work=60_000)
+
+
+@pytest.mark.parametrize("aim", list(FleetAim))
+def test_an_answer_that_the_time_limit_cuts_says_so(fleet, aim):
+    decision = decide_fleet(fleet(random_table(3, 60, 30), at_most=6, aim=aim), time_limit=1e-9)
+    assert (decision.status, decision.cut) == (DecisionStatus.BEST_FOUND, Cut.TIME)
+    assert decision.gap > 0.0
+    with pytest.raises(TradeoffError, match="the time limit must be positive, got -1 s"):
+        decide_fleet(fleet(TABLE), time_limit=-1.0)
+
+
+@pytest.mark.parametrize("aim", list(FleetAim))
+def test_a_search_that_a_limit_ends_before_it_finds_anything_is_undecided(fleet, monkeypatch, aim):
+    monkeypatch.setattr(rgss.tradeoff.fleet, "LARGEST_SOLVED", 0)
+    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", 0)
+    values = np.random.default_rng(1).random((40, 24))
+    # No four members serve all tasks, which takes some work to prove.
+    values[np.random.default_rng(2).random((40, 24)) < 0.6] = -1.0
+    table = {row + 1: tuple(values[row].tolist()) for row in range(40)}
+    decision = decide_fleet(fleet(table, at_most=3, aim=aim), most_work=30)
+    assert (decision.status, decision.members, decision.objective) == (DecisionStatus.UNDECIDED, (), None)
+    assert decide_fleet(fleet(table, at_most=3, aim=aim)).status is DecisionStatus.INFEASIBLE
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_random_fleets_against_all_portfolios(guard_cases, guard, seed, monkeypatch):
+    """Once with the enumeration of the product, and once by its proofs alone."""
+    case = guard_cases.fleet_case(seed)
+    assert guard.fleet_outcome(case) in ("right", "infeasible, right")
+    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", 0)
+    monkeypatch.setattr(rgss.tradeoff.fleet, "LARGEST_SOLVED", 0)
+    assert guard.fleet_outcome(case) in ("right", "infeasible, right")
 
 
 @pytest.mark.parametrize(
@@ -160,21 +251,22 @@ def test_tasks_that_do_not_fit(fleet):
         fleet(TABLE, program=Tchebycheff())
 
 
-def test_an_answer_that_selects_half_a_member_is_refused(fleet, monkeypatch):
-    def half(problem):
+def test_an_answer_that_selects_half_a_member_is_not_used(fleet, monkeypatch):
+    def half(problem, run):
         for variable in problem.variables():
             variable.save_value(np.full(variable.shape, 0.5))
         return True
 
-    monkeypatch.setattr(rgss.tradeoff.fleet, "solve_program", half)
-    with pytest.raises(TradeoffError, match=r"the solver's answer selects no fleet \(off by 0\.5\)"):
-        decide_fleet(fleet(TABLE))
+    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "solve_program", half)
+    decision = decide_fleet(fleet(TABLE))
+    assert decision.members == ("3",)
+    assert "the solver's answer selects no fleet (off by 0.5)" in decision.checks[0].detail
 
 
 def test_as_plain_values(fleet):
     document = json.loads(json.dumps(fleet_to_json(decide_fleet(fleet(TABLE, at_most=2))), allow_nan=False))
     assert document["members"] == ["2", "3"]
     assert document["assignments"][0] == {"task": "t0", "member": "2", "variant": 2, "value": 1.0}
-    assert document["certificate"]["enumeration_agrees"] is True
+    assert document["certificate"]["enumeration_agrees"] == "agreed"
     nothing = fleet_to_json(decide_fleet(fleet({1: (-1.0,)})))
     assert (nothing["status"], nothing["objective"], nothing["unserved"]) == ("infeasible", None, ["t0"])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rgss.tradeoff.reduction
-from rgss.tradeoff import decide
+from rgss.tradeoff import Agreement, decide
 from rgss.tradeoff.enumeration import enumerate_alternatives
 from rgss.tradeoff.reduction import LARGEST_UNREDUCED, reduced_rows
 
@@ -54,7 +54,7 @@ def test_where_nothing_is_feasible_one_of_each_kind_is_left(build_problem, reduc
     assert (decision.chosen, decision.certificate.considered, decision.certificate.enumeration_agrees) == (
         None,
         3,
-        True,
+        Agreement.AGREED,
     )
 
 

@@ -1,0 +1,235 @@
+"""Answers of the solver over levels that are wrong, by themselves or made so, and what checks them."""
+
+from __future__ import annotations
+
+import cvxpy
+import numpy as np
+import pytest
+
+import rgss.tradeoff.level_guard
+import rgss.tradeoff.level_problem
+import rgss.tradeoff.level_selection
+from rgss.errors import TradeoffError
+from rgss.tradeoff import Agreement, CheckKind, DecisionStatus, certificate_to_json, decide_levels
+from rgss.tradeoff.level_bound import interval_bound
+from rgss.tradeoff.level_grid import LevelGrid, compensated_sum
+from rgss.tradeoff.level_search import search_levels
+from rgss.tradeoff.level_selection import LevelModel, LevelSelection
+from rgss.tradeoff.program import additive_stage
+from rgss.tradeoff.stage import FIRST_RUN, RUNS, SolverRun, StageSolver
+
+PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
+
+OLD_RUN = SolverRun(
+    name="old",
+    options={
+        **FIRST_RUN.options,
+        "mip_feasibility_tolerance": 1e-10,
+        "primal_feasibility_tolerance": 1e-10,
+        "dual_feasibility_tolerance": 1e-10,
+    },
+)
+
+PINNED = [2, 4, 11, 16]
+"""Five factors of four levels that HiGHS 1.15.1 gets wrong with tolerances of 1e-10: infeasible, and not the best."""
+
+
+@pytest.fixture
+def sums_kept(monkeypatch):
+    """Measures stay sums of tables, as they are where there are too many combinations to merge them."""
+    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 100)
+
+
+@pytest.fixture
+def path(monkeypatch):
+    """Which checks can be made: of all combinations, of bounds, or of runs and a search alone."""
+
+    def choose(name):
+        if name != "enumerated":
+            monkeypatch.setattr(rgss.tradeoff.level_problem, "LARGEST_ENUMERATED", 0)
+        if name == "runs":
+            monkeypatch.setattr(
+                rgss.tradeoff.level_guard,
+                "interval_bound",
+                lambda *rest, **more: interval_bound(*rest, **{**more, "most": 0}),
+            )
+
+    return choose
+
+
+def pinned_case(guard_cases, seed):
+    return guard_cases.small_case(seed, (4,) * 5, "additive" if seed % 2 == 0 else "tchebycheff")
+
+
+@pytest.mark.parametrize("run", RUNS, ids=lambda run: run.name)
+@pytest.mark.parametrize("seed", PINNED)
+def test_the_options_of_the_solver(guard_cases, sums_kept, seed, run):
+    case = pinned_case(guard_cases, seed)
+    problem = case.problem
+    model = LevelModel(
+        space=problem.space,
+        quantities=problem.tables,
+        replicates={},
+        alternative_of=problem.alternative,
+        levels_of=problem.levels_of,
+    )
+    solver = StageSolver(select=lambda: LevelSelection(model), constraints=problem.constraints, run=run)
+    assert case.missed_by(problem.program.solve(problem, solver)[-1].chosen.variant - 1) <= 1e-9
+
+
+@pytest.mark.parametrize("name", ["enumerated", "bounds", "runs"])
+@pytest.mark.parametrize("seed", PINNED)
+def test_the_guard_repairs_what_the_old_options_get_wrong(guard_cases, sums_kept, monkeypatch, path, seed, name):
+    path(name)
+    monkeypatch.setattr(rgss.tradeoff.level_guard, "RUNS", (OLD_RUN,) * 3)
+    case = pinned_case(guard_cases, seed)
+    decision = decide_levels(case.problem)
+    assert case.missed_by(decision.variant - 1) <= 1e-9
+    if name == "bounds":
+        assert decision.status is DecisionStatus.OPTIMAL
+
+
+def false_infeasible(problem, run):
+    return False
+
+
+def any_point(problem, run):
+    """A feasible design, but not the best: nothing is maximised. Its bound is said to be reached."""
+    feasible = cvxpy.Problem(cvxpy.Maximize(0.0), problem.constraints)
+    feasible.solve(solver=cvxpy.HIGHS, **FIRST_RUN.options)
+    problem._value = 0.0
+    return feasible.status == cvxpy.OPTIMAL
+
+
+def no_answer(problem, run):
+    raise TradeoffError("the solver ended with the status 'user_limit'", hint="")
+
+
+@pytest.fixture
+def doctored(monkeypatch):
+    """A solver whose first runs, or all of them, give another answer."""
+
+    def make(answer, *, runs):
+        real = rgss.tradeoff.level_guard.solve_program
+        wrong = {run.name for run in RUNS[:runs]}
+        gap = rgss.tradeoff.level_guard.proven_gap
+        monkeypatch.setattr(
+            rgss.tradeoff.level_guard,
+            "solve_program",
+            lambda problem, run: answer(problem, run) if run.name in wrong else real(problem, run),
+        )
+        monkeypatch.setattr(
+            rgss.tradeoff.level_guard, "proven_gap", lambda problem: gap(problem) if problem.solver_stats else 0.0
+        )
+
+    return make
+
+
+@pytest.mark.parametrize("answer", [false_infeasible, any_point, no_answer], ids=lambda answer: answer.__name__)
+@pytest.mark.parametrize("name", ["enumerated", "bounds", "runs"])
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_a_wrong_answer_in_every_run_is_caught(guard_cases, sums_kept, path, doctored, program, name, answer):
+    case = guard_cases.small_case(1, (3, 4, 3, 4), program)
+    path(name)
+    right = decide_levels(case.problem)
+    assert case.missed_by(right.variant - 1) <= 1e-9
+    doctored(answer, runs=len(RUNS))
+    decision = decide_levels(case.problem)
+    certificate = decision.certificate
+    assert case.missed_by(decision.variant - 1) <= 1e-9
+    assert any(not check.agrees for check in certificate.checks)
+    expected = {
+        "enumerated": (DecisionStatus.OPTIMAL, Agreement.DISAGREED),
+        "bounds": (DecisionStatus.OPTIMAL, Agreement.NOT_ENUMERATED),
+        "runs": (DecisionStatus.BEST_FOUND, Agreement.NOT_ENUMERATED),
+    }[name]
+    assert (decision.status, certificate.enumeration_agrees) == expected
+    assert (certificate.gap > 0.0) == (name == "runs")
+    assert not certificate.enumeration_agrees
+
+
+@pytest.mark.parametrize("answer", [false_infeasible, any_point], ids=lambda answer: answer.__name__)
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_a_wrong_first_run_is_outvoted(guard_cases, sums_kept, path, doctored, program, answer):
+    """Where neither enumeration nor bounds prove it, two other runs do."""
+    case = guard_cases.small_case(1, (3, 4, 3, 4), program)
+    path("runs")
+    doctored(answer, runs=1)
+    decision = decide_levels(case.problem)
+    assert case.missed_by(decision.variant - 1) <= 1e-9
+    assert decision.status is DecisionStatus.OPTIMAL
+    assert {check.kind for check in decision.certificate.checks if not check.agrees} >= {CheckKind.SECOND_RUN}
+
+
+def test_nothing_found_and_nothing_proved_is_no_decision(guard_cases, path, doctored, monkeypatch):
+    path("runs")
+    doctored(no_answer, runs=len(RUNS))
+    monkeypatch.setattr(rgss.tradeoff.level_guard, "search_levels", lambda *arguments: None)
+    with pytest.raises(TradeoffError, match="no feasible design was found, and that there is none was not proved"):
+        decide_levels(guard_cases.small_case(1, (3, 4, 3), "additive").problem)
+
+
+@pytest.mark.parametrize("name", ["enumerated", "bounds", "runs"])
+def test_infeasible_is_proved_by_each_check(guard_cases, path, name):
+    path(name)
+    infeasible = next(
+        case
+        for case in map(guard_cases.level_case, range(0, 5000, 5))
+        if not case.any_feasible and case.problem.space.size < 8000
+    )
+    decision = decide_levels(infeasible.problem)
+    assert (decision.status, decision.variant) == (DecisionStatus.INFEASIBLE, None)
+    assert decision.enumerated is (name == "enumerated")
+
+
+@pytest.mark.parametrize("seed", [10, 11, 2, 8, 4])
+def test_random_level_problems_against_brute_force(guard, guard_cases, seed):
+    """One of each program; benchmarks/tradeoff_guard.py decides 2,000."""
+    case = guard_cases.level_case(seed)
+    for name in ("enumerated", "solver"):
+        assert guard.level_outcome(case, name, seed=seed) in ("right", "infeasible, right")
+
+
+@pytest.mark.parametrize("program", PROGRAMS[:2])
+def test_the_interval_bound_is_never_exceeded(guard_cases, program):
+    """However few partial designs are kept, and with rules and unknown entries too."""
+    checked = 0
+    for seed in range(12):
+        problem = guard_cases.level_case(seed).problem
+        grid = LevelGrid.of(problem.space, problem.tables)
+        stage = additive_stage(problem)
+        constraints = problem.constraints
+        found = grid.best(stage, constraints)
+        best = -np.inf if found is None else found[0]
+        for most in (0, 10, 100, 1_000_000):
+            bound = interval_bound(grid, stage, constraints, known=-np.inf, tolerance=0.0, most=most)
+            assert bound.bound >= best - 1e-12
+            if bound.complete:
+                assert bound.bound == pytest.approx(best, abs=1e-9)
+                checked += 1
+    assert checked
+
+
+def test_the_search_meets_what_is_feasible_only_at_one_design(guard_cases):
+    """A demand that one design of a thousand meets is found by way of the violations."""
+    case = guard_cases.small_case(3, (4,) * 5, "additive")
+    grid = LevelGrid.of(case.problem.space, case.problem.tables)
+    found = search_levels(grid, additive_stage(case.problem), case.problem.constraints, ())
+    assert found is not None
+    best = grid.best(additive_stage(case.problem), case.problem.constraints)
+    assert found[0] == pytest.approx(best[0], abs=1e-12)
+
+
+def test_the_sum_of_columns_is_that_of_exact_arithmetic():
+    parts = [np.array([1e16, 1.0]), np.array([1.0, 1e-17]), np.array([-1e16, -1.0])]
+    assert compensated_sum(parts, 2).tolist() == [1.0, 1e-17]
+
+
+def test_the_certificate_lists_the_checks(guard_cases, path):
+    path("bounds")
+    certificate = decide_levels(guard_cases.small_case(1, (3, 4, 3, 4), "additive").problem).certificate
+    document = certificate_to_json(certificate)
+    assert document["enumeration_agrees"] == "not enumerated"
+    assert [check["kind"] for check in document["checks"]] == ["primal search", "dual bound"]
+    assert all(check["agrees"] for check in document["checks"])
+    assert certificate.checks[1].text == "dual bound agrees: interval branch and bound leaves no better design"
