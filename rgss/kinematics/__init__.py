@@ -3,7 +3,7 @@
 from rgss.kinematics.arm import Arm
 from rgss.kinematics.branches import choose_branches
 from rgss.kinematics.cartesian import straight_line
-from rgss.kinematics.collision import CollisionModel
+from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.kinematics.inverse import InverseKinematics
 from rgss.kinematics.situation import Situation
@@ -14,6 +14,7 @@ __all__ = [
     "CollisionModel",
     "InverseKinematics",
     "Load",
+    "NearestPair",
     "Situation",
     "choose_branches",
     "gripper_loads",

@@ -70,6 +70,12 @@ class Arm:
         """Length of the arm from its first axis to the tool along the links: no axis is ever farther from the tool."""
         return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
 
+    @property
+    def first_axis_m(self) -> tuple[float, float, float]:
+        """The origin of the first joint in the world, from which `reach_m` is counted."""
+        x, y, z = self._points[0].tolist()
+        return (x, y, z)
+
     def tool_position(self, qs: ArrayLike) -> Vector:
         """Positions of the tool centre in the world.
 

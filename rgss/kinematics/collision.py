@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,28 @@ _RANGE_TOLERANCE_RAD = 1e-9
 _QUERY_TOLERANCE = 1e-9
 # The engine takes its flag by position alone.
 _STOP_AT_FIRST, _FIND_ALL = True, False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NearestPair:
+    """The two parts that are nearest to what they must not be.
+
+    Attributes:
+        first: The link, body or workpiece of the one.
+        second: That of the other.
+        distance_m: Their distance; negative where they overlap, by the depth.
+        clearance_m: The distance that they must keep; 0 where they must not touch.
+    """
+
+    first: str
+    second: str
+    distance_m: float
+    clearance_m: float
+
+    @property
+    def room_m(self) -> float:
+        """By how much the distance exceeds the clearance; negative where it falls short."""
+        return self.distance_m - self.clearance_m
 
 
 class CollisionModel:
@@ -79,6 +102,7 @@ class CollisionModel:
                 self._geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
                 self._pairs.append((one.name, other.name))
                 margins.append(clearance_m if surroundings and not stands else 0.0)
+        self._margins = tuple(margins)
         self._state = self._geometry.createData()
         for request, margin in zip(self._state.collisionRequests, margins, strict=True):
             request.security_margin = margin
@@ -156,6 +180,32 @@ class CollisionModel:
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         return min((float(result.min_distance) for result in self._state.distanceResults), default=float("inf"))
+
+    def nearest_pair(self, q: Sequence[float] | Vector) -> NearestPair | None:
+        """The pair of parts with the least distance beyond its clearance; None where no pair is checked.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+        """
+        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
+        pairs = [
+            NearestPair(first=first, second=second, distance_m=float(result.min_distance), clearance_m=margin)
+            for (first, second), result, margin in zip(
+                self._pairs, self._state.distanceResults, self._margins, strict=True
+            )
+        ]
+        return min(pairs, key=lambda pair: pair.room_m, default=None)
+
+    def carried_tilt_rad(self, q: Sequence[float] | Vector) -> float | None:
+        """Angle between the axis of what is carried and the vertical; None where nothing has to stay upright.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+        """
+        if self._least_upright is None:
+            return None
+        self._engine.forwardKinematics(self._model, self._data, np.asarray(q, dtype=float))
+        return math.acos(min(1.0, max(-1.0, float(self._wrist_vertical.dot(self._axis_in_wrist)))))
 
 
 def _uprightness(

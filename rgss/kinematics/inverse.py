@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,19 @@ Vector = NDArray[np.float64]
 
 TOLERANCE = 1e-6
 """Greatest deviation, in m and in the entries of the rotation matrix, of a branch that is kept."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RangeExcess:
+    """A joint outside its planning range.
+
+    Attributes:
+        joint: The joint's name.
+        beyond_rad: How far its angle lies beyond the nearer end, whole turns considered.
+    """
+
+    joint: str
+    beyond_rad: float
 
 
 class InverseKinematics:
@@ -81,6 +95,28 @@ class InverseKinematics:
             if all(choices)
         ]
         return min(_sorted_distinct(found), key=lambda q: float(np.max(np.abs(q - near))), default=None)
+
+    def excess_of_ranges(self, tool_pose_world: Pose) -> tuple[RangeExcess, ...]:
+        """For each branch that reaches a pose, the joint that is farthest outside its planning range.
+
+        Args:
+            tool_pose_world: Transform of the tool-centre frame to the world.
+
+        Returns:
+            The least excess first; empty where the pose is out of reach, and without the branches
+            that keep all ranges.
+        """
+        found = []
+        for branch in self._branches(tool_pose_world):
+            excesses = []
+            for joint, angle in zip(self.arm.robot.joints, branch.tolist(), strict=True):
+                turns = [angle + turn * 2 * math.pi for turn in (-1, 0, 1)]
+                beyond = [max(joint.lower_rad - one, one - joint.upper_rad) for one in turns]
+                excesses.append(RangeExcess(joint=joint.name, beyond_rad=min(beyond)))
+            worst = max(excesses, key=lambda one: one.beyond_rad)
+            if worst.beyond_rad > 0.0:
+                found.append(worst)
+        return tuple(sorted(found, key=lambda one: (one.beyond_rad, one.joint)))
 
     def _choices(self, pose: Pose) -> list[list[list[float]]]:
         """For each branch and joint, the angles within the planning range; none where it has no such angle."""

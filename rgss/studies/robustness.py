@@ -30,7 +30,7 @@ from rgss.tradeoff.outcomes import (
 )
 from rgss.tradeoff.pareto import ParetoFront, pareto_front
 from rgss.tradeoff.price_list import PriceStep, price_list
-from rgss.tradeoff.program_orderings import ordering_of, weighted_values
+from rgss.tradeoff.program_orderings import orderings_of, weighted_values
 from rgss.tradeoff.rank_reversal import RankReversal, rank_reversals, sample_anchored
 from rgss.tradeoff.resampled_outcomes import ResampledOutcomes
 from rgss.tradeoff.resampling import Resamples, bootstrap
@@ -251,8 +251,10 @@ def _prices(problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPri
     masks = condition_masks(problem, table)
     known = ~np.isnan(totals)
 
+    orderings = orderings_of(problem.program, problem, table)
+
     def best_of(among: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        return ordering_of(problem.program, problem, table, among).best(among)
+        return orderings(among).best(among)
 
     found = []
     for place, condition in enumerate(problem.conditions):
@@ -277,13 +279,14 @@ def _reversals(problem: TradeProblem, table: EvidenceTable, feasible: NDArray[np
     rows = np.flatnonzero(feasible)
     totals = weighted_values(problem, table)[rows] if isinstance(problem.program, AdditiveValue) else None
 
+    orderings = orderings_of(problem.program, problem, table)
+
     def score(there: NDArray[np.intp]) -> NDArray[np.float64]:
         if totals is not None:
             return totals[there]
         mask = np.zeros(len(table), dtype=np.bool_)
         mask[rows[there]] = True
-        ordering = ordering_of(problem.program, problem, table, mask)
-        ranked = {int(row): -float(place) for place, row in enumerate(ordering.ranked(mask, len(table)))}
+        ranked = {int(row): -float(place) for place, row in enumerate(orderings(mask).ranked(mask, len(table)))}
         return np.array([ranked[int(rows[place])] for place in there])
 
     return _of_rows(rank_reversals(len(rows), score), rows)

@@ -17,12 +17,14 @@ from rgss.studies.measuring import VariantMeasures
 from rgss.studies.project import Project
 from rgss.studies.study import ValueAnchors
 from rgss.studies.trade_off import Anchor, RequirementAnchor, ValuedMeasure
+from rgss.studies.what_if_demands import THRESHOLD, demand_numbers, share_checked
 from rgss.studies.what_if_numbers import CATALOGUE, MEASURES, model_numbers, symbols_of, variant_with, with_number
 from rgss.studies.what_if_simulated import simulated_numbers
 from rgss.studies.what_if_weights import with_weights
 from rgss.tradeoff import weights_of_criteria
+from rgss.tradeoff.conditions import EVIDENCE_PREFIX
 
-WEIGHT, THRESHOLD, VALUE = "weight", "threshold", "value"
+WEIGHT, VALUE = "weight", "value"
 ANCHORS = ("worst", "best", "halfway", "target", "too_low", "too_high")
 EXAMPLE = 'weight.t_e=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
 
@@ -82,9 +84,11 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
     weights: dict[str, float] = {}
     for text in suppositions:
         name, value = _split(text)
+        name = _full_name(project, name)
         if name in {change.id for change in changes}:
             raise DefinitionError(f"--what-if: {name} is supposed twice", hint="say it once")
         kind, _, rest = name.partition(".")
+        demand, _, field = name.rpartition(".")
         if kind == WEIGHT:
             change = _weight(project, name, rest, value)
             weights[rest] = change.after
@@ -92,10 +96,13 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
             change, changed = _anchor(changed, name, rest, value)
         elif kind in (CATALOGUE, MEASURES):
             change, changed = _number(changed, name, value)
-        elif rest == THRESHOLD:
-            change, changed = _threshold(changed, name, kind, value)
+        elif name in demand_numbers(changed):
+            change, changed = _demand(changed, name, value)
+        elif field == THRESHOLD:
+            change, changed = _threshold(changed, name, demand, value)
         else:
-            raise _unknown(name, [WEIGHT, VALUE, CATALOGUE, MEASURES, *_requirements(project)], name)
+            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES]
+            raise _unknown(name, [*kinds, *_requirements(project), *demand_numbers(project)], name)
         changes.append(change)
     rescaled: tuple[Change, ...] = ()
     if weights:
@@ -188,9 +195,38 @@ def _simulated(project: Project, changes: Sequence[Change]) -> tuple[str, ...]:
 def _split(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     name, value = name.strip(), value.strip()
-    if not equals or not name or not value or "." not in name:
+    if not equals or not name or not value:
         raise DefinitionError(f"--what-if: {shown(text)} is no supposition", hint=f"write {EXAMPLE}")
     return name, value
+
+
+def _full_name(project: Project, name: str) -> str:
+    """The name of a number, which pages may print without its kind: ``t_e`` as a weight, ``SYS-012`` as a threshold.
+
+    Raises:
+        DefinitionError: It is the name of a demand that has no number.
+    """
+    if name.startswith(EVIDENCE_PREFIX):
+        raise DefinitionError(
+            f"--what-if: {shown(name)} demands that a measure is known, which is no number",
+            hint="run trials that tell it, or suppose another threshold",
+        )
+    trade_off = project.study.trade_off
+    threshold = f"{name}.{THRESHOLD}"
+    if threshold in _requirements(project) or threshold in demand_numbers(project):
+        return threshold
+    if name in trade_off.weighting.weights or name in weights_of_criteria(trade_off.criteria):
+        return f"{WEIGHT}.{name}"
+    return name
+
+
+def _demand(project: Project, name: str, text: str) -> tuple[Change, Project]:
+    number = demand_numbers(project)[name]
+    after = _quantity(name, text, number.unit)
+    if not name.endswith(f".{THRESHOLD}"):
+        share_checked(name, after)
+    study = replace(project.study, trade_off=number.changed(project.study.trade_off, after))
+    return Change(id=name, before=number.value, after=after, unit=number.unit), replace(project, study=study)
 
 
 def _weight(project: Project, name: str, criterion: str, text: str) -> Change:
@@ -205,7 +241,7 @@ def _weight(project: Project, name: str, criterion: str, text: str) -> Change:
 
 
 def _threshold(project: Project, name: str, requirement_id: str, text: str) -> tuple[Change, Project]:
-    known = _requirements(project)
+    known = [*_requirements(project), *demand_numbers(project)]
     if f"{requirement_id}.{THRESHOLD}" not in known:
         raise _unknown(name, known, requirement_id)
     requirement = project.requirements.requirement(requirement_id)

@@ -115,14 +115,18 @@ class Preferences(ABC):
         Raises:
             TradeoffError: There are too many bounds to look at every corner.
         """
-        import numpy as np
-
         from rgss.tradeoff.weight_vertices import weight_vertices
+
+        return weight_vertices(*self.weight_system())
+
+    def weight_system(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The bounds on the weights as inequalities ``A w <= b``, fixed weights as two each: A and b."""
+        import numpy as np
 
         measures = tuple(self.weighting.weights)
         matrix, limits = self.weight_bounds.inequalities(measures)
         fixed, equals = self.weight_bounds.equations(measures)
-        return weight_vertices(np.vstack([matrix, fixed, -fixed]), np.concatenate([limits, equals, -equals]))
+        return np.vstack([matrix, fixed, -fixed]), np.concatenate([limits, equals, -equals])
 
     @abstractmethod
     def replicate_count(self, measures: Sequence[str]) -> int:

@@ -6,7 +6,7 @@ their stages: values are interpolated column by column, statistics are sorted, o
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import singledispatch
 
 import numpy as np
@@ -74,17 +74,52 @@ def _(program: Tchebycheff, preferences: Preferences, table: EvidenceTable, feas
 
 @ordering_of.register
 def _(program: MinimaxRegret, preferences: Preferences, table: EvidenceTable, feasible: Mask) -> Ordering:
-    worst = np.full(len(table), -np.inf)
-    for values in _scenario_values(program, preferences, table):
+    return _regret_orderings(program, preferences, table)(feasible)
+
+
+def orderings_of(program: Program, preferences: Preferences, table: EvidenceTable) -> Callable[[Mask], Ordering]:
+    """How alternatives compare under a program, for one choice of the feasible ones after another.
+
+    What does not depend on that choice is prepared once.
+
+    Args:
+        program: The program.
+        preferences: What is wanted.
+        table: The alternatives.
+    """
+    if isinstance(program, MinimaxRegret):
+        return _regret_orderings(program, preferences, table)
+    return lambda feasible: ordering_of(program, preferences, table, feasible)
+
+
+def _regret_orderings(
+    program: MinimaxRegret, preferences: Preferences, table: EvidenceTable
+) -> Callable[[Mask], Ordering]:
+    from rgss.tradeoff.weight_regret import WeightRegret
+    from rgss.tradeoff.weight_vertices import FEW_CANDIDATES, corner_candidates
+
+    over_weights = program.scenarios is Scenarios.WEIGHTS
+    monotone = _columns_of(preferences, table, tuple(preferences.weighting.weights)) if over_weights else None
+    if monotone is not None and corner_candidates(preferences.weight_system()[0]) > FEW_CANDIDATES:
+        regret = WeightRegret(monotone, *preferences.weight_system())
+        worst_of: Callable[[Mask], Column] = regret.of_all
+    else:
+        scenarios = _scenario_values(program, preferences, table)
+        worst_of = lambda feasible: _largest_regret(scenarios, feasible, len(table))  # noqa: E731
+
+    def ordering(feasible: Mask) -> Ordering:
+        scores = -np.round(worst_of(feasible), VALUE_DECIMALS)
+        return ScoreOrdering(name="regret", scores=scores, monotone=monotone, reported=-1.0)
+
+    return ordering
+
+
+def _largest_regret(scenarios: Sequence[Column], feasible: Mask, count: int) -> Column:
+    worst = np.full(count, -np.inf)
+    for values in scenarios:
         best = values[feasible].max() if feasible.any() else np.nan
         worst = np.maximum(worst, best - values)
-    monotone = None
-    if program.scenarios is Scenarios.WEIGHTS:
-        monotone = np.stack(
-            [value_column(preferences.value_function(m), table.column(m)) for m in preferences.weighting.weights],
-            axis=1,
-        )
-    return ScoreOrdering(name="regret", scores=-np.round(worst, VALUE_DECIMALS), monotone=monotone, reported=-1.0)
+    return worst
 
 
 def weighted_values(preferences: Preferences, table: EvidenceTable) -> Column:
@@ -97,13 +132,12 @@ def weighted_values(preferences: Preferences, table: EvidenceTable) -> Column:
 
 
 def _value_columns(preferences: Preferences, table: EvidenceTable) -> Column:
-    return np.stack(
-        [
-            value_column(preferences.value_function(measure), table.column(measure))
-            for measure in preferences.weighting.deciding_measures
-        ],
-        axis=1,
-    )
+    return _columns_of(preferences, table, preferences.weighting.deciding_measures)
+
+
+def _columns_of(preferences: Preferences, table: EvidenceTable, measures: Sequence[str]) -> Column:
+    columns = [value_column(preferences.value_function(measure), table.column(measure)) for measure in measures]
+    return np.stack(columns, axis=1)
 
 
 def _steps(aims: Sequence[Aim], table: EvidenceTable) -> tuple[Step, ...]:
@@ -125,9 +159,7 @@ def _steps(aims: Sequence[Aim], table: EvidenceTable) -> tuple[Step, ...]:
 def _scenario_values(program: MinimaxRegret, preferences: Preferences, table: EvidenceTable) -> Sequence[Column]:
     weights: Mapping[str, float] = preferences.weighting.weights
     if program.scenarios is Scenarios.WEIGHTS:
-        columns = np.stack(
-            [value_column(preferences.value_function(measure), table.column(measure)) for measure in weights], axis=1
-        )
+        columns = _columns_of(preferences, table, tuple(weights))
         return [columns @ corner for corner in preferences.weight_corners()]
     deciding = preferences.weighting.deciding_measures
     found = []

@@ -36,7 +36,9 @@ class DrawnWeights:
     drawn_by: Drawing
 
 
-def sample_weights(weights: WeightSet, count: int, generator: np.random.Generator) -> DrawnWeights:
+def sample_weights(
+    weights: WeightSet, count: int, generator: np.random.Generator, *, most_walks: int | None = None
+) -> DrawnWeights:
     """Draw weights, independently and uniformly.
 
     The simplex is drawn from directly (Rubinstein, "Generating random vectors uniformly
@@ -50,6 +52,7 @@ def sample_weights(weights: WeightSet, count: int, generator: np.random.Generato
         weights: The admitted weights.
         count: How many are drawn.
         generator: Where randomness comes from.
+        most_walks: How many are drawn at most where they are ends of walks, which take longer.
 
     Raises:
         TradeoffError: The set has no interior.
@@ -73,7 +76,8 @@ def sample_weights(weights: WeightSet, count: int, generator: np.random.Generato
     kept = None if vertices is not None or len(weights.equals) else _rejected(polytope, count, generator)
     if kept is not None:
         return DrawnWeights(weights=kept, drawn_by=Drawing.INDEPENDENT)
-    return DrawnWeights(weights=walked_weights(polytope, ball[0], count, generator), drawn_by=Drawing.HIT_AND_RUN)
+    walks = count if most_walks is None else min(count, most_walks)
+    return DrawnWeights(weights=walked_weights(polytope, ball[0], walks, generator), drawn_by=Drawing.HIT_AND_RUN)
 
 
 def _from_simplex(size: int, count: int, generator: np.random.Generator) -> Array:

@@ -17,6 +17,9 @@ from rgss.tradeoff.weight_set import WeightSet
 
 SHARE_SAMPLES = 1 << 16
 
+WALKED_SAMPLES = 1 << 14
+"""Of weights that a random walk draws; the standard errors of shares are below 0.004."""
+
 ALL_RIVALS_TO = 200
 """Of more distinct alternatives only those count that none dominates; a region needs a program as large."""
 
@@ -245,11 +248,12 @@ def _sampled_shares(
     regions: list[WeightRegion], values: Array, weights: WeightSet, generator: np.random.Generator
 ) -> list[WeightRegion]:
     """The regions with every share counted among random weights."""
-    sample = sample_weights(weights, SHARE_SAMPLES, generator)
+    sample = sample_weights(weights, SHARE_SAMPLES, generator, most_walks=WALKED_SAMPLES)
+    number = len(sample.weights)
     at_once = max(1, _MOST_WORTHS // len(values))
-    blocks = (sample.weights[start : start + at_once] for start in range(0, SHARE_SAMPLES, at_once))
+    blocks = (sample.weights[start : start + at_once] for start in range(0, number, at_once))
     firsts = np.concatenate([(block @ values.T).argmax(axis=1) for block in blocks])
-    winners = np.bincount(firsts, minlength=len(values)) / SHARE_SAMPLES
+    winners = np.bincount(firsts, minlength=len(values)) / number
     return [
         WeightRegion(
             kind=region.kind,
@@ -258,7 +262,7 @@ def _sampled_shares(
             low=region.low,
             high=region.high,
             share=float(share),
-            share_error=math.sqrt(float(share) * (1.0 - float(share)) / SHARE_SAMPLES),
+            share_error=math.sqrt(float(share) * (1.0 - float(share)) / number),
             vertices=region.vertices,
             share_by=ShareBy(sample.drawn_by.value),
         )

@@ -13,8 +13,21 @@ from rgss.errors import TradeoffError
 MOST_CANDIDATES = 2_000_000
 """So many choices of binding bounds are looked at; more would take minutes."""
 
+FEW_CANDIDATES = 5_000
+"""Up to so many, looking at every corner is the simplest; of more, programs generate the weights that matter."""
+
 _TOLERANCE = 1e-9
 _BLOCK = 20_000
+
+
+def corner_candidates(matrix: NDArray[np.float64]) -> int:
+    """In how many ways so many of the bounds can bind that they make a corner.
+
+    Args:
+        matrix: Coefficients of the bounds, shape (k, m); that weights are not negative is not among them.
+    """
+    bounds, count = matrix.shape
+    return math.comb(bounds + count, count - 1)
 
 
 def weight_vertices(matrix: NDArray[np.float64], limits: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -37,7 +50,7 @@ def weight_vertices(matrix: NDArray[np.float64], limits: NDArray[np.float64]) ->
     count = matrix.shape[1]
     rows = np.vstack([matrix, -np.eye(count)])
     ends = np.concatenate([limits, np.zeros(count)])
-    candidates = math.comb(len(rows), count - 1)
+    candidates = corner_candidates(matrix)
     if candidates > MOST_CANDIDATES:
         raise TradeoffError(
             f"{count} weights with {len(matrix)} bounds may have {candidates} corners",

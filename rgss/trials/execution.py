@@ -117,9 +117,26 @@ class Execution:
             moved = math.dist(self._world.workpiece_pose().position_m, start.position_m)
             metrics["workpiece_displacement_m"] = moved
             if moved > self._control.displaced_m:
-                watch.fail(Failure.OBJECT_COLLISION, f"the object was pushed {moved * 1e3:.1f} mm before the grasp")
+                watch.fail(*self._why_displaced(moved, touched=watch.robot_touched_object))
         elif phase is Phase.MOVE_TO_GRASP_APPROACH:
             self._judge_place(watch, metrics)
+
+    def _why_displaced(self, moved_m: float, *, touched: bool) -> tuple[Failure, str]:
+        """What became of an object that is not where it was before the grasp."""
+        told = f"{moved_m * 1e3:.1f} mm before the grasp"
+        if touched:
+            return Failure.OBJECT_COLLISION, f"the object was pushed {told}"
+        pose, start = self._world.workpiece_pose(), self._world.scene.workpiece.pose
+        tilt_rad = math.acos(min(1.0, max(-1.0, pose.rotate((0.0, 0.0, 1.0))[2])))
+        if tilt_rad > self._world.scene.place.largest_tilt_rad:
+            return (
+                Failure.NOT_UPRIGHT,
+                f"the object toppled by itself: it leans by {math.degrees(tilt_rad):.0f}° and moved {told}",
+            )
+        fallen_m = start.position_m[2] - pose.position_m[2]
+        if fallen_m > self._control.displaced_m:
+            return Failure.OBJECT_DROPPED, f"the object fell by itself: {fallen_m * 1e3:.1f} mm before the grasp"
+        return Failure.OBJECT_DROPPED, f"the object slid by itself: {told}"
 
     def _resting_on(self, phase: Phase) -> str:
         scene = self._world.scene

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -14,6 +14,7 @@ from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
 from rgss.kinematics import InverseKinematics, choose_branches, straight_line
 from rgss.motion import ClockKind, PlanningClock, PlanningProblem, PlanResult, path_length, plan, segment_states
 from rgss.scenes import Scene, Waypoint, waypoint_poses
+from rgss.trials.goal_reasons import GoalReason, reason_against
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
 from rgss.trials.workcell import Workcell
@@ -114,14 +115,15 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
         settings: Clock, limit, resolution.
     """
     scene, models = cell.scene, cell.planning
-    stops, lift = _configurations(cell)
+    stops, lift, reasons = _configurations(cell)
     moves: dict[Phase, PlannedMove] = {}
     for phase in PLANNED_PHASES:
         start, goal = (stops.get(waypoint) for waypoint in _ENDS[phase])
         if start is None or goal is None:
             outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL
-            name = _ENDS[phase][start is not None].value
-            moves[phase] = _ill_posed(phase, outcome, f"no collision-free configuration reaches {name}")
+            waypoint = _ENDS[phase][start is not None]
+            why = reasons.get(waypoint, "none leads to it from the waypoint before")
+            moves[phase] = _ill_posed(phase, outcome, f"no configuration serves {waypoint.value}: {why}")
             break
         result = plan(
             _problem(scene, start, goal, settings),
@@ -141,10 +143,13 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
 
 
 @lru_cache(maxsize=4)
-def _configurations(cell: Workcell) -> tuple[Mapping[Waypoint, Array], Array | None]:
+def _configurations(
+    cell: Workcell,
+) -> tuple[Mapping[Waypoint, Array], Array | None, Mapping[Waypoint, GoalReason]]:
     """One configuration for each waypoint: collision-free in every move that meets there, least travel.
 
-    They are the same for every planner and seed, and so worked out once for a workcell.
+    They are the same for every planner and seed, and so worked out once for a workcell. Beside them are
+    the straight lift, and why waypoints that have no configuration have none.
     """
     models = cell.planning
     inverse = InverseKinematics(cell.arm)
@@ -153,24 +158,45 @@ def _configurations(cell: Workcell) -> tuple[Mapping[Waypoint, Array], Array | N
     for waypoint, pose in poses.items():
         meeting = [models[phase] for phase, ends in _ENDS.items() if waypoint in ends]
         candidates[waypoint] = [q for q in inverse.solve(pose) if all(model.is_valid(q) for model in meeting)]
+    reasons = unserved_waypoints(cell, (waypoint for waypoint, found in candidates.items() if not found))
     # The task is done as far as its waypoints can be reached.
     order = list(itertools.takewhile(lambda waypoint: candidates[waypoint], poses))
     legs = [(order.index(start), order.index(goal)) for start, goal in _ENDS.values() if {start, goal} <= {*order}]
     if not legs:
-        return {waypoint: candidates[waypoint][0] for waypoint in order}, None
+        return {waypoint: candidates[waypoint][0] for waypoint in order}, None, reasons
     chosen = choose_branches([candidates[waypoint] for waypoint in order], legs=legs, home=cell.scene.robot.home_rad)
     if chosen is None:
-        return {}, None
+        return {}, None, reasons
     stops = dict(zip(order, chosen, strict=True))
     if Waypoint.LIFT not in stops:
-        return stops, None
+        return stops, None, reasons
     lift = straight_line(inverse, stops[Waypoint.GRASP], poses[Waypoint.LIFT])
     if lift is None or not all(models[Phase.LIFT].is_valid(q) for q in lift):
         del stops[Waypoint.LIFT]
-        return stops, None
+        return stops, None, reasons
     stops[Waypoint.LIFT] = lift[-1]
     lift.setflags(write=False)
-    return stops, lift
+    return stops, lift, reasons
+
+
+def unserved_waypoints(cell: Workcell, among: Iterable[Waypoint] = tuple(Waypoint)) -> dict[Waypoint, GoalReason]:
+    """Why waypoints have no configuration that is valid in every move that meets there.
+
+    Args:
+        cell: Scene, arm and collision models.
+        among: The waypoints that are looked at.
+
+    Returns:
+        The reason of each that has none, in the task's order.
+    """
+    inverse, poses, wanted = InverseKinematics(cell.arm), waypoint_poses(cell.scene), set(among)
+    found = {}
+    for waypoint in (one for one in poses if one in wanted):
+        meeting = [cell.planning[phase] for phase, ends in _ENDS.items() if waypoint in ends]
+        reached = inverse.solve(poses[waypoint])
+        if not any(all(model.is_valid(q) for model in meeting) for q in reached):
+            found[waypoint] = reason_against(inverse, meeting, poses[waypoint], reached)
+    return found
 
 
 def _problem(scene: Scene, start: Array, goal: Array, settings: PlanningSettings) -> PlanningProblem:

@@ -25,6 +25,7 @@ class Watch:
         failure: The first thing that went wrong; None so far.
         detail: The numbers that show it.
         grip_margin: Friction available over friction needed as last observed; None so far.
+        robot_touched_object: Whether a finger or another link pressed the object so far.
     """
 
     def __init__(
@@ -56,6 +57,7 @@ class Watch:
         self.failure: Failure | None = None
         self.detail = ""
         self.grip_margin: float | None = None
+        self.robot_touched_object = False
         self._world = world
         self._control = control
         self._resting_on = resting_on
@@ -139,6 +141,8 @@ class Watch:
         force_n = max(forces_n)
         if force_n > self._peak_force_n:
             self._peak_force_n = force_n
+        if force_n > 0.0 or other_n > 0.0:
+            self.robot_touched_object = True
         # Mostly there is nothing to tell.
         if not robot_bodies and other_n <= 0.0 and workpiece_bodies in self._as_it_may and force_n <= self._limit_n:
             return

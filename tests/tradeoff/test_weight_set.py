@@ -100,7 +100,7 @@ def test_a_set_too_thin_for_rejection_is_walked():
     assert shares.sum(axis=1) == pytest.approx(np.ones(20_000), abs=1e-6)
     assert shares.min() > -1e-6
     assert shares.mean(axis=0) == pytest.approx(np.full(8, 1 / 8), abs=0.004)
-    assert np.cov(shares.T) == pytest.approx(np.cov(_dirichlet(8).T), abs=4e-4)
+    assert np.cov(shares.T) == pytest.approx(np.cov(_dirichlet(8).T), abs=8e-4)
     for at in (0.05, 0.25, 0.5):
         assert (shares > at).mean(axis=0) == pytest.approx(np.full(8, (1 - at) ** 7), abs=0.015)
 
@@ -111,7 +111,7 @@ def test_many_weights_of_which_one_is_fixed_are_walked():
 
     assert drawn.drawn_by is Drawing.HIT_AND_RUN
     assert drawn.weights[:, 0] == pytest.approx(np.full(20_000, 0.4))
-    assert np.cov(drawn.weights[:, 1:].T / 0.6) == pytest.approx(np.cov(_dirichlet(7).T), abs=6e-4)
+    assert np.cov(drawn.weights[:, 1:].T / 0.6) == pytest.approx(np.cov(_dirichlet(7).T), abs=1e-3)
 
 
 @pytest.mark.parametrize("size", [9, 20])

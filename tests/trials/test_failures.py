@@ -89,15 +89,23 @@ TRIALS = {
     ),
     "a cup out of reach": (
         lambda spec: with_cup_at(spec, 3.0, -0.3),
-        (Failure.INVALID_START, Phase.MOVE_TO_GRASP, "no collision-free configuration reaches grasp_approach"),
+        (
+            Failure.INVALID_START,
+            Phase.MOVE_TO_GRASP,
+            r"no configuration serves grasp_approach: out of reach: 3\.\d\d m from the first axis of the arm, reach .*",
+        ),
     ),
     "a cup inside another body": (
         lambda spec: with_cup_at(spec, 0.72, -0.06),
-        (Failure.INVALID_START, Phase.MOVE_TO_GRASP, "no collision-free configuration reaches grasp_approach"),
+        (
+            Failure.INVALID_START,
+            Phase.MOVE_TO_GRASP,
+            r"no configuration serves grasp_approach: collision of finger_\d with glass_rack, [\d.]+ mm deep, in .*",
+        ),
     ),
     "a cup that fills the hand": (
         lambda spec: with_cup_of(spec, 0.069),
-        (Failure.INVALID_GOAL, Phase.MOVE_TO_GRASP, "no collision-free configuration reaches grasp"),
+        (Failure.INVALID_GOAL, Phase.MOVE_TO_GRASP, r"no configuration serves grasp: .*(finger|cup|gripper).*"),
     ),
     "a lift out of reach": (
         lambda spec: with_task(spec, lift_height_m=0.9),
@@ -105,11 +113,15 @@ TRIALS = {
     ),
     "a place out of reach": (
         lambda spec: with_place(spec, centre_m=(-3.0, 0.7, 0.9)),
-        (Failure.INVALID_GOAL, Phase.MOVE_TO_PLACE_APPROACH, "no collision-free .* reaches place_approach"),
+        (
+            Failure.INVALID_GOAL,
+            Phase.MOVE_TO_PLACE_APPROACH,
+            r"no configuration serves place_approach: out of reach: 3\.\d\d m .*",
+        ),
     ),
     "a place that is taken": (
         lambda spec: with_place(spec, centre_m=(-0.03, 0.68, 0.9)),
-        (Failure.INVALID_GOAL, Phase.MOVE_TO_PLACE, "no collision-free configuration reaches place"),
+        (Failure.INVALID_GOAL, Phase.MOVE_TO_PLACE, r"no configuration serves place: .* menu_stand.*"),
     ),
     "a tool that hardly moves": (
         lambda spec: replace(spec, tool_speed_m_s=1e-9),
@@ -271,7 +283,18 @@ UNFORESEEN = {
     ),
     "a cup that does not stay where it was": (
         lambda spec: with_workpiece(spec, pose=spec.scene.workpiece.pose.raised(0.008)),
-        (Failure.OBJECT_COLLISION, Phase.MOVE_TO_GRASP, r"the object was pushed 8\.\d mm before the grasp"),
+        (Failure.OBJECT_DROPPED, Phase.MOVE_TO_GRASP, r"the object fell by itself: 8\.\d mm before the grasp"),
+    ),
+    "a cup that topples by itself": (
+        lambda spec: with_workpiece(
+            spec,
+            pose=spec.scene.workpiece.pose.raised(0.02) @ Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.9, 0.0, 0.0)),
+        ),
+        (
+            Failure.NOT_UPRIGHT,
+            Phase.MOVE_TO_GRASP,
+            r"the object toppled by itself: it leans by 9\d° and moved [\d.]+ mm .*",
+        ),
     ),
 }
 

@@ -1,0 +1,124 @@
+"""Why no configuration of the arm serves a waypoint: reach, joint range, collision, clearance or tilt."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.kinematics import CollisionModel, InverseKinematics, NearestPair
+from rgss.scenes import Pose
+
+Array = NDArray[np.float64]
+
+
+class Obstacle(str, Enum):
+    """What prevents every configuration."""
+
+    OUT_OF_REACH = "out_of_reach"
+    ORIENTATION = "orientation"
+    JOINT_RANGE = "joint_range"
+    COLLISION = "collision"
+    CLEARANCE = "clearance"
+    TILT = "tilt"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GoalReason:
+    """Why a pose has no valid configuration, by the configuration that comes nearest to one.
+
+    Attributes:
+        obstacle: What prevents it.
+        configurations: How many configurations reach the pose within the joints' ranges.
+        pair: The two bodies of a collision or a clearance; None for other obstacles.
+        distance_m: The distance of the pose from the first axis, or of the two bodies (negative for a
+            depth); NaN for other obstacles.
+        limit_m: The arm's reach, or the clearance to be kept; NaN for other obstacles.
+        joint: The joint that is out of its range; empty for other obstacles.
+        angle_rad: How far it is out of it, or the tilt of what is carried; NaN for other obstacles.
+    """
+
+    obstacle: Obstacle
+    configurations: int = 0
+    pair: tuple[str, str] | None = None
+    distance_m: float = math.nan
+    limit_m: float = math.nan
+    joint: str = ""
+    angle_rad: float = math.nan
+
+    def __str__(self) -> str:
+        best = f"in the best of {self.configurations} configurations" if self.configurations > 1 else "in the only one"
+        first, second = self.pair or ("", "")
+        if self.obstacle is Obstacle.OUT_OF_REACH:
+            return (
+                f"out of reach: {self.distance_m:.2f} m from the first axis of the arm, reach {self.limit_m:.2f} m "
+                "with the gripper"
+            )
+        if self.obstacle is Obstacle.ORIENTATION:
+            return (
+                f"no configuration has this position and orientation, {self.distance_m:.2f} m from the first axis of "
+                f"the arm, whose reach is {self.limit_m:.2f} m with the gripper stretched out"
+            )
+        if self.obstacle is Obstacle.JOINT_RANGE:
+            return f"joint range: {self.joint} would be {math.degrees(self.angle_rad):.1f}° outside its range at best"
+        if self.obstacle is Obstacle.COLLISION:
+            return f"collision of {first} with {second}, {_millimetres(-self.distance_m)} deep, {best}"
+        if self.obstacle is Obstacle.CLEARANCE:
+            return (
+                f"clearance: {first} is {_millimetres(self.distance_m)} from {second}, "
+                f"{_millimetres(self.limit_m)} must be kept, {best}"
+            )
+        return f"the object would be tilted by {math.degrees(self.angle_rad):.0f}°, {best}"
+
+
+def reason_against(
+    inverse: InverseKinematics, models: Sequence[CollisionModel], pose: Pose, candidates: Sequence[Array]
+) -> GoalReason:
+    """Why none of the configurations that reach a pose is valid in all situations that meet there.
+
+    Args:
+        inverse: The arm's inverse kinematics.
+        models: The collision models of these situations.
+        pose: Transform of the tool-centre frame to the world.
+        candidates: The configurations that reach it within the joints' ranges.
+    """
+    if not candidates:
+        return _unreached(inverse, pose)
+    best: NearestPair | None = None
+    tilts = []
+    for q in candidates:
+        pairs = [pair for pair in (model.nearest_pair(q) for model in models) if pair is not None]
+        worst = min(pairs, key=lambda pair: pair.room_m, default=None)
+        tilts += [tilt for tilt in (model.carried_tilt_rad(q) for model in models) if tilt is not None]
+        # Of configurations that come as near, the first, so that rounding cannot choose.
+        if worst is not None and (best is None or worst.room_m > best.room_m + 1e-9):
+            best = worst
+    if best is None or best.room_m > 0.0:
+        return GoalReason(
+            obstacle=Obstacle.TILT, configurations=len(candidates), angle_rad=min(tilts, default=math.nan)
+        )
+    return GoalReason(
+        obstacle=Obstacle.COLLISION if best.distance_m <= 0.0 else Obstacle.CLEARANCE,
+        configurations=len(candidates),
+        pair=(best.first, best.second),
+        distance_m=best.distance_m,
+        limit_m=best.clearance_m,
+    )
+
+
+def _unreached(inverse: InverseKinematics, pose: Pose) -> GoalReason:
+    excesses = inverse.excess_of_ranges(pose)
+    if excesses:
+        return GoalReason(obstacle=Obstacle.JOINT_RANGE, joint=excesses[0].joint, angle_rad=excesses[0].beyond_rad)
+    distance = math.dist(pose.position_m, inverse.arm.first_axis_m)
+    reach = inverse.arm.reach_m
+    obstacle = Obstacle.OUT_OF_REACH if distance > reach else Obstacle.ORIENTATION
+    return GoalReason(obstacle=obstacle, distance_m=distance, limit_m=reach)
+
+
+def _millimetres(metres: float) -> str:
+    return f"{max(0.0, metres) * 1e3:.0f} mm" if metres >= 0.01 else f"{max(0.0, metres) * 1e3:.1f} mm"

@@ -1,0 +1,138 @@
+"""Every name of a number that the page and its document print is taken by ``--what-if``."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from rgss.cli.trade_page import print_decision
+from rgss.cli.trade_robustness_page import print_robustness
+from rgss.errors import DefinitionError
+from rgss.studies import robustness
+from rgss.studies.choosing import choose, trade_problem
+from rgss.studies.measuring import measure_variants
+from rgss.studies.robustness import analyse_robustness
+from rgss.studies.robustness_export import robustness_to_json
+from rgss.studies.trade_off import AimChoice, BoundChoice, ProgramChoice, RiskChoice
+from rgss.studies.what_if import suppose
+from rgss.studies.what_if_numbers import model_numbers
+from rgss.tradeoff import Comparison, decision_to_json
+
+RISKS = (
+    RiskChoice(id="chance:SYS-005", requirement="SYS-005", bound=None, probability=0.6, worst_share=None),
+    RiskChoice(
+        id="chance:t_p",
+        requirement=None,
+        bound=BoundChoice(measure="t_p", comparison=Comparison.AT_MOST, value=12.0),
+        probability=0.5,
+        worst_share=None,
+    ),
+    RiskChoice(id="tail:SYS-033", requirement="SYS-033", bound=None, probability=None, worst_share=0.4),
+)
+LIMITED = ProgramChoice(
+    name="epsilon_constraint",
+    aims=(AimChoice(measure="P_max", more_is_better=True, absolute=0.0, relative=0.0),),
+    limits=(BoundChoice(measure="t_e", comparison=Comparison.AT_MOST, value=30.0),),
+)
+STUDIES = {
+    "as shipped": {},
+    "chances and tails": {"risks": RISKS},
+    "limits of a program": {"program": LIMITED},
+}
+
+
+@pytest.fixture(scope="module")
+def measured(shipped, filled, record_of):
+    store = filled(shipped, lambda spec: record_of(spec, planning_s=0.5 + 0.01 * spec.variant + 0.1 * spec.seed))
+    return measure_variants(shipped, store)
+
+
+def printed_names(project, text, document):
+    """Names of numbers: of weights, demands, conflicts and assumptions, in text and document."""
+    names = set(re.findall(r"(?:catalogue|measures|value|weight|chance|tail|limit)[.:][\w.:-]*\w", text))
+    names |= set(re.findall(r"\bSYS-\d+\b", text))
+    names |= set(document["demands"]) | set(document["robustness"]["weights"])
+    names |= {one["requirement"] for one in document["robustness"]["prices"]}
+    names |= {one["id"] for one in document["robustness"]["assumptions"]}
+    names |= {requirement for one in document["infeasible"] for requirement in one["requirements"]}
+    return {name for name in names if not name.startswith("evidence:")}
+
+
+@pytest.mark.parametrize("study", STUDIES)
+def test_every_printed_name_is_taken(monkeypatch, capsys, shipped, measured, study):
+    monkeypatch.setattr(robustness, "ITERATIONS", 100)
+    trade_off = replace(shipped.study.trade_off, **STUDIES[study])
+    project = replace(shipped, study=replace(shipped.study, trade_off=trade_off))
+    decision = choose(project, measured)
+    found = analyse_robustness(project, measured, decision)
+    print_decision(project, measured, decision)
+    print_robustness(project, decision, found)
+    document = {**decision_to_json(decision), "robustness": robustness_to_json(found)}
+    names = printed_names(project, capsys.readouterr().out, document)
+    numbers = {number.id: number for number in model_numbers(project)}
+    demands = {one.requirement: one for one in trade_problem(project, measured).conditions}
+
+    assert {"SYS-005", "t_e"} <= names
+    assert {one.id for one in trade_off.risks} <= names
+    for name in names:
+        if name in numbers:
+            text, unit = f"{numbers[name].value * 1.01!r}", numbers[name].unit
+        elif name in demands:
+            text, unit = f"{demands[name].value * 1.01!r}", demands[name].unit
+        else:
+            text, unit = "0.3", "1"
+        scenario = suppose(project, [f"{name}={text} {unit if unit != '1' else ''}".rstrip()])
+        (change,) = scenario.changes
+        assert change.id.startswith(name) or change.id == f"weight.{name}"
+        assert change.after != change.before or change.before == 0.0, name
+        # The change is in the trade-off that is decided, not only in the list of changes.
+        assert scenario.project != project or change.before == change.after, name
+
+
+def decided(project, measured, *texts):
+    return trade_problem(suppose(project, texts).project, measured)
+
+
+def test_demands_of_the_study(shipped, measured):
+    trade_off = replace(shipped.study.trade_off, risks=RISKS, program=LIMITED)
+    project = replace(shipped, study=replace(shipped.study, trade_off=trade_off))
+    problem = decided(
+        project,
+        measured,
+        "tail:SYS-033=9 s",
+        "chance:SYS-005.probability=65 %",
+        "tail:SYS-033.worst_share=0.5",
+        "limit:t_e.threshold=20 s",
+    )
+    by_id = {one.requirement: one for one in problem.conditions}
+
+    assert (by_id["tail:SYS-033"].value, by_id["tail:SYS-033"].share) == (9.0, 0.5)
+    assert by_id["SYS-033"].value == 15.0
+    assert by_id["chance:SYS-005"].probability == 0.65
+    assert by_id["limit:t_e"].value == 20.0
+    # What takes over a requirement's threshold moves with it.
+    moved = {one.requirement: one.value for one in decided(project, measured, "SYS-033=10 s").conditions}
+    assert (moved["SYS-033"], moved["tail:SYS-033"]) == (10.0, 10.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("tail:SYS-033.worst_share=0", "must be above 0 and at most 1, got 0"),
+        ("chance:SYS-005.probability=120 %", "must be above 0 and at most 1, got 1.2"),
+        ("tail:SYS-034=9 s", "there is no 'tail:SYS-034'"),
+        ("tail:SYS-033=9 kg", "tail:SYS-033.threshold"),
+        ("evidence:t_p=3", "demands that a measure is known, which is no number"),
+        ("tail:SYS-033=9 s", None),
+    ],
+)
+def test_what_is_refused(shipped, text, message):
+    project = replace(shipped, study=replace(shipped.study, trade_off=replace(shipped.study.trade_off, risks=RISKS)))
+    if message is None:
+        with pytest.raises(DefinitionError, match="supposed twice"):
+            suppose(project, [text, "tail:SYS-033.threshold=8 s"])
+        return
+    with pytest.raises(DefinitionError, match=re.escape(message)):
+        suppose(project, [text])
