@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+LEAST_RATE_HZ = 120.0
+"""Rate from which a grasp was validated; below it fingers that hold are reported as not firm."""
+
+LEAST_ITERATIONS_HZ = 2400.0
+"""Rate times iterations from which a grasp was validated."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhysicsSettings:

@@ -114,9 +114,9 @@ class World:
             self._robot,
             self._finger_joints,
             self._engine.POSITION_CONTROL,
-            targetPositions=[0.0] * count,
-            targetVelocities=[0.0] * count,
-            forces=[self.gripper.finger_force_n] * count,
+            [0.0] * count,
+            [0.0] * count,
+            [self.gripper.finger_force_n] * count,
             physicsClientId=self._client,
         )
 
@@ -350,8 +350,7 @@ class World:
         arm = self.scene.robot.joints
         self._arm_joints = [joints[joint.name] for joint in arm]
         self._arm_torques = [joint.torque_n_m for joint in arm]
-        self._arm_position_gains = [_ARM_POSITION_GAIN] * len(arm)
-        self._arm_velocity_gains = [1.0] * len(arm)
+        self._arm_position_gains, self._arm_velocity_gains = [_ARM_POSITION_GAIN] * len(arm), [1.0] * len(arm)
         fingers = range(self.gripper.geometry.fingers)
         self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
         self._flange = links[self.scene.robot.flange]
@@ -386,15 +385,9 @@ class World:
     def _couple_fingers(self) -> None:
         """Gear two opposed fingers together: each alone resists no force along their common axis."""
         engine = self._engine
+        one, other = self._finger_joints
+        frames = [1, 0, 0], [0, 0, 0], [0, 0, 0]
         gear = engine.createConstraint(
-            self._robot,
-            self._finger_joints[0],
-            self._robot,
-            self._finger_joints[1],
-            engine.JOINT_GEAR,
-            [1, 0, 0],
-            [0, 0, 0],
-            [0, 0, 0],
-            physicsClientId=self._client,
+            self._robot, one, self._robot, other, engine.JOINT_GEAR, *frames, physicsClientId=self._client
         )
         engine.changeConstraint(gear, gearRatio=-1, maxForce=_GEAR_FORCE_N, erp=0.2, physicsClientId=self._client)

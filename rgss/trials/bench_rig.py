@@ -120,10 +120,10 @@ class PayloadRig:
         self.grip_margin_min: float | None = None
         self.height_m = 0.0
         self.speed_m_s = 0.0
+        self._sensor = ForceSensor(spec.force_window_s, spec.physics.rate_hz)
         self._spec = spec
         self._mass_kg = mass_kg
         self._held_at = Pose()
-        self._sensor = ForceSensor(spec.force_window_s, spec.physics.rate_hz)
         self._world = World(_rig_scene(spec, mass_kg), spec.gripper, spec.physics)
         self._world.reset_arm((0.0,))
 

@@ -6,6 +6,7 @@ import pytest
 
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
+from rgss.studies.project import load_project
 from rgss.studies.study import named_file, read_study
 
 STUDY = "studies/pick_place.yaml"
@@ -84,6 +85,16 @@ FINDINGS = [
     ("fidelity: contact", "fidelity: magic", "10:11: error: fidelity: 'magic' is not one of 'kinematic', 'dynamic'"),
     ("clock: counted", "clock: sundial", "13:10: error: clock: 'sundial' is not one of 'counted' or 'wall'"),
     ("solver_iterations: 50", "solver_iterations: 0", "21:22: error: solver_iterations: input should be greater"),
+    (
+        "rate: 240 Hz",
+        "rate: 60 Hz",
+        "20:9: error: contact physics needs at least 120 Hz, got 60 Hz (240 Hz is validated) [study.coarse-physics]",
+    ),
+    (
+        "solver_iterations: 50",
+        "solver_iterations: 9",
+        "21:22: error: contact physics at 240 Hz needs at least 10 solver iterations, got 9 (20 are validated) [study.",
+    ),
     ("simplification_checks: 1500", "simplification_checks: -1", "16:26: error: simplification_checks: input should"),
 ]
 
@@ -101,6 +112,14 @@ def test_finding(edit, problems, old, new, expected):
     (problem,) = problems()
 
     assert problem.startswith(f"{STUDY}:{expected}")
+
+
+@pytest.mark.parametrize("fidelity", ["kinematic", "dynamic"])
+def test_a_study_without_contact_may_step_coarsely(edit, folder, fidelity):
+    edit(STUDY, "fidelity: contact", f"fidelity: {fidelity}")
+    edit(STUDY, "rate: 240 Hz", "rate: 60 Hz")
+
+    assert load_project(folder, STUDY).study.rate_hz == 60.0
 
 
 def test_several_findings_in_the_order_of_their_places(edit, problems):
