@@ -28,6 +28,7 @@ from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import carry
 import payload
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -49,6 +50,8 @@ def main() -> None:
     _payload(out)
     records = _records(project)
     _rates(out, records)
+    carry.write_carry(out, carry.rows_of(project))
+    carry.write_forces(out, project)
     _fidelities(out, project)
     _limits(out, project, records)
     _grasps(out, project, records)

@@ -21,7 +21,7 @@ from rgss.physics.hand_view import HandView
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Box, Gripper, Pose, Scene, Shape
 from rgss.scenes.assembly import assembled_urdf, finger_joint
-from rgss.scenes.pad_ribs import pad_ribs
+from rgss.scenes.pad_ribs import RIBS, pad_ribs
 
 _ARM_POSITION_GAIN = 0.2
 _GEAR_FORCE_N = 1.0e4
@@ -114,9 +114,9 @@ class World:
             self._robot,
             self._finger_joints,
             self._engine.POSITION_CONTROL,
-            targetPositions=[0.0] * count,
-            targetVelocities=[0.0] * count,
-            forces=[self.gripper.finger_force_n] * count,
+            [0.0] * count,
+            [0.0] * count,
+            [self.gripper.finger_force_n] * count,
             physicsClientId=self._client,
         )
 
@@ -140,6 +140,22 @@ class World:
         if self._steps % _RENEWAL_CHECK_STEPS == 0:
             self._renew_contacts_after_rotation()
         self._engine.stepSimulation(self._client)
+
+    def bend(self, arc_m: Sequence[float]) -> None:
+        """Second-order correction of the workpiece's position after a step in which the hand carried it.
+
+        The engine moves a hand along its arc and a free body along the tangent at the start of the step. The
+        difference adds up to millimetres, and friction at its limit does not take it back.
+
+        Args:
+            arc_m: Displacement of the tool over the step less that along its tangent, in the world.
+        """
+        engine, client, body = self._engine, self._client, self._workpiece
+        (x, y, z), turned = engine.getBasePositionAndOrientation(body, client)
+        velocities = engine.getBaseVelocity(body, client)
+        corrected = (x + arc_m[0], y + arc_m[1], z + arc_m[2])
+        engine.resetBasePositionAndOrientation(body, corrected, turned, client)
+        engine.resetBaseVelocity(body, *velocities, client)  # the engine stops a body that it places
 
     def solve_freely(self, *, free: bool) -> None:
         """Take fewer iterations of the solver while nothing is held, or all of them again.
@@ -241,8 +257,7 @@ class World:
             numSubSteps=0,
             # With a residual threshold of zero every iteration runs, and a held object does not creep.
             solverResidualThreshold=0.0,
-            # A body that is carried round a bend is moved along the tangent in each step; friction takes
-            # it back by this share, which keeps it within a millimetre of where it was gripped.
+            # Friction takes a held body back by this share of what it was displaced in a step.
             frictionERP=_FRICTION_RECOVERY,
             # Without it the order of contact pairs, and so the last bits of a result, can differ by run.
             deterministicOverlappingPairs=1,
@@ -339,8 +354,7 @@ class World:
         arm = self.scene.robot.joints
         self._arm_joints = [joints[joint.name] for joint in arm]
         self._arm_torques = [joint.torque_n_m for joint in arm]
-        self._arm_position_gains = [_ARM_POSITION_GAIN] * len(arm)
-        self._arm_velocity_gains = [1.0] * len(arm)
+        self._arm_position_gains, self._arm_velocity_gains = [_ARM_POSITION_GAIN] * len(arm), [1.0] * len(arm)
         fingers = range(self.gripper.geometry.fingers)
         self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
         self._flange = links[self.scene.robot.flange]
@@ -358,9 +372,16 @@ class World:
             engine.changeDynamics(
                 robot, link, linearDamping=0.0, angularDamping=0.0, jointDamping=0.0, physicsClientId=client
             )
+        stiffness_n_m = self.settings.pad_stiffness_n_m / RIBS
         for joint in self._finger_joints:
             engine.changeDynamics(
-                robot, joint, lateralFriction=self.gripper.friction, frictionAnchor=1, physicsClientId=client
+                robot,
+                joint,
+                lateralFriction=self.gripper.friction,
+                frictionAnchor=1,
+                contactStiffness=stiffness_n_m,
+                contactDamping=self.settings.pad_retardation_s * stiffness_n_m,
+                physicsClientId=client,
             )
         if len(self._finger_joints) == 2:
             self._couple_fingers()
@@ -368,15 +389,9 @@ class World:
     def _couple_fingers(self) -> None:
         """Gear two opposed fingers together: each alone resists no force along their common axis."""
         engine = self._engine
+        one, other = self._finger_joints
+        frames = [1, 0, 0], [0, 0, 0], [0, 0, 0]
         gear = engine.createConstraint(
-            self._robot,
-            self._finger_joints[0],
-            self._robot,
-            self._finger_joints[1],
-            engine.JOINT_GEAR,
-            [1, 0, 0],
-            [0, 0, 0],
-            [0, 0, 0],
-            physicsClientId=self._client,
+            self._robot, one, self._robot, other, engine.JOINT_GEAR, *frames, physicsClientId=self._client
         )
         engine.changeConstraint(gear, gearRatio=-1, maxForce=_GEAR_FORCE_N, erp=0.2, physicsClientId=self._client)

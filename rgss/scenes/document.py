@@ -18,9 +18,10 @@ from rgss.documents import (
     Radians,
     RadiansPerSecond,
     RadiansPerSecondSquared,
+    Seconds,
     Text,
 )
-from rgss.scenes.scene import LARGEST_DRAG_M, LARGEST_DROP_M
+from rgss.scenes.scene import FORCE_WINDOW_S, LARGEST_DRAG_M, LARGEST_DROP_M
 
 Colour = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}$")]
 Point = tuple[Metres, Metres, Metres]
@@ -62,6 +63,7 @@ class WorkpieceEntry(DocumentModel):
     mass: Kilograms
     friction: Dimensionless
     force_limit: Newtons
+    force_window: Seconds = FORCE_WINDOW_S
     stands_on: Identifier
     at: PointOnTop
     colour: Colour

@@ -14,6 +14,9 @@ from dataclasses import dataclass
 from rgss.scenes.gripper import GripperGeometry
 from rgss.scenes.shapes import Cylinder
 
+RIBS = 2
+"""Ribs of a finger's pad."""
+
 _LARGEST_RADIUS_M = 0.004
 _RADIUS_SHARE = 0.25
 # So far behind the ribs the finger's flat face makes no contact, and the ribs are still part of the finger.

@@ -13,6 +13,9 @@ LARGEST_DROP_M = 0.01
 LARGEST_DRAG_M = 0.001
 ColourRgba = tuple[float, float, float, float]
 
+FORCE_WINDOW_S = 0.01
+"""Default window of the force that damages a workpiece: the period of a sensor that reports at 100 Hz."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneBody:
@@ -42,7 +45,8 @@ class Workpiece:
         shape: Its solid, upright.
         mass_kg: Its mass.
         friction: Its coefficient.
-        force_limit_n: Contact force above which it counts as damaged.
+        force_limit_n: Normal force of a finger, averaged over the window, above which it counts as damaged.
+        force_window_s: The window. A limit is found by pressing slowly, on a sensor that averages.
         pose: Transform of its shape's frame to the world at the start.
         colour: Colour in pictures.
     """
@@ -52,6 +56,7 @@ class Workpiece:
     mass_kg: float
     friction: float
     force_limit_n: float
+    force_window_s: float = FORCE_WINDOW_S
     pose: Pose
     colour: ColourRgba
 

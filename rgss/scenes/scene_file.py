@@ -55,6 +55,7 @@ def load_scene(path: Path, *, label: str | None = None) -> Scene:
             mass_kg=workpiece.mass,
             friction=workpiece.friction,
             force_limit_n=workpiece.force_limit,
+            force_window_s=workpiece.force_window,
             pose=Pose(position_m=centre),
             colour=_colour(workpiece.colour),
         ),
@@ -149,6 +150,7 @@ def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     yield ("workpiece", "height"), work.height
     yield ("workpiece", "mass"), work.mass
     yield ("workpiece", "force_limit"), work.force_limit
+    yield ("workpiece", "force_window"), work.force_window
     yield ("place_region", "radius"), place.radius
     yield ("place_region", "largest_tilt"), place.largest_tilt
     yield ("place_region", "largest_drag"), place.largest_drag

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
@@ -11,6 +12,7 @@ from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
+from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.studies.document import StudyDocument
 from rgss.studies.promotion import Screening, read_screening
@@ -148,6 +150,8 @@ def read_study(
         findings.append(document.finding("study.negative", message, ("planning", "simplification_limit")))
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
+    elif "contact" in entry.fidelity:
+        findings.extend(_coarse_contact(entry, document))
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
     until_decided = read_until_decided(entry.until_decided, document, findings)
@@ -245,6 +249,20 @@ def _values(trade_off: TradeOff, places: TradeOffPlaces) -> tuple[ValueAnchors, 
                 )
             )
     return tuple(found)
+
+
+def _coarse_contact(entry: StudyDocument, document: Document) -> list[Finding]:
+    """What is too coarse of the physics for a grasp; docs/validation.md shows from where results converge."""
+    rate_hz, iterations = entry.physics.rate, entry.physics.solver_iterations
+    if rate_hz < LEAST_RATE_HZ:
+        message = f"contact physics needs at least {LEAST_RATE_HZ:g} Hz, got {rate_hz:g} Hz"
+        return [document.finding("study.coarse-physics", message, ("physics", "rate"), hint="240 Hz is validated")]
+    if rate_hz * iterations < LEAST_ITERATIONS_HZ:
+        least = math.ceil(LEAST_ITERATIONS_HZ / rate_hz)
+        message = f"contact physics at {rate_hz:g} Hz needs at least {least} solver iterations, got {iterations}"
+        hint = "20 are validated" if least <= 20 else f"give {least} or more"
+        return [document.finding("study.coarse-physics", message, ("physics", "solver_iterations"), hint=hint)]
+    return []
 
 
 def _not_positive(document: Document, location: tuple[str, str]) -> Finding:

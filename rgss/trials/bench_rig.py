@@ -17,6 +17,7 @@ from types import TracebackType
 from rgss.physics import Contacts, World
 from rgss.scenes import Cylinder, Joint, PlaceRegion, Pose, Robot, Scene, SceneBody, Task, Workpiece
 from rgss.trials.bench_spec import BenchSpec
+from rgss.trials.force_sensor import ForceSensor
 
 _CARRIAGE = "carriage"
 _RAIL_JOINT = "rail_joint"
@@ -48,7 +49,7 @@ class Probe:
         stopped_by: Why it cannot be carried; None if it was held to the end.
         slip_m: Displacement of the object in the hand since it was firmly grasped.
         creep_m_s: Mean speed of that displacement over the second half of the lift; None if it ended before.
-        peak_force_n: Greatest normal force of a finger on the object.
+        peak_force_n: Greatest normal force of a finger on the object, averaged over the object's force window.
         grip_margin_min: Least mu ΣN / (m (g + a)) during the lift; None if there was none.
     """
 
@@ -97,7 +98,7 @@ class PayloadRig:
     Attributes:
         stopped_by: Why the object cannot be carried; None so far. From then on the rig stands still.
         slip_m: Displacement of the object in the hand since it was firmly grasped.
-        peak_force_n: Greatest normal force of a finger on the object so far.
+        peak_force_n: Greatest normal force of a finger on the object so far, averaged over its force window.
         grip_margin_min: Least mu ΣN / (m (g + a)) while the hand moves; None before.
         height_m: Height of the hand above where it grasped, as commanded.
         speed_m_s: Upward speed of the hand, as commanded.
@@ -119,6 +120,7 @@ class PayloadRig:
         self.grip_margin_min: float | None = None
         self.height_m = 0.0
         self.speed_m_s = 0.0
+        self._sensor = ForceSensor(spec.force_window_s, spec.physics.rate_hz)
         self._spec = spec
         self._mass_kg = mass_kg
         self._held_at = Pose()
@@ -185,7 +187,8 @@ class PayloadRig:
         self.height_m += mean_speed * step_s
         self.speed_m_s += acceleration_m_s2 * step_s
         contacts = self._world.contacts()
-        self.peak_force_n = max(self.peak_force_n, *contacts.finger_forces_n)
+        self._sensor.note(contacts.finger_forces_n)
+        self.peak_force_n = self._sensor.peak_n
         if self.peak_force_n > self._spec.force_limit_n:
             self._stop(PayloadLimit.DAMAGE)
         return contacts
@@ -216,6 +219,7 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
         mass_kg=mass_kg,
         friction=spec.object_friction,
         force_limit_n=spec.force_limit_n,
+        force_window_s=spec.force_window_s,
         pose=Pose(position_m=(0.0, 0.0, half_m)),
         colour=_BLACK,
     )

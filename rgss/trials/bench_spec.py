@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from rgss.errors import DefinitionError
 from rgss.physics import PhysicsSettings
-from rgss.scenes import Cylinder, Gripper, Scene
+from rgss.scenes import FORCE_WINDOW_S, Cylinder, Gripper, Scene
 
 SAFETY_FACTOR = 1.5
 """Of a gripper's payload by friction (thesis, eq. 4.8)."""
@@ -50,7 +50,8 @@ class BenchSpec:
         gripper: The gripper; the masses, force, velocity and friction of the design.
         shape: The object's solid, upright and gripped at its centre.
         object_friction: The object's coefficient; the contact's is the product with the pads'.
-        force_limit_n: Normal force of a finger above which the object is damaged.
+        force_limit_n: Normal force of a finger, averaged over the window, above which the object is damaged.
+        force_window_s: The window.
         gravity_m_s2: Magnitude of gravity.
         acceleration_m_s2: Acceleration a_m at which the object is lifted.
         rated_kg: Mass at which the search ends, what the arm may carry.
@@ -67,6 +68,7 @@ class BenchSpec:
     rated_kg: float
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
     settings: BenchSettings = field(default_factory=BenchSettings)
+    force_window_s: float = FORCE_WINDOW_S
 
     @property
     def friction(self) -> float:
@@ -181,6 +183,7 @@ def bench_spec(
         shape=scene.workpiece.shape,
         object_friction=scene.workpiece.friction,
         force_limit_n=scene.workpiece.force_limit_n,
+        force_window_s=scene.workpiece.force_window_s,
         gravity_m_s2=scene.gravity_m_s2,
         acceleration_m_s2=acceleration_m_s2,
         rated_kg=rated_kg,

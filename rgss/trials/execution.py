@@ -11,6 +11,7 @@ from rgss.physics import Contacts, World
 from rgss.scenes import Pose
 from rgss.trials.arm_watch import ToolKinematics
 from rgss.trials.control import ControlSettings
+from rgss.trials.force_sensor import ForceSensor
 from rgss.trials.grasp_record import grasp_metrics
 from rgss.trials.hand_motion import HandWatch
 from rgss.trials.observer import StepObserver
@@ -58,6 +59,7 @@ class Execution:
         self._step_s = world.settings.step_s
         self._held_at: Pose | None = None
         self._memory = GraspMemory()
+        self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
         self._grip_n = control.holding_share * world.gripper.finger_force_n
         self._since_tightening_s = 0.0
         self._tightenings = 0
@@ -83,16 +85,25 @@ class Execution:
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
         world.solve_freely(free=carried_at is None)
         # What surrounds a step costs a tenth of it: nothing is looked up here that can be had before.
-        for position, velocity, target, load in zip(
-            positions, velocities, positions[1:], reference.load_m_s2.tolist(), strict=False
+        is_held = carried_at is not None
+        for position, velocity, target, load, arc_m in zip(
+            positions,
+            velocities,
+            positions[1:],
+            reference.load_m_s2.tolist(),
+            reference.arc_m.tolist(),
+            strict=False,
         ):
             world.command_arm(position, velocity)
             world.step()
+            if is_held:
+                world.bend(arc_m)
             steps += 1
             contacts = watch.after_step(load, target)
             if not is_alone:
                 self._show(phase, watch, contacts)
             if carried_at is not None:
+                is_held = min(contacts.finger_forces_n) > 0.0
                 self._since_tightening_s += self._step_s
                 if watch.grip_margin is not None and watch.grip_margin < least_margin:
                     self._keep_grip()
@@ -285,6 +296,7 @@ class Execution:
             path_m=path_m,
             memory=self._memory,
             placed=placed,
+            sensor=self._sensor,
         )
 
     def _observe(self, phase: Phase, watch: Watch, load_m_s2: float) -> Contacts:

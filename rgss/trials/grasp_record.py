@@ -24,6 +24,7 @@ from rgss.grasping import (
 )
 from rgss.physics import FingerContact, World
 from rgss.scenes import Cylinder, Pose
+from rgss.scenes.pad_ribs import RIBS
 from rgss.trials.hand_motion import HandMotion
 
 Vector3 = tuple[float, float, float]
@@ -73,9 +74,10 @@ _ANALYSED = (
 )
 # A pyramid of six edges underrates friction by at most 1 - cos(30°); more edges cost more than the physics.
 _CONE_EDGES = 6
-# Contacts of the engine penetrate by hundredths of a millimetre; a held object turns and yields in its fingers by less
-# than as much from one look to the next (0.35 mm/s was seen; an object that slips is ten times as fast).
-_TOLERANCES = ContactTolerances(gap_m=5.0e-5, speed_m_s=1.0e-3)
+# Contacts of the engine penetrate by hundredths of a millimetre beyond a pad's deflection; a held object turns and
+# yields in its fingers by less than as much from one look to the next (0.35 mm/s was seen; an object that slips is ten
+# times as fast).
+_PENETRATION_M, _SLIP_M_S = 5.0e-5, 1.0e-3
 # A point this far inside is not on the wall.
 _WALL_M = 1.0e-3
 # What is known of a grasp that has come apart: it holds nothing, and nothing else can be said of it.
@@ -130,7 +132,7 @@ def grasp_metrics(
     ).metrics()
     return {
         **{f"grasp_{name}": found[name] for name in _ANALYSED},
-        **_kinematics(points),
+        **_kinematics(points, _tolerances(world)),
         **moved,
         "held_wrench_n": found["net_wrench_n"],
     }
@@ -186,10 +188,16 @@ def _closing_velocity(azimuth_rad: float, speed_m_s: float, motion: HandMotion) 
     return motion.held.turned_back((-speed_m_s * math.cos(azimuth_rad), -speed_m_s * math.sin(azimuth_rad), 0.0))
 
 
-def _kinematics(points: Sequence[ContactPoint]) -> dict[str, Metric]:
+def _tolerances(world: World) -> ContactTolerances:
+    """Tolerances of the contact status; a pad may yield by what all of its finger's force deflects one of its ends."""
+    yields_m = world.gripper.finger_force_n / (world.settings.pad_stiffness_n_m / RIBS)
+    return ContactTolerances(gap_m=_PENETRATION_M + yields_m, speed_m_s=_SLIP_M_S)
+
+
+def _kinematics(points: Sequence[ContactPoint], tolerances: ContactTolerances) -> dict[str, Metric]:
     """How the contacts move: gap and its rate, slip, and how many of them do what."""
     motions = [recorded_motion(point) for point in points]
-    statuses = [contact_status(motion, _TOLERANCES) for motion in motions]
+    statuses = [contact_status(motion, tolerances) for motion in motions]
     rates = [motion.gap_rate_m_s for motion in motions]
     return {
         "contact_gap_min_m": min(point.gap_m for point in points),

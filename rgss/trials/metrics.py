@@ -38,6 +38,7 @@ _TRIAL = {
     "peak_tool_acceleration_m_s2": MetricKind("m/s**2"),
     "slip_m": MetricKind("m"),
     "grip_margin_min": MetricKind("1"),
+    "sensed_finger_force_n": MetricKind("N"),
     "peak_finger_force_n": MetricKind("N"),
     "place_error_m": MetricKind("m"),
     "place_tilt_rad": MetricKind("rad"),

@@ -29,6 +29,7 @@ _PLANNING_FAILURES = {
 _GREATEST = (
     "peak_tool_speed_m_s",
     "peak_tool_acceleration_m_s2",
+    "sensed_finger_force_n",
     "peak_finger_force_n",
     "peak_joint_torque_ratio",
     "tracking_error_m",

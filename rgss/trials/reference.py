@@ -40,6 +40,7 @@ class Reference:
         tool_m: Tool positions (n + 1, 3) in the world.
         load_m_s2: Magnitude (n,) of tool acceleration minus gravity over each step: the load
             that a grasp carries for each kilogram.
+        arc_m: Displacement (n, 3) of the tool over each step less that along its tangent at the start.
         peak_tool_speed_m_s: Greatest tool speed.
         peak_tool_acceleration_m_s2: Greatest tool acceleration.
     """
@@ -48,6 +49,7 @@ class Reference:
     velocities_rad_s: Array
     tool_m: Array
     load_m_s2: Array
+    arc_m: Array
     peak_tool_speed_m_s: float
     peak_tool_acceleration_m_s2: float
 
@@ -82,6 +84,17 @@ def reference_of(
         velocities_rad_s=velocities,
         tool_m=tool_m,
         load_m_s2=load,
+        arc_m=_arcs(tool, positions, tool_m),
         peak_tool_speed_m_s=float(np.linalg.norm(tool_velocity, axis=1).max()),
         peak_tool_acceleration_m_s2=float(np.linalg.norm(acceleration, axis=1).max()),
     )
+
+
+def _arcs(tool: ToolPositions, positions_rad: Array, tool_m: Array) -> Array:
+    """Displacement of the tool over each step less that along its tangent, to third order in the step.
+
+    At constant joint velocities, half the second difference of the tool's position about the start of the step.
+    """
+    behind = np.asarray(tool.tool_position(2.0 * positions_rad[:-1] - positions_rad[1:]))
+    arcs: Array = 0.5 * (tool_m[1:] - 2.0 * tool_m[:-1] + behind)
+    return arcs

@@ -12,6 +12,7 @@ from rgss.physics import Contacts, World
 from rgss.scenes import Pose
 from rgss.trials.arm_watch import ArmWatch, Array, ToolKinematics
 from rgss.trials.control import ControlSettings
+from rgss.trials.force_sensor import ForceSensor
 from rgss.trials.grasp_watch import GraspWatch
 from rgss.trials.release_monitor import PlacedObjectMonitor, Violation
 
@@ -39,6 +40,7 @@ class Watch:
         path_m: Sequence[Sequence[float]] | Array = (),
         memory: GraspMemory | None = None,
         placed: PlacedObjectMonitor | None = None,
+        sensor: ForceSensor | None = None,
     ) -> None:
         """Begin to watch.
 
@@ -53,6 +55,7 @@ class Watch:
                 where the arm is held.
             memory: Remembers the analysis of a carried object's grasp from one phase to the next.
             placed: Monitor of the object that was released, if the hand leaves it.
+            sensor: The fingers' force sensors, which go on from one phase to the next; new ones if not given.
         """
         self.failure: Failure | None = None
         self.detail = ""
@@ -67,7 +70,10 @@ class Watch:
         self._window = max(1, round(control.force_window_s * world.settings.rate_hz))
         self._forces_n: deque[float] = deque(maxlen=self._window)
         self._as_it_may = ((), (resting_on,))
-        self._limit_n = world.scene.workpiece.force_limit_n
+        workpiece = world.scene.workpiece
+        self._limit_n = workpiece.force_limit_n
+        self._sensor = sensor or ForceSensor(workpiece.force_window_s, world.settings.rate_hz)
+        self._sensor.restart()
         self._lost_s = 0.0
         self._touches = 0
         self._peak_force_n = 0.0
@@ -95,6 +101,8 @@ class Watch:
             self._standing = contacts if is_standing else None
             if self._placed is not None:
                 self.note(self._placed.after_step(contacts))
+            if is_standing:
+                self._sensor.clear()
         if target_rad is None:
             self._arm.note(world.arm_state())
         elif (stray := self._arm.follow(world.arm_state(), target_rad)) is not None:
@@ -128,6 +136,7 @@ class Watch:
         grasp = self._grasp
         return {
             "arm_scene_contacts": self._touches,
+            "sensed_finger_force_n": self._sensor.peak_n,
             "peak_finger_force_n": self._peak_force_n,
             **self._arm.metrics(),
             "slip_m": grasp.slip_m if grasp is not None else None,
@@ -143,8 +152,11 @@ class Watch:
             self._peak_force_n = force_n
         if force_n > 0.0 or other_n > 0.0:
             self.robot_touched_object = True
+        sensor = self._sensor
+        sensor.note(forces_n)
         # Mostly there is nothing to tell.
-        if not robot_bodies and other_n <= 0.0 and workpiece_bodies in self._as_it_may and force_n <= self._limit_n:
+        is_whole = sensor.peak_n <= self._limit_n
+        if is_whole and not robot_bodies and other_n <= 0.0 and workpiece_bodies in self._as_it_may:
             return
         if robot_bodies:
             self._touches += 1
@@ -155,9 +167,12 @@ class Watch:
         for body in workpiece_bodies:
             if body != self._resting_on:
                 self.fail(Failure.OBJECT_COLLISION, f"the object touched {body}")
-        if force_n > self._limit_n:
+        if not is_whole:
+            window_ms = self._world.scene.workpiece.force_window_s * 1e3
             self.fail(
-                Failure.OBJECT_DAMAGED, f"a finger pressed with {force_n:.2f} N, the object bears {self._limit_n:g} N"
+                Failure.OBJECT_DAMAGED,
+                f"a finger pressed with {sensor.peak_n:.2f} N over {window_ms:g} ms, "
+                f"the object bears {self._limit_n:g} N",
             )
 
     def _watch_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:

@@ -77,7 +77,7 @@ TRIAL: Mapping[str, Any] = {
     "at_grasp_q_diff_m": 0.006,
     "at_grasp_q_smw_n": 2.0,
     "joint_saturated_s": (0.0, 0.5, 0.0, 0.0, 0.25, 0.0),
-    "peak_finger_force_n": 9.5,
+    "sensed_finger_force_n": 9.5,
     "place_error_m": 0.004,
     "peak_joint_torque_ratio": 0.6,
 }

@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rgss.physics import PhysicsSettings, World
+
 pytestmark = pytest.mark.engine
 
 GRAVITY = 9.81
@@ -136,6 +138,35 @@ def test_two_geared_fingers_keep_their_travels_equal_while_the_arm_moves_aside(t
         held = world.contacts()
     assert largest < 1e-4
     assert held.fingers_touching == 2
+
+
+@pytest.mark.parametrize(("rate_hz", "iterations"), [(240.0, 20), (1000.0, 200)])
+def test_both_ends_of_a_pad_press(cell, rate_hz, iterations):
+    """Between rigid bodies the share of each end is undetermined, and the solver may leave one end all of it."""
+    scene = replace(cell.scene, **cell.with_workpiece(mass_kg=1.0))
+    with World(scene, cell.gripper, PhysicsSettings(rate_hz=rate_hz, solver_iterations=iterations)) as world:
+        cell.lift(world)
+        pressed = [contact.normal_force_n for contact in world.finger_contacts()]
+        gaps = [contact.gap_m for contact in world.finger_contacts()]
+        stiffness_n_m = world.settings.pad_stiffness_n_m / 2
+    assert len(pressed) == 2 * cell.gripper.geometry.fingers
+    assert pressed == pytest.approx([5.0] * len(pressed), rel=0.15)
+    # The engine leaves a hundredth of a millimetre between touching shapes.
+    assert gaps == pytest.approx([-force / stiffness_n_m for force in pressed], abs=1.5e-5)
+
+
+def test_a_correction_of_the_path_moves_the_object_and_leaves_its_velocity(cell):
+    with cell.world() as world:
+        up = cell.lift(world)
+        cell.follow(world, cell.path(up, up + np.array([0.3, 0.0, 0.0, 0.0, 0.0, 0.2]), 1.0)[:120])
+        before, speeds = world.workpiece_pose(), world.workpiece_speed()
+        world.bend((1e-5, -2e-5, 3e-5))
+        after = world.workpiece_pose()
+        moved = np.subtract(after.position_m, before.position_m)
+        assert world.workpiece_speed() == pytest.approx(speeds, rel=1e-12)
+        assert speeds[0] > 0.1
+    assert moved == pytest.approx([1e-5, -2e-5, 3e-5], abs=1e-12)
+    assert after.quaternion_xyzw == pytest.approx(before.quaternion_xyzw, abs=1e-12)
 
 
 def test_every_rib_touches_in_one_point_and_is_found_again_at_once(cell):

@@ -6,6 +6,7 @@ import pytest
 
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
+from rgss.studies.project import load_project
 from rgss.studies.study import named_file, read_study
 
 STUDY = "studies/pick_place.yaml"
@@ -89,6 +90,16 @@ FINDINGS = [
         "simplification_checks: 1500\n  simplification_limit: -1 s",
         "17:25: error: simplification_limit must",
     ),
+    (
+        "rate: 240 Hz",
+        "rate: 60 Hz",
+        "20:9: error: contact physics needs at least 120 Hz, got 60 Hz (240 Hz is validated) [study.coarse-physics]",
+    ),
+    (
+        "solver_iterations: 50",
+        "solver_iterations: 9",
+        "21:22: error: contact physics at 240 Hz needs at least 10 solver iterations, got 9 (20 are validated) [study.",
+    ),
     ("simplification_checks: 1500", "simplification_checks: -1", "16:26: error: simplification_checks: input should"),
 ]
 
@@ -106,6 +117,14 @@ def test_finding(edit, problems, old, new, expected):
     (problem,) = problems()
 
     assert problem.startswith(f"{STUDY}:{expected}")
+
+
+@pytest.mark.parametrize("fidelity", ["kinematic", "dynamic"])
+def test_a_study_without_contact_may_step_coarsely(edit, folder, fidelity):
+    edit(STUDY, "fidelity: contact", f"fidelity: {fidelity}")
+    edit(STUDY, "rate: 240 Hz", "rate: 60 Hz")
+
+    assert load_project(folder, STUDY).study.rate_hz == 60.0
 
 
 def test_several_findings_in_the_order_of_their_places(edit, problems):

@@ -67,6 +67,7 @@ CHANGES = {
     "friction of a body": (LAST, lambda spec: with_body(spec, friction=0.3)),
     "friction of the workpiece": (GRIPPED, lambda spec: with_workpiece(spec, friction=0.9)),
     "force that the workpiece bears": (GRIPPED, lambda spec: with_workpiece(spec, force_limit_n=39.0)),
+    "window of that force": (GRIPPED, lambda spec: with_workpiece(spec, force_window_s=0.02)),
     "gravity": (GRIPPED, lambda spec: with_scene(spec, gravity_m_s2=1.62)),
     "finger mass": (GRIPPED, lambda spec: with_gripper(spec, finger_mass_kg=0.25)),
     "base mass": (GRIPPED, lambda spec: with_gripper(spec, base_mass_kg=0.25)),

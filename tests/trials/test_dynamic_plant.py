@@ -93,6 +93,7 @@ def still(configuration_rad, cell, steps):
         velocities_rad_s=np.zeros((steps, 6)),
         tool_m=cell.arm.tool_position(positions),
         load_m_s2=np.full(steps, 9.81),
+        arc_m=np.zeros((steps, 3)),
         peak_tool_speed_m_s=0.0,
         peak_tool_acceleration_m_s2=0.0,
     )

@@ -95,6 +95,7 @@ def reference_from(angle, duration_s, step_s=STEP_S):
         velocities_rad_s=np.diff(positions, axis=0) / step_s,
         tool_m=tool_m,
         load_m_s2=np.full(len(times) - 1, 9.81),
+        arc_m=np.zeros((len(times) - 1, 3)),
         peak_tool_speed_m_s=0.0,
         peak_tool_acceleration_m_s2=0.0,
     )

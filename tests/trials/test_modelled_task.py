@@ -87,6 +87,7 @@ def reference(tool_m=(0.0, 0.0, 0.0)):
         velocities_rad_s=np.zeros((STEPS, 6)),
         tool_m=np.tile(np.array(tool_m), (STEPS + 1, 1)),
         load_m_s2=np.full(STEPS, 9.81),
+        arc_m=np.zeros((STEPS, 3)),
         peak_tool_speed_m_s=0.0,
         peak_tool_acceleration_m_s2=0.0,
     )

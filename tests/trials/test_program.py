@@ -49,6 +49,7 @@ def reference(first_rad=0.0):
         velocities_rad_s=np.zeros((1, 6)),
         tool_m=np.zeros((2, 3)),
         load_m_s2=np.zeros(1),
+        arc_m=np.zeros((1, 3)),
         peak_tool_speed_m_s=0.0,
         peak_tool_acceleration_m_s2=0.0,
     )

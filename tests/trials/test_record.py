@@ -53,6 +53,7 @@ def result(phase, **changes):
     number = PHASES.index(phase) + 1
     metrics = {
         "arm_scene_contacts": 0,
+        "sensed_finger_force_n": 0.5 * number,
         "peak_finger_force_n": float(number),
         "peak_joint_torque_ratio": 0.1 * number,
         "tracking_error_m": 1e-4 / number,
@@ -109,6 +110,7 @@ def test_metrics_of_a_success(spec):
     assert metrics["motion_time_s"] == motion_s
     assert metrics["task_time_s"] == pytest.approx(motion_s + 9.1)
     assert metrics["grasp_cycle_time_s"] == 3.0 + 0.25
+    assert metrics["sensed_finger_force_n"] == 4.0
     assert metrics["peak_finger_force_n"] == 8.0
     assert metrics["peak_joint_torque_ratio"] == pytest.approx(0.8)
     assert metrics["tracking_error_m"] == 1e-4

@@ -12,6 +12,7 @@ from rgss.evidence import Failure
 from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.scenes import Pose
 from rgss.trials.control import ControlSettings
+from rgss.trials.force_sensor import ForceSensor
 from rgss.trials.watch import Watch
 
 CONTROL = ControlSettings()
@@ -70,10 +71,10 @@ def world(spec_of):
     return ScriptedWorld(spec_of())
 
 
-def watch_of(world, *, carried=False, resting_on=""):
+def watch_of(world, *, carried=False, resting_on="", sensor=None):
     world.path_m = [TOOL.position_m]
     held = HELD if carried else None
-    return Watch(world, world, CONTROL, carried_at=held, resting_on=resting_on, path_m=world.path_m)
+    return Watch(world, world, CONTROL, carried_at=held, resting_on=resting_on, path_m=world.path_m, sensor=sensor)
 
 
 def contacts(*forces, other=0.0, robot=(), workpiece=()):
@@ -109,7 +110,11 @@ def test_nothing_happens(world):
         (contacts(robot=(("forearm_link", "shelf"),)), Failure.ARM_COLLISION, "forearm_link touched shelf"),
         (contacts(other=1.234), Failure.OBJECT_COLLISION, "the arm pressed the object with 1.23 N"),
         (contacts(workpiece=("menu_stand",)), Failure.OBJECT_COLLISION, "the object touched menu_stand"),
-        (contacts(3.0, 40.5), Failure.OBJECT_DAMAGED, "a finger pressed with 40.50 N, the object bears 40 N"),
+        (
+            contacts(3.0, 2.4 * 40.5),  # in one of the 2.4 steps of 10 ms
+            Failure.OBJECT_DAMAGED,
+            "a finger pressed with 40.50 N over 10 ms, the object bears 40 N",
+        ),
     ],
 )
 def test_what_must_not_be_touched(world, what, failure, detail):
@@ -125,7 +130,24 @@ def test_the_object_may_touch_what_it_rests_on(world):
 
 
 def test_the_object_bears_its_limit(world):
-    assert seen(world, watch_of(world), contacts(40.0, 40.0))[0] is None
+    assert seen(world, watch_of(world), contacts(40.0, 40.0), steps=10)[0] is None
+    assert seen(world, watch_of(world), contacts(40.0, 40.1), steps=10)[0] is Failure.OBJECT_DAMAGED
+
+
+def test_the_sensors_go_on_from_one_phase_to_the_next_and_forget_what_has_been_let_go(world):
+    sensor = ForceSensor(0.01, world.settings.rate_hz)
+    first = watch_of(world, sensor=sensor)
+    seen(world, first, contacts(48.0, 0.0), steps=1)
+    assert first.metrics()["sensed_finger_force_n"] == pytest.approx(20.0)
+    second = watch_of(world, sensor=sensor)
+    seen(world, second, contacts(48.0, 0.0), steps=1)
+    assert second.metrics()["sensed_finger_force_n"] == pytest.approx(40.0)
+    seen(world, second, contacts(0.0, 0.0), steps=1)
+    world.now = contacts()
+    second.after_step(9.81, (*TOOL.position_m, 0.0, 0.0, 0.0))
+    third = watch_of(world, sensor=sensor)
+    seen(world, third, contacts(2.4, 0.0))
+    assert third.metrics()["sensed_finger_force_n"] == pytest.approx(1.0)
 
 
 def test_the_first_failure_counts(world):
