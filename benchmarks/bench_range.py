@@ -75,10 +75,10 @@ def benches(cases: int) -> Iterator[tuple[str, BenchSpec]]:
 
 RANGES = {
     "acceleration": (0.001, 10.0),
-    "gravity": (1.6, 25.0),
+    "gravity": (1.6, 12.0),
     "friction": (0.05, 1.5),
-    "force": (0.5, 100.0),
-    "finger_mass": (0.05, 1.0),
+    "force": (0.5, 40.0),
+    "finger_mass": (0.05, 0.5),
     "finger_velocity": (0.005, 0.1),
     "height": (next(quantity.lowest for quantity in VALIDATED if "height" in quantity.name), 0.11),
     "radius": (0.024, 0.068),

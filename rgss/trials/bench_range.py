@@ -47,15 +47,15 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
     ValidatedQuantity(
         name="acceleration", unit="m/s²", lowest=0.001, highest=10.0, of=lambda spec: spec.acceleration_m_s2
     ),
-    ValidatedQuantity(name="gravity", unit="m/s²", lowest=1.6, highest=25.0, of=lambda spec: spec.gravity_m_s2),
+    ValidatedQuantity(name="gravity", unit="m/s²", lowest=1.6, highest=12.0, of=lambda spec: spec.gravity_m_s2),
     ValidatedQuantity(
         name="friction of finger and object", unit="", lowest=0.05, highest=1.5, of=lambda spec: spec.friction
     ),
     ValidatedQuantity(
-        name="force of a finger", unit="N", lowest=0.5, highest=100.0, of=lambda spec: spec.gripper.finger_force_n
+        name="force of a finger", unit="N", lowest=0.5, highest=40.0, of=lambda spec: spec.gripper.finger_force_n
     ),
     ValidatedQuantity(
-        name="mass of a finger", unit="kg", lowest=0.05, highest=1.0, of=lambda spec: spec.gripper.finger_mass_kg
+        name="mass of a finger", unit="kg", lowest=0.05, highest=0.5, of=lambda spec: spec.gripper.finger_mass_kg
     ),
     ValidatedQuantity(
         name="velocity of a finger",

@@ -94,15 +94,24 @@ def bench_of(spec: TrialSpec) -> BenchSpec | None:
     """The payload bench of a trial's gripper; None where only contact physics would know, or outside its range."""
     if spec.fidelity is not Fidelity.CONTACT:
         return None
+    bench = payload_bench(spec)
+    return None if outside(bench) else bench
+
+
+def payload_bench(spec: TrialSpec) -> BenchSpec:
+    """The payload bench of a trial's gripper, object and physics, validated or not.
+
+    Args:
+        spec: The trial.
+    """
     robot = spec.scene.robot
-    bench = bench_spec(
+    return bench_spec(
         spec.scene,
         spec.gripper,
         acceleration_m_s2=robot.tool_acceleration_m_s2,
         rated_kg=robot.payload_kg,
         physics=spec.settings.physics,
     )
-    return None if outside(bench) else bench
 
 
 def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:

@@ -139,9 +139,9 @@ def test_the_search_ends_at_the_rated_mass():
         {"friction": 0.05},
         {"friction": 1.5},
         {"force_n": 0.5},
-        {"force_n": 100.0},
+        {"force_n": 40.0},
         {"finger_mass_kg": 0.05},
-        {"finger_mass_kg": 1.0},
+        {"finger_mass_kg": 0.5},
     ],
     ids=str,
 )

@@ -242,10 +242,10 @@ def test_engine_and_code_are_in_the_digest(name):
     ("changes", "sentence"),
     [
         ({"acceleration_m_s2": 5e-4}, "acceleration of 0.0005 m/s², validated from 0.001 to 10 m/s²"),
-        ({"gravity_m_s2": 30.0}, "gravity of 30 m/s², validated from 1.6 to 25 m/s²"),
+        ({"gravity_m_s2": 30.0}, "gravity of 30 m/s², validated from 1.6 to 12 m/s²"),
         (changed_gripper(friction=0.03), "friction of finger and object of 0.015, validated from 0.05 to 1.5"),
-        (changed_gripper(finger_force_n=0.4), "force of a finger of 0.4 N, validated from 0.5 to 100 N"),
-        (changed_gripper(finger_mass_kg=0.04), "mass of a finger of 0.04 kg, validated from 0.05 to 1 kg"),
+        (changed_gripper(finger_force_n=0.4), "force of a finger of 0.4 N, validated from 0.5 to 40 N"),
+        (changed_gripper(finger_mass_kg=0.04), "mass of a finger of 0.04 kg, validated from 0.05 to 0.5 kg"),
         (
             changed_gripper(finger_velocity_m_s=0.12),
             "velocity of a finger of 0.12 m/s, validated from 0.005 to 0.1",
