@@ -58,6 +58,7 @@ def _check(options: argparse.Namespace) -> int:
     from rgss.cli.output import print_json
     from rgss.errors import DocumentError
     from rgss.findings import Severity
+    from rgss.studies.bench_findings import bench_findings
     from rgss.studies.project import find_project, load_project
     from rgss.studies.regressing_designs import guard_findings
     from rgss.studies.source_text import invisible_findings
@@ -68,7 +69,12 @@ def _check(options: argparse.Namespace) -> int:
     project: Project | None = None
     try:
         project = load_project(folder, options.study)
-        findings: Sequence[Finding] = (*of_files, *guard_findings(project), *_findings(project, options))
+        findings: Sequence[Finding] = (
+            *of_files,
+            *guard_findings(project),
+            *bench_findings(project),
+            *_findings(project, options),
+        )
     except DocumentError as error:
         findings = (*error.findings, *of_files)
     grave = [finding for finding in findings if finding.severity is not Severity.INFO]

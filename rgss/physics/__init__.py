@@ -2,8 +2,8 @@
 
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
-from rgss.physics.settings import PhysicsSettings
+from rgss.physics.settings import MOST_ITERATIONS, PhysicsSettings
 from rgss.physics.torque_arm import TorqueArm
 from rgss.physics.world import World
 
-__all__ = ["Contacts", "FingerContact", "HandView", "PhysicsSettings", "TorqueArm", "World"]
+__all__ = ["MOST_ITERATIONS", "Contacts", "FingerContact", "HandView", "PhysicsSettings", "TorqueArm", "World"]

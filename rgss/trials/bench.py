@@ -10,11 +10,15 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from rgss.errors import DefinitionError
+from rgss.trials.bench_range import BOUND, VALIDATED, outside
 from rgss.trials.bench_rig import PayloadLimit, PayloadRig, Probe, probe
 from rgss.trials.bench_spec import SAFETY_FACTOR, BenchSettings, BenchSpec, bench_spec
 
 __all__ = [
+    "BOUND",
     "SAFETY_FACTOR",
+    "VALIDATED",
     "BenchSettings",
     "BenchSpec",
     "PayloadLimit",
@@ -22,6 +26,7 @@ __all__ = [
     "PayloadRig",
     "Probe",
     "bench_spec",
+    "outside",
     "probe",
     "run_bench",
 ]
@@ -56,7 +61,8 @@ class PayloadResult:
 def run_bench(spec: BenchSpec, *, probe_mass: Callable[[BenchSpec, float], Probe] = probe) -> PayloadResult:
     """Find the mass at which the gripper first fails.
 
-    The smallest and the rated mass are tried first; the bracket between them is then halved in
+    The smallest mass for the solver as it is and the rated mass are tried first, then, if the smallest
+    slips, a still smaller one with more iterations; the bracket between two of them is then halved in
     proportion. What theory says plays no part. It is taken for granted that what holds a mass
     holds a smaller one too.
 
@@ -65,12 +71,22 @@ def run_bench(spec: BenchSpec, *, probe_mass: Callable[[BenchSpec, float], Probe
         probe_mass: What tries one mass.
 
     Raises:
-        DefinitionError: The bench cannot be run as it is specified.
+        DefinitionError: The bench cannot be run as it is specified, or is outside of its validated range.
         SimulationError: The physics engine cannot build the rig.
     """
     spec.check()
-    low, high = probe_mass(spec, spec.smallest_kg), probe_mass(spec, spec.rated_kg)
+    strange = outside(spec)
+    if strange:
+        raise DefinitionError(
+            f"the payload bench is not validated for a {strange[0]}",
+            hint="it answers only where simulation and Coulomb's law agree within 2 %",
+        )
+    low, high = probe_mass(spec, spec.first_kg), probe_mass(spec, spec.rated_kg)
     probes = [low, high]
+    # A lighter object is pressed and struck as hard, and slips later.
+    if low.stopped_by is PayloadLimit.SLIP and spec.smallest_kg < low.mass_kg:
+        low, high = probe_mass(spec, spec.smallest_kg), low
+        probes.append(low)
     if not low.held:
         return _result(spec, 0.0, low, probes)
     if high.held:

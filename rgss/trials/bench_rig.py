@@ -76,7 +76,7 @@ def probe(spec: BenchSpec, mass_kg: float) -> Probe:
     Raises:
         SimulationError: The physics engine cannot build the rig.
     """
-    half_s = spec.settings.lift_s / 2
+    half_s = spec.lift_s / 2
     with PayloadRig(spec, mass_kg) as rig:
         rig.grasp()
         rig.accelerate(spec.acceleration_m_s2, half_s)
@@ -124,7 +124,7 @@ class PayloadRig:
         self._spec = spec
         self._mass_kg = mass_kg
         self._held_at = Pose()
-        self._world = World(_rig_scene(spec, mass_kg), spec.gripper, spec.physics)
+        self._world = World(_rig_scene(spec, mass_kg), spec.gripper, spec.physics_for(mass_kg))
         self._world.reset_arm((0.0,))
 
     def __enter__(self) -> PayloadRig:

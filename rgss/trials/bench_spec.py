@@ -6,14 +6,14 @@ import math
 from dataclasses import dataclass, field
 
 from rgss.errors import DefinitionError
-from rgss.physics import PhysicsSettings
+from rgss.physics import MOST_ITERATIONS, PhysicsSettings
 from rgss.scenes import FORCE_WINDOW_S, Cylinder, Gripper, Scene
 
 SAFETY_FACTOR = 1.5
 """Of a gripper's payload by friction (thesis, eq. 4.8)."""
 
 _FINEST_RESOLUTION = 1.0e-6
-_SOLVER_MARGIN = 2.0
+_LEAST_RISE = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,13 +24,13 @@ class BenchSettings:
         firm_share: Share of its force above which a finger counts as pressing firmly.
         firm_grasp_s: Time for which every finger must press firmly; closing gives a spike.
         grasp_timeout_s: Time beyond the fingers' travel after which there is no firm grasp.
-        lift_s: Time for which the hand is accelerated upwards. An object that is heavier than the
+        lift_s: Least time for which the hand is accelerated upwards. An object that is heavier than the
             limit by a share s slides by s (g + a) lift_s² / 2, so a long lift tells close masses apart.
         largest_slip_m: Displacement of the object in the hand beyond which it slips. Less is the give
             of the simulated friction while it takes up the load: below the limit by 0.5 % and more it
             stays under 0.9 mm at 240 Hz, while 0.5 % above it more than 4 mm are slid.
         resolution: Width of the final bracket as a share of its upper end.
-        smallest_kg: Mass below which no payload is looked for, if the solver can go that far down.
+        smallest_kg: Mass below which no payload is looked for.
     """
 
     firm_share: float = 0.9
@@ -39,7 +39,7 @@ class BenchSettings:
     lift_s: float = 0.4
     largest_slip_m: float = 1.0e-3
     resolution: float = 0.005
-    smallest_kg: float = 0.02
+    smallest_kg: float = 0.005
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,20 +91,47 @@ class BenchSpec:
         return self.theory_kg / SAFETY_FACTOR
 
     @property
-    def lightest_body_kg(self) -> float:
-        """Mass of a body, finger or object, through which the solver passes the whole finger force.
+    def lift_s(self) -> float:
+        """Time for which the hand is accelerated upwards.
 
-        In each of its iterations the motor of a finger gives the finger at most its momentum M v_f,
-        which the contact takes away again; so no more than iterations times M v_f / dt is ever
-        pressed. Measured without margin on fingers; an object between three fingers needs twice that.
+        What cannot be carried stays on the post, so that it slips by as much as the hand rises and no more.
+        The hand rises by several times the largest slip, however small the acceleration.
         """
-        passed_n_kg = self.physics.solver_iterations * self.gripper.finger_velocity_m_s * self.physics.rate_hz
-        return _SOLVER_MARGIN * self.gripper.finger_force_n / passed_n_kg
+        least_rise_m = _LEAST_RISE * self.settings.largest_slip_m
+        return max(self.settings.lift_s, math.sqrt(2 * least_rise_m / self.acceleration_m_s2))
+
+    def physics_for(self, mass_kg: float) -> PhysicsSettings:
+        """Step length and solver with as many iterations as pass the finger force through object and fingers.
+
+        Args:
+            mass_kg: The object's mass.
+        """
+        return self.physics.passing(
+            force_n=self.gripper.finger_force_n,
+            speed_m_s=self.gripper.finger_velocity_m_s,
+            lightest_kg=min(mass_kg, self.gripper.finger_mass_kg),
+        )
+
+    @property
+    def lightest_body_kg(self) -> float:
+        """Mass of a body, finger or object, through which the solver as it is passes the whole finger force."""
+        return self._lightest_body_kg(self.physics.solver_iterations)
+
+    def _lightest_body_kg(self, iterations: int) -> float:
+        gripper = self.gripper
+        return self.physics.lightest_body_kg(
+            force_n=gripper.finger_force_n, speed_m_s=gripper.finger_velocity_m_s, iterations=iterations
+        )
+
+    @property
+    def first_kg(self) -> float:
+        """The smallest mass that is tried at first, with the solver as it is; a smaller one takes more iterations."""
+        return max(self.settings.smallest_kg, self.lightest_body_kg)
 
     @property
     def smallest_kg(self) -> float:
-        """The smallest mass that is tried."""
-        return max(self.settings.smallest_kg, self.lightest_body_kg)
+        """The smallest mass that is tried: through a lighter one the solver passes the finger force too slowly."""
+        return min(self.first_kg, max(self.settings.smallest_kg, self._lightest_body_kg(MOST_ITERATIONS)))
 
     def check(self) -> None:
         """Refuse what cannot be tried.
@@ -129,15 +156,16 @@ class BenchSpec:
                 f"the resolution of a payload bench cannot be {self.settings.resolution:g}",
                 hint=f"give a share from {_FINEST_RESOLUTION:g} to 1",
             )
-        if self.gripper.finger_mass_kg < self.lightest_body_kg:
+        lightest_kg = self._lightest_body_kg(MOST_ITERATIONS)
+        if self.gripper.finger_mass_kg < lightest_kg:
             raise DefinitionError(
                 f"fingers of {self.gripper.finger_mass_kg:g} kg are too light for the solver to press with "
-                f"{self.gripper.finger_force_n:g} N; it needs {self.lightest_body_kg:.3g} kg",
-                hint="give the physics more solver iterations or a higher rate",
+                f"{self.gripper.finger_force_n:g} N; it needs {lightest_kg:.3g} kg",
+                hint="give the physics a higher rate",
             )
-        if self.smallest_kg >= self.rated_kg:
+        if self.first_kg >= self.rated_kg:
             raise DefinitionError(
-                f"the smallest mass of {self.smallest_kg:.3g} kg is not below the rated {self.rated_kg:g} kg",
+                f"the smallest mass of {self.first_kg:.3g} kg is not below the rated {self.rated_kg:g} kg",
                 hint="let the payload bench have masses to try",
             )
         self._check_fit()

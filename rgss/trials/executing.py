@@ -54,5 +54,11 @@ def execute(
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
             plant = DynamicPlant(machine, cell.arm, scene, gripper, physics, control, checkpoint=checkpoint)
             return run_program(plant, references)
-    with World(scene, gripper, physics) as world:
+    # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.
+    firm = physics.passing(
+        force_n=gripper.finger_force_n,
+        speed_m_s=gripper.finger_velocity_m_s,
+        lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
+    )
+    with World(scene, gripper, firm) as world:
         return Execution(world, references, control, cell.arm, observer=observer, checkpoint=checkpoint).run()

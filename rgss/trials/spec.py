@@ -17,6 +17,7 @@ from typing import Any
 from rgss.documents.digests import digest
 from rgss.evidence import Fidelity
 from rgss.scenes import Robot, Scene, Shape
+from rgss.trials.bench_range import outside
 from rgss.trials.bench_spec import BenchSpec, bench_spec
 from rgss.trials.plain import plain
 from rgss.trials.trial_spec import TrialSpec
@@ -90,9 +91,19 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
 
 
 def bench_of(spec: TrialSpec) -> BenchSpec | None:
-    """The payload bench of a trial's gripper; None where only contact physics would know."""
+    """The payload bench of a trial's gripper; None where only contact physics would know, or outside its range."""
     if spec.fidelity is not Fidelity.CONTACT:
         return None
+    bench = payload_bench(spec)
+    return None if outside(bench) else bench
+
+
+def payload_bench(spec: TrialSpec) -> BenchSpec:
+    """The payload bench of a trial's gripper, object and physics, validated or not.
+
+    Args:
+        spec: The trial.
+    """
     robot = spec.scene.robot
     return bench_spec(
         spec.scene,

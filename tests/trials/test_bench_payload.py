@@ -10,9 +10,20 @@ from pathlib import Path
 
 import pytest
 
+from rgss.errors import DefinitionError
 from rgss.physics import PhysicsSettings
-from rgss.scenes import Gripper, load_gripper, load_scene
-from rgss.trials.bench import BenchSettings, BenchSpec, PayloadLimit, bench_spec, probe, run_bench
+from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
+from rgss.trials.bench import (
+    BOUND,
+    VALIDATED,
+    BenchSettings,
+    BenchSpec,
+    PayloadLimit,
+    bench_spec,
+    outside,
+    probe,
+    run_bench,
+)
 
 pytestmark = pytest.mark.engine
 
@@ -117,9 +128,50 @@ def test_the_search_ends_at_the_rated_mass():
     assert (result.payload_kg, result.limited_by, result.trials) == (1.5, PayloadLimit.RATED, 2)
 
 
-def test_pads_that_are_too_smooth_for_the_smallest_mass_hold_nothing():
-    result = run_bench(spec_of(3, friction=0.005))
-    assert (result.payload_kg, result.limited_by) == (0.0, PayloadLimit.SLIP)
+@pytest.mark.parametrize("fingers", [2, 3])
+@pytest.mark.parametrize("iterations", [20, 50])
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"acceleration_m_s2": 0.001},
+        {"acceleration_m_s2": 0.0125},
+        {"acceleration_m_s2": 10.0},
+        {"friction": 0.05},
+        {"friction": 1.5},
+        {"force_n": 0.5},
+        {"force_n": 40.0},
+        {"finger_mass_kg": 0.05},
+        {"finger_mass_kg": 0.5},
+    ],
+    ids=str,
+)
+def test_the_bench_keeps_the_law_to_the_ends_of_its_range(fingers, iterations, changes):
+    """A slow lift takes long, a light object many iterations: neither may look like a payload that is held or none."""
+    spec = replace(spec_of(fingers, rated_kg=60.0, **changes), physics=PhysicsSettings(solver_iterations=iterations))
+    assert not outside(spec)
+    values = {"friction": 0.7, "force_n": 10.0, "acceleration_m_s2": 1.2, **changes}
+    law_kg = values["friction"] * values["force_n"] * fingers / (9.81 + values["acceleration_m_s2"])
+    result = run_bench(spec)
+    assert result.limited_by is PayloadLimit.SLIP
+    assert result.payload_kg == pytest.approx(law_kg, rel=BOUND)
+
+
+@pytest.mark.parametrize("fingers", [2, 3])
+@pytest.mark.parametrize("iterations", [20, 50])
+@pytest.mark.parametrize("radius_m", [0.024, 0.035, 0.068])
+def test_so_it_does_for_the_lowest_object(fingers, iterations, radius_m):
+    (height,) = (quantity for quantity in VALIDATED if quantity.name == "height of the object")
+    spec = replace(
+        spec_of(fingers),
+        physics=PhysicsSettings(solver_iterations=iterations),
+        shape=Cylinder(radius_m=radius_m, height_m=height.lowest),
+    )
+    assert run_bench(spec).payload_kg == pytest.approx(0.7 * 10.0 * fingers / (9.81 + 1.2), rel=BOUND)
+
+
+def test_pads_that_are_too_smooth_give_no_answer():
+    with pytest.raises(DefinitionError, match=r"friction of finger and object of 0\.005, validated from 0\.05 to 1\.5"):
+        run_bench(spec_of(3, friction=0.005))
 
 
 def test_a_slack_threshold_finds_the_same_limit():

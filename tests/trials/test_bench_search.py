@@ -5,13 +5,14 @@ from dataclasses import replace
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.physics import PhysicsSettings
+from rgss.physics import MOST_ITERATIONS, PhysicsSettings
 from rgss.scenes import Box, Cylinder, Gripper, GripperGeometry
 from rgss.trials.bench import (
     BenchSettings,
     BenchSpec,
     PayloadLimit,
     Probe,
+    outside,
     run_bench,
 )
 from rgss.trials.spec import bench_digest
@@ -78,7 +79,7 @@ def test_thirteen_masses_settle_it_to_half_a_percent():
     result = run_bench(SPEC, probe_mass=failing_above(0.9, PayloadLimit.SLIP))
     assert result.trials == len(result.probes) == 13
     tried = [probe.mass_kg for probe in result.probes]
-    assert tried[:2] == [SPEC.smallest_kg, SPEC.rated_kg]
+    assert tried[:2] == [SPEC.first_kg, SPEC.rated_kg]
     assert set(result.bracket_kg) <= set(tried)
 
 
@@ -102,15 +103,43 @@ def test_a_hand_that_holds_the_rated_mass_is_limited_by_that():
 def test_a_hand_that_does_not_even_hold_the_smallest_mass_has_no_payload(why):
     result = run_bench(SPEC, probe_mass=failing_above(0.0, why))
     assert (result.payload_kg, result.limited_by) == (0.0, why)
-    assert result.bracket_kg == (0.0, SPEC.smallest_kg)
+    # Only of slipping a lighter object does less.
+    assert result.bracket_kg == (0.0, SPEC.smallest_kg if why is PayloadLimit.SLIP else SPEC.first_kg)
+
+
+@pytest.mark.parametrize("limit_kg", [0.006, 0.02, 0.0416])
+def test_a_payload_below_the_first_mass_is_found_below_it(limit_kg):
+    """With more iterations of the solver, for the engine passes a finger's force through heavier bodies sooner."""
+    result = run_bench(SPEC, probe_mass=failing_above(limit_kg, PayloadLimit.SLIP))
+    low, high = result.bracket_kg
+    assert low <= limit_kg < high <= SPEC.first_kg
+    assert result.payload_kg == low
+    assert high - low <= SPEC.settings.resolution * high
+
+
+def test_a_lighter_object_takes_more_iterations_and_a_heavier_one_those_of_the_study():
+    assert SPEC.physics_for(1.0) is SPEC.physics
+    assert SPEC.physics_for(SPEC.lightest_body_kg) is SPEC.physics
+    assert SPEC.physics_for(SPEC.lightest_body_kg / 4).solver_iterations == 200
+    assert SPEC.physics_for(1e-6).solver_iterations == MOST_ITERATIONS
+
+
+def test_the_hand_rises_by_more_than_an_object_may_slip_however_small_the_acceleration():
+    """What cannot be carried stays on the post, and slips by as much as the hand rises."""
+    for acceleration in (10.0, 0.5, 0.0125, 0.001):
+        spec = replace(SPEC, acceleration_m_s2=acceleration)
+        assert acceleration * spec.lift_s**2 / 2 >= 4 * spec.settings.largest_slip_m
+        assert spec.lift_s >= spec.settings.lift_s
+    assert replace(SPEC, acceleration_m_s2=0.5).lift_s == SPEC.settings.lift_s
 
 
 def test_the_search_begins_where_the_solver_can_press_with_the_whole_force():
     # 2 * 10 N / (50 iterations * 0.04 m/s * 240 Hz), by hand.
     assert SPEC.lightest_body_kg == pytest.approx(0.0416667, abs=1e-6)
-    assert SPEC.smallest_kg == SPEC.lightest_body_kg
+    assert SPEC.first_kg == SPEC.lightest_body_kg
     finer = replace(SPEC, physics=PhysicsSettings(rate_hz=1000.0))
-    assert finer.smallest_kg == finer.settings.smallest_kg == 0.02
+    assert finer.first_kg == pytest.approx(0.01, abs=1e-9)
+    assert SPEC.smallest_kg == finer.smallest_kg == SPEC.settings.smallest_kg == 0.005
 
 
 def test_the_reason_is_that_of_the_mass_next_above():
@@ -156,8 +185,8 @@ def changed_settings(**changes):
             "the smallest mass of 0.0417 kg is not below the rated 0.04 kg (let the payload bench have masses to try)",
         ),
         (
-            changed_gripper(finger_mass_kg=0.022),
-            "fingers of 0.022 kg are too light for the solver to press with 10 N; it needs 0.0417 kg (give the physics",
+            changed_gripper(finger_mass_kg=0.001),
+            "fingers of 0.001 kg are too light for the solver to press with 10 N; it needs 0.00104 kg (give",
         ),
         (
             {"shape": Cylinder(radius_m=0.07, height_m=0.1)},
@@ -207,3 +236,32 @@ def test_what_is_no_input_is_not_in_the_digest():
 @pytest.mark.parametrize("name", ["pybullet", "rgss-bench"])
 def test_engine_and_code_are_in_the_digest(name):
     assert bench_digest(SPEC, {**VERSIONS, name: "another"}) != bench_digest(SPEC, VERSIONS)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"acceleration_m_s2": 5e-4}, "acceleration of 0.0005 m/s², validated from 0.001 to 10 m/s²"),
+        ({"gravity_m_s2": 30.0}, "gravity of 30 m/s², validated from 1.6 to 12 m/s²"),
+        (changed_gripper(friction=0.03), "friction of finger and object of 0.015, validated from 0.05 to 1.5"),
+        (changed_gripper(finger_force_n=0.4), "force of a finger of 0.4 N, validated from 0.5 to 40 N"),
+        (changed_gripper(finger_mass_kg=0.04), "mass of a finger of 0.04 kg, validated from 0.05 to 0.5 kg"),
+        (
+            changed_gripper(finger_velocity_m_s=0.12),
+            "velocity of a finger of 0.12 m/s, validated from 0.005 to 0.1",
+        ),
+        (
+            {"shape": Cylinder(radius_m=0.035, height_m=0.002)},
+            "height of the object of 0.002 m, validated from",
+        ),
+    ],
+)
+def test_outside_of_its_validated_range_the_bench_gives_no_answer(changes, sentence):
+    spec = replace(SPEC, **changes)
+    assert any(found.startswith(sentence) for found in outside(spec))
+    with pytest.raises(DefinitionError, match="the payload bench is not validated for a "):
+        run_bench(spec, probe_mass=failing_above(0.9, PayloadLimit.SLIP))
+
+
+def test_within_its_range_it_does():
+    assert outside(SPEC) == ()

@@ -1,0 +1,123 @@
+"""Scan the validated range of the payload bench against Coulomb's law; write a table in Markdown.
+
+Every quantity at both ends of its range with the others as in the reference study, corners of the whole range,
+and random benches within it. The law is computed here and not by the bench.
+
+Run it from the repository's folder: ``python benchmarks/bench_range.py [CASES]``.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from rgss.physics import PhysicsSettings
+from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
+from rgss.trials.bench import BOUND, VALIDATED, BenchSpec, bench_spec, outside, run_bench
+
+SCENES = Path(__file__).resolve().parents[1] / "scenes"
+ITERATIONS = (20, 50)
+CASES = 20
+
+
+def main(cases: int = CASES) -> int:
+    """Scan, write, and return 1 if a bench is farther from the law than the bound."""
+    out = sys.stdout
+    out.write("| quantity | from | to | unit |\n|---|---|---|---|\n")
+    for quantity in VALIDATED:
+        out.write(f"| {quantity.name} | {quantity.lowest:g} | {quantity.highest:g} | {quantity.unit} |\n")
+    scanned = [(name, deviation(spec)) for name, spec in benches(cases)]
+    out.write("\n| benches | number | least − theory (%) | greatest − theory (%) |\n|---|---|---|---|\n")
+    for group in dict.fromkeys(name for name, _ in scanned):
+        errors = [100.0 * error for name, error in scanned if name == group]
+        out.write(f"| {group} | {len(errors)} | {min(errors):+.2f} | {max(errors):+.2f} |\n")
+    return int(max(abs(error) for _, error in scanned) > BOUND)
+
+
+def deviation(spec: BenchSpec) -> float:
+    """Relative deviation of a bench from Coulomb's law, mu n F / (g + a), whose factors are read off the parts."""
+    gripper = spec.gripper
+    normal_n = len(gripper.geometry.azimuths_rad) * gripper.finger_force_n
+    law_kg = gripper.friction * spec.object_friction * normal_n / (spec.gravity_m_s2 + spec.acceleration_m_s2)
+    return run_bench(spec).payload_kg / law_kg - 1.0
+
+
+def benches(cases: int) -> Iterator[tuple[str, BenchSpec]]:
+    """The benches by the group that they are in, all within the validated range."""
+    for fingers in (2, 3):
+        for iterations in ITERATIONS:
+            yield "reference", bench(fingers, iterations)
+        for name, (low, high) in RANGES.items():
+            for value in (low, high):
+                spec = bench(fingers, ITERATIONS[0], **{name: value})
+                if not outside(spec):
+                    yield name, spec
+    generator = np.random.default_rng(1)
+    for group in ("corners", "random"):
+        found = 0
+        while found < cases:
+            shares = generator.random(len(RANGES))
+            if group == "corners":
+                shares = np.round(shares)
+            drawn = {
+                name: float(low * (high / low) ** share)
+                for (name, (low, high)), share in zip(RANGES.items(), shares.tolist(), strict=True)
+            }
+            spec = bench(int(generator.choice((2, 3))), int(generator.choice(ITERATIONS)), **drawn)
+            if not outside(spec):
+                found += 1
+                yield group, spec
+
+
+RANGES = {
+    "acceleration": (0.001, 10.0),
+    "gravity": (1.6, 12.0),
+    "friction": (0.05, 1.5),
+    "force": (0.5, 40.0),
+    "finger_mass": (0.05, 0.5),
+    "finger_velocity": (0.005, 0.1),
+    "height": (next(quantity.lowest for quantity in VALIDATED if "height" in quantity.name), 0.11),
+    "radius": (0.024, 0.068),
+}
+"""What the scan varies; height and radius as far as the reference grippers take them."""
+
+
+def bench(
+    fingers: int,
+    iterations: int,
+    *,
+    acceleration: float = 1.2,
+    gravity: float = 9.81,
+    friction: float = 0.7,
+    force: float = 10.0,
+    finger_mass: float = 0.3,
+    finger_velocity: float = 0.04,
+    height: float = 0.1,
+    radius: float = 0.035,
+) -> BenchSpec:
+    """A bench in SI units."""
+    gripper = Gripper(
+        geometry=load_gripper(SCENES / f"grippers/kg-{fingers}.yaml"),
+        base_mass_kg=0.4,
+        finger_mass_kg=finger_mass,
+        finger_velocity_m_s=finger_velocity,
+        finger_force_n=force,
+        friction=friction,
+    )
+    spec = bench_spec(
+        load_scene(SCENES / "restaurant.yaml"),
+        gripper,
+        acceleration_m_s2=acceleration,
+        rated_kg=1000.0,
+        physics=PhysicsSettings(solver_iterations=iterations),
+    )
+    shape = Cylinder(radius_m=radius, height_m=height)
+    return replace(spec, gravity_m_s2=gravity, force_limit_n=1.0e6, shape=shape)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*map(int, sys.argv[1:2])))

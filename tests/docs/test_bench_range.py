@@ -1,0 +1,15 @@
+"""The documented range of the payload bench is the one that it keeps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rgss.trials.bench_range import VALIDATED
+
+PAGE = Path(__file__).parents[2] / "docs" / "grasping.md"
+
+
+def test_the_page_has_a_row_for_each_validated_quantity():
+    text = PAGE.read_text(encoding="utf-8")
+    rows = [f"| {one.name} | {one.lowest:g} | {one.highest:g} | {one.unit} |" for one in VALIDATED]
+    assert "\n".join(rows) in text

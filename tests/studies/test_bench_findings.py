@@ -1,0 +1,54 @@
+"""Designs for which the payload bench gives no answer are found before anything is simulated."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from rgss.findings import Severity
+from rgss.studies.bench_findings import bench_findings
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import load_project
+from rgss.trials.spec import bench_of, digests_of
+from rgss.trials.versions import versions
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for name in ("requirements", "designs", "scenes", "studies"):
+        shutil.copytree(REPOSITORY / name, tmp_path / name)
+    return tmp_path
+
+
+def change(folder, file, old, new):
+    text = (folder / file).read_text(encoding="utf-8")
+    assert old in text
+    (folder / file).write_text(text.replace(old, new), encoding="utf-8")
+
+
+def test_the_reference_study_is_within_the_range(folder):
+    assert tuple(bench_findings(load_project(folder))) == ()
+
+
+def test_an_object_outside_of_it_is_found_with_the_range_and_has_no_payload(folder):
+    change(folder, "scenes/restaurant.yaml", "height: 100 mm", "height: 2 mm")
+    project = load_project(folder)
+    (finding,) = bench_findings(project)
+    assert finding.severity is Severity.WARNING
+    assert finding.message.startswith(
+        "the payload bench gives no answer for 72 variants, such as 1: height of the object of 0.002 m, validated from"
+    )
+    spec = trial_specs(project, seeds=[1])[0]
+    assert bench_of(spec) is None
+    assert digests_of(spec, versions()).bench == ""
+
+
+def test_trials_without_contact_have_no_bench(folder):
+    change(folder, "scenes/restaurant.yaml", "height: 100 mm", "height: 2 mm")
+    change(folder, "studies/pick_place.yaml", "fidelity: contact", "fidelity: kinematic")
+    project = load_project(folder)
+    assert tuple(bench_findings(project)) == ()
