@@ -12,6 +12,9 @@ Run it from the repository's folder:
   the designs of the guarded decision, each of as many seeds as the guard takes, drawn from a pool of
   SEEDS kinematic trials of each, which are run if the store does not have them: how often one
   is called unstable against the other. Then the same with every search of one design slower.
+- ``python benchmarks/regression.py power [RUNS]``: the share of simulated comparisons in which a success rate
+  that fell from 0.90 to 0.65, or from 1.00 to 0.75, is found by the guard's whole procedure, beside the power
+  that the guard prints, for several numbers of seeds.
 - ``python benchmarks/regression.py synthetic [RUNS]``: the same with made-up quantities, normal,
   skewed and mostly zero, of which there are as many as one likes.
 """
@@ -30,10 +33,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.evidence import EvidenceStore, Fidelity, TrialRecord
-from rgss.regression.comparing import Candidate, Comparison, Guard, Outcome, Subject
+from rgss.regression.comparing import WHOLE_TRIAL, Candidate, Comparison, Guard, Outcome, Subject
 from rgss.regression.comparing_baselines import decision_changes
 from rgss.regression.looking import Settled, settle
 from rgss.regression.observing import observed
+from rgss.regression.power import powers
 from rgss.studies.project import load_project
 from rgss.studies.regressing_decision import decision_of, explained_by_noise, p_values
 from rgss.studies.regressing_runs import Records, WatchedTrials, guard_of, subjects_of, watched_trials
@@ -54,6 +58,8 @@ def main() -> int:
         return write_pool(Path(arguments[0]), int(arguments[1]), jobs=int(arguments[2]) if arguments[2:] else 2)
     if command == "null":
         return null(Path(arguments[0]), int(arguments[1]) if arguments[1:] else 200)
+    if command == "power":
+        return power(int(arguments[0]) if arguments else 1000)
     if command == "decision":
         store, *counts = arguments
         return decision(Path(store), *map(int, counts))
@@ -90,7 +96,7 @@ def null(path: Path, runs: int) -> int:
     """Compare a run of trials with the same from other seeds."""
     watched, guards = planning_run()
     found = {key: row for key, row in _read(path).items() if _is_known(row)}
-    guards = {key: guards[key] for key in found}
+    guards = {key: guards[key].for_baseline(_mean(row)) for key, row in found.items()}
     seeds = sorted({seed for row in found.values() for by_seed in row.values() for seed in by_seed})
     run = watched.run
     sys.stdout.write(
@@ -202,6 +208,61 @@ def synthetic(runs: int) -> int:
     return _told(drawn, runs)
 
 
+def power(runs: int = 1000) -> int:
+    """Find a loss of success in drawn trials; 1 if the printed power is not what is found.
+
+    Two runs with the success of the trial and of eight phases each, as the reference study has them; the phases
+    are drawn too, so that they take their part of the error rate. Each seed of the baseline and of now is drawn
+    anew, or, in the second row of each, a share of the baseline's successes is lost.
+    """
+    generator = np.random.default_rng(5)
+    success = Guard(unit="1", higher_is_better=True, margin=0.25, is_success=True)
+    worst = 0.0
+    for before in (0.90, 1.00):
+        for first, cap in ((4, 12), (8, 16), (8, 40), (8, 64)):
+            for anew in (True, False):
+                found = 0
+                for _ in range(runs):
+                    old = generator.random(cap) < before
+                    new = generator.random(cap) < before - 0.25
+                    new = new if anew else old & (generator.random(cap) < 1.0 - 0.25 / before)
+                    other = [generator.random((2, cap)) < 0.9 for _ in range(17)]
+
+                    def candidates(
+                        look: int,
+                        _: Collection[str] | None,
+                        rows: Sequence[NDArray[np.bool_]] = ((old, new), *other),  # type: ignore[assignment]
+                        sizes: tuple[int, int] = (first, cap),
+                    ) -> list[Candidate]:
+                        return [_of_success(place, *row, success, sizes[look - 1]) for place, row in enumerate(rows)]
+
+                    settled = settle(candidates, looks=2, error_rate=0.05)
+                    found += next(iter(settled.comparisons.values())).outcome is Outcome.WORSE
+                exact = np.where(np.arange(1000) < round(1000 * before), 1.0, 0.0)
+                printed = [_of_success(place, exact, exact, success, 1000) for place in range(18)]
+                stated = next(iter(powers(printed, {"pool": [first, cap]}, error_rate=0.05).values()))
+                worst = max(worst, stated.probability - found / runs)
+                sys.stdout.write(
+                    f"success from {before:.2f} to {before - 0.25:.2f}, {'drawn anew' if anew else 'successes lost'}, "
+                    f"{first} and {cap} seeds: found in {found / runs:.1%}, printed at least {stated.probability:.1%}, "
+                    f"seeds for 80 %: {stated.seeds_needed}" + "\n"
+                )
+    return int(worst > 4.0 * (0.25 / runs) ** 0.5)
+
+
+def _of_success(place: int, old: NDArray[np.generic], new: NDArray[np.generic], guard: Guard, count: int) -> Candidate:
+    """A comparison of success over the first seeds: place 0 and 1 of whole trials, the others of phases."""
+    phase = WHOLE_TRIAL if place < 2 else "lift"
+    return Candidate(
+        subject=Subject(run="pool", metric=f"success {place}", phase=phase),
+        guard=guard,
+        baseline={1: dict(enumerate(map(float, old[:count])))},
+        current={1: dict(enumerate(map(float, new[:count])))},
+        seeds=tuple(range(count)),
+        identical=False,
+    )
+
+
 def _told(drawn: Callable[[float], Settled], runs: int) -> int:
     """Print how often there was an alarm; 1 if false ones exceed 5 %."""
     rates = {}
@@ -210,7 +271,7 @@ def _told(drawn: Callable[[float], Settled], runs: int) -> int:
         for _ in range(runs):
             comparisons = _changed(drawn(shift), everything=shift == 0.0)
             outcomes.update(one.outcome.value for one in comparisons)
-            alarms += any(one.outcome is Outcome.WORSE for one in comparisons)
+            alarms += any(one.outcome in (Outcome.WORSE, Outcome.BETTER, Outcome.MOVED) for one in comparisons)
             compared += len(comparisons)
         rates[shift] = alarms / runs
         shares = ", ".join(f"{name} {count / compared:.1%}" for name, count in sorted(outcomes.items()))
@@ -256,6 +317,10 @@ def _shifted(
 
 def _is_known(row: Mapping[int, Mapping[int, float | None]]) -> bool:
     return any(value is not None for by_seed in row.values() for value in by_seed.values())
+
+
+def _mean(row: Mapping[int, Mapping[int, float | None]]) -> float:
+    return float(np.mean([value for by_seed in row.values() for value in by_seed.values() if value is not None]))
 
 
 def _read(path: Path) -> Pool:

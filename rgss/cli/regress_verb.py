@@ -19,11 +19,15 @@ if TYPE_CHECKING:
     from rgss.studies.sweep import FinishedTrial, LostTrials
     from rgss.trials.spec import TrialSpec
 
-HELP = "hold guarded metrics and the decision against a baseline; what is missing is run first"
+CHANGED = 4
+"""Exit status where behaviour changed without a stated reason and nothing is shown to be worse."""
+
+HELP = "compare behaviour, guarded metrics and the decision with a baseline; what is missing is run first"
 EXAMPLE = "rgss regress --junit regress.xml --markdown summary.md"
 MORE_EXAMPLES = (
     ("rgss regress", "compare with the baseline beside the study"),
     ("rgss regress --strict --all", "the same; what is inconclusive fails, what is the same is shown"),
+    ('rgss regress --accept-change "new path smoother"', "let changed behaviour pass this once"),
     ('rgss regress --update --reason "a new gripper model"', "write the baseline anew"),
 )
 
@@ -34,6 +38,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--baseline", metavar="FILE", help="the baseline (default: beside the study, .baseline.json)")
     parser.add_argument("--update", action="store_true", help="write the baseline anew; needs --reason")
     parser.add_argument("--reason", metavar="TEXT", help="with --update: why the numbers may move; kept in the file")
+    parser.add_argument(
+        "--accept-change",
+        metavar="TEXT",
+        help="why changed behaviour may pass in this run (else status 4); what is worse still fails",
+    )
     parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
     parser.add_argument("--all", action="store_true", help="show the metrics that are the same, too")
     parser.add_argument(
@@ -44,7 +53,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compare, or write the baseline; 1 if anything is worse, unstable or missing, 3 if a trial could not be run."""
+    """Compare, or write the baseline.
+
+    Returns:
+        1 if anything is worse, unstable or missing, 3 if a trial could not be run, 4 if behaviour changed without
+        a stated reason.
+    """
     from rgss.documents.output_files import require_no_source
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
@@ -64,12 +78,15 @@ def run(options: argparse.Namespace) -> int:
             (options.junit, "--junit"),
             (options.markdown, "--markdown"),
             (options.strict, "--strict"),
+            (options.accept_change is not None, "--accept-change"),
         ):
             if given:
                 raise DefinitionError(f"--update and {option} exclude each other", hint="compare in a run of its own")
     for output in (options.junit, options.markdown):
         if output is not None:
             require_no_source(output)
+    if options.accept_change is not None and not options.accept_change.strip():
+        raise DefinitionError("--accept-change needs a reason", hint="say why behaviour may change")
     project = chosen_project(options)
     guard_of(project)
     label = options.baseline or baseline_name(project.study.label)
@@ -129,7 +146,8 @@ def _compare(
     from rgss.reports.regression_terminal import report_lines
     from rgss.studies.regressing import compare_with_baseline
 
-    report = compare_with_baseline(project, store, run_trials, baseline, label=label, on_look=_told)
+    accepted = options.accept_change or ""
+    report = compare_with_baseline(project, store, run_trials, baseline, label=label, on_look=_told, accepted=accepted)
     if options.junit is not None:
         write_output(options.junit, report_to_junit(report))
     if options.markdown is not None:
@@ -141,7 +159,11 @@ def _compare(
     if report.incomplete:
         return RUN_FAILED
     undecided = options.strict and bool(report.of(Outcome.INCONCLUSIVE))
-    return FINDINGS if report.fails or undecided else CLEAN
+    if report.fails:
+        return FINDINGS
+    if report.is_unexplained:
+        return CHANGED
+    return FINDINGS if undecided else CLEAN
 
 
 def _runner(

@@ -11,7 +11,7 @@ WIDEST_LINE = 98
 
 _CONSTANTS = frozenset({"", "~", "null", "true", "false", "yes", "no", "on", "off", "y", "n"})
 _NOT_RAW = re.compile(r"[^ -~\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
-_FLOW_SIGNS = frozenset(",[]{}:")
+_FLOW_SIGNS = frozenset("?,[]{}:")
 
 
 def value_lines(value: Any, indent: int, used: int = 0) -> list[str]:

@@ -11,8 +11,11 @@ from typing import Any
 from rgss.errors import EvidenceError
 from rgss.evidence.codec import plain_json, read_plain
 
-SCHEMA = 2
+SCHEMA = 3
 """The form of the file."""
+
+_WITHOUT_VALUES = 2
+"""The schema before it, which has no values of inputs; it is still read."""
 
 LARGEST_FILE_BYTES = 32 * 1024 * 1024
 
@@ -29,12 +32,14 @@ class BaselineRun:
         seeds: Their seeds, the same for every variant.
         values: The raw values.
         fingerprints: By variant, the fingerprint of the record of each seed.
+        inputs: By variant, the values of those inputs that not all trials of the baseline share, by name.
     """
 
     fidelity: str
     seeds: tuple[int, ...]
     values: Values = field(hash=False)
     fingerprints: Mapping[str, tuple[str, ...]] = field(hash=False)
+    inputs: Mapping[str, Mapping[str, str]] = field(default_factory=dict, hash=False)
 
     @property
     def variants(self) -> tuple[int, ...]:
@@ -68,9 +73,12 @@ class BaselineOrigin:
     Attributes:
         revision: Revision of the code; empty if it is not known.
         machine: What it ran on.
-        engines: Version of each engine.
+        engines: Version of each engine, and whatever else the trials' provenance names beside code and inputs,
+            such as numerics.
         code: A digest of the source of each piece of a trial.
         inputs: SHA-256 of each input file.
+        modules: A digest of each module that makes a piece of a trial.
+        constants: Every number that such a module or a class of it is given by name, as text.
     """
 
     revision: str
@@ -78,10 +86,8 @@ class BaselineOrigin:
     engines: Mapping[str, str] = field(hash=False)
     code: Mapping[str, str] = field(hash=False)
     inputs: Mapping[str, str] = field(hash=False)
-
-    def same_platform(self, other: BaselineOrigin) -> bool:
-        """Whether records of both may be compared bit for bit: same machine, same engines."""
-        return self.machine == other.machine and dict(self.engines) == dict(other.engines)
+    modules: Mapping[str, str] = field(default_factory=dict, hash=False)
+    constants: Mapping[str, str] = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,6 +115,7 @@ class Baseline:
         decision: The decision; None if the study guards none.
         origin: Where the values come from.
         history: Every change of the file, the first one first.
+        inputs: The values of those inputs that all trials share, by dotted name, as text.
         schema: The form of the file.
     """
 
@@ -119,7 +126,18 @@ class Baseline:
     decision: DecisionState | None
     origin: BaselineOrigin
     history: tuple[Change, ...]
+    inputs: Mapping[str, str] = field(default_factory=dict, hash=False)
     schema: int = SCHEMA
+
+    @property
+    def has_values(self) -> bool:
+        """Whether it has the values of inputs, which one of an earlier version of rgss has not."""
+        return self.schema > _WITHOUT_VALUES
+
+    def inputs_of(self, run: str, variant: int) -> dict[str, str]:
+        """The values of all inputs of a variant's trials, by name; none if the baseline lacks them."""
+        own = self.runs[run].inputs.get(str(variant)) if run in self.runs else None
+        return {} if own is None else {**self.inputs, **own}
 
 
 def baseline_to_text(baseline: Baseline) -> str:
@@ -154,7 +172,9 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
         raise EvidenceError(f"the baseline {label} is not UTF-8", hint=again) from None
     if not isinstance(data, dict) or "schema" not in data:
         raise EvidenceError(f"{label} is no baseline: it has no 'schema'", hint=again)
-    if data["schema"] != SCHEMA:
+    if data["schema"] == _WITHOUT_VALUES:
+        _add_empty_values(data)
+    elif data["schema"] != SCHEMA:
         raise EvidenceError(f"the baseline {label} has schema {data['schema']!r}; {SCHEMA} is read", hint=again)
     try:
         baseline = read_plain(data, Baseline, "baseline")
@@ -162,6 +182,17 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
         raise EvidenceError(f"{label}: {error.message}", hint=again) from error
     _check(baseline, label, again)
     return baseline
+
+
+def _add_empty_values(data: dict[str, Any]) -> None:
+    """Bring a baseline of schema 2 into the present form, where its parts are what they should be."""
+    runs = data.get("runs")
+    parts = [(data, ("inputs",)), (data.get("origin"), ("modules", "constants"))]
+    parts += [(run, ("inputs",)) for run in (runs.values() if isinstance(runs, dict) else ())]
+    for part, names in parts:
+        if isinstance(part, dict):
+            for name in names:
+                part.setdefault(name, {})
 
 
 def _check(baseline: Baseline, label: str, again: str) -> None:

@@ -8,20 +8,31 @@ SPENDING_POWER = 2.0
 """How slowly the error rate is spent: little at the first look, most at the last."""
 
 
-def holm_adjusted(p_values: Sequence[float]) -> tuple[float, ...]:
-    """P-values that may each be held against the level of the whole family.
+def holm_adjusted(p_values: Sequence[float], weights: Sequence[float] | None = None) -> tuple[float, ...]:
+    """P-values adjusted by Holm's rule, each to be compared with the level of the whole family.
 
-    Holm, "A simple sequentially rejective multiple test procedure", 1979: the k-th least of m is
-    multiplied by m - k + 1, and none is less than the one before it. The probability of any false
-    rejection stays below the level, whatever the comparisons have in common.
+    Holm, "A simple sequentially rejective multiple test procedure", 1979, section 4 for weights: in the order
+    of p/w, each is multiplied by the weights that are left over its own, and none is less than the one
+    before it. The probability of any false rejection stays below the level, whatever the comparisons have in
+    common.
 
     Args:
         p_values: One for each comparison.
+        weights: The share of the level that each begins with, in any unit; equal shares by default. A
+            comparison with weight 0 is never rejected.
     """
+    shares = [1.0] * len(p_values) if weights is None else weights
     adjusted = [1.0] * len(p_values)
+    order = sorted(
+        (place for place, share in enumerate(shares) if share > 0.0),
+        key=lambda place: (p_values[place] / shares[place], place),
+    )
+    left = [0.0] * (len(order) + 1)
+    for rank in range(len(order) - 1, -1, -1):
+        left[rank] = left[rank + 1] + shares[order[rank]]
     greatest = 0.0
-    for rank, place in enumerate(sorted(range(len(p_values)), key=p_values.__getitem__)):
-        greatest = max(greatest, min(1.0, (len(p_values) - rank) * p_values[place]))
+    for rank, place in enumerate(order):
+        greatest = max(greatest, min(1.0, left[rank] / shares[place] * p_values[place]))
         adjusted[place] = greatest
     return tuple(adjusted)
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 
-from rgss.regression.comparing import Candidate, Comparison, Subject, judge
+from rgss.regression.comparing import Candidate, Comparison, Subject
 from rgss.regression.error_rates import level_of_look
+from rgss.regression.judging import judge
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

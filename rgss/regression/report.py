@@ -1,4 +1,4 @@
-"""What a comparison with the baseline came to."""
+"""Report of a comparison with the baseline."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
-from rgss.regression.comparing import Comparison, Outcome
+from rgss.regression.comparing import Comparison, Outcome, Subject
+from rgss.regression.input_changes import InputChange, InputKind
+from rgss.regression.power import Power
 
 
 class Trouble(str, Enum):
@@ -51,33 +53,42 @@ class ChangedTrial:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Behaviour:
-    """Whether trials are the same bit by bit.
+    """Comparison of the trials' records bit by bit.
 
     Attributes:
-        compared: How many trials; 0 on another platform.
-        changed: Those that are not.
-        platform: Why nothing was compared; empty if it was.
+        compared: How many trials were compared.
+        changed: Those whose records differ.
+        machine: The machines of both sides if they differ and nothing else does, so that differing records
+            may be the machine's; empty otherwise.
     """
 
     compared: int
     changed: tuple[ChangedTrial, ...]
-    platform: str = ""
+    machine: str = ""
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether records differ for another reason than the machine."""
+        return bool(self.changed) and not self.machine
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RegressionReport:
-    """What a comparison with the baseline came to.
+    """Report of a comparison with the baseline.
 
     Attributes:
         study: The study's file.
         baseline: The baseline's file.
         comparisons: Every metric, by run, metric and phase.
-        behaviour: Whether trials are the same bit by bit.
+        behaviour: Comparison of the trials' records bit by bit.
         failing: What fails beside metrics that are worse or missing.
         notes: What is told of the decision and the inputs and does not fail.
         looks: How often was looked.
         trials: How many trials each run took for each variant.
         error_rate: The probability of any false alarm.
+        inputs: The inputs that differ from those of the baseline.
+        powers: The power of the comparisons, by subject.
+        accepted: The stated reason for which changed behaviour is accepted in this run; empty if none.
     """
 
     study: str
@@ -89,6 +100,9 @@ class RegressionReport:
     looks: int
     trials: Mapping[str, int] = field(hash=False)
     error_rate: float
+    inputs: tuple[InputChange, ...] = ()
+    powers: Mapping[Subject, Power] = field(default_factory=dict, hash=False)
+    accepted: str = ""
 
     def of(self, *outcomes: Outcome) -> tuple[Comparison, ...]:
         """The comparisons with one of some outcomes."""
@@ -105,11 +119,31 @@ class RegressionReport:
         return any(one.trouble is Trouble.NOT_RUN for one in self.failing)
 
     @property
+    def has_changes(self) -> bool:
+        """Whether anything changed that needs a stated reason.
+
+        Records that are not the same bit by bit, another version of an engine or other numerics, under which
+        no trial but the few that are watched is known to be the same, and any metric that moved by more than
+        its margin, for better or worse. Code and values that leave every record as it was need none.
+        """
+        engines = any(one.kind is InputKind.ENGINE for one in self.inputs)
+        return self.behaviour.is_changed or engines or bool(self.of(Outcome.BETTER, Outcome.MOVED, Outcome.WORSE))
+
+    @property
+    def is_unexplained(self) -> bool:
+        """Whether anything changed and no reason is stated."""
+        return self.has_changes and not self.accepted
+
+    @property
     def verdict(self) -> str:
-        """One word: ``failed``, ``worse``, ``inconclusive``, ``better`` or ``same``."""
+        """One word: ``failed``, ``worse``, ``changed``, ``inconclusive``, ``moved``, ``better`` or ``same``."""
         if self.failing or self.of(Outcome.MISSING):
             return "failed"
-        for outcome in (Outcome.WORSE, Outcome.INCONCLUSIVE, Outcome.BETTER):
+        if self.of(Outcome.WORSE):
+            return str(Outcome.WORSE.value)
+        if self.is_unexplained:
+            return "changed"
+        for outcome in (Outcome.INCONCLUSIVE, Outcome.MOVED, Outcome.BETTER):
             if self.of(outcome):
                 return str(outcome.value)
         return str(Outcome.SAME.value)

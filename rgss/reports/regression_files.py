@@ -9,14 +9,27 @@ from xml.etree import ElementTree as ET
 from rgss.documents.steering import escaped_for_xml
 from rgss.invisible_characters import visible
 from rgss.regression.comparing import Comparison, Outcome
+from rgss.regression.power import TARGET, Power
 from rgss.regression.report import RegressionReport, Trouble
-from rgss.reports.regression_words import behaviour_of, counts_of, detail_of, listed, quantity
+from rgss.reports.regression_words import (
+    behaviour_of,
+    counts_of,
+    detail_of,
+    inputs_of,
+    listed,
+    power_lines,
+    power_text,
+    quantity,
+    reasons_of,
+    remedy_of,
+)
 
 _NOT_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _MARKDOWN = re.compile(r"([\\`*_{}\[\]()#+!|~$@-])")
 _SIGNS = {
     Outcome.MISSING: "❌",
     Outcome.WORSE: "❌",
+    Outcome.MOVED: "❗",
     Outcome.INCONCLUSIVE: "❔",
     Outcome.BETTER: "✅",
     Outcome.SAME: "✅",
@@ -30,19 +43,25 @@ def report_to_json(report: RegressionReport) -> dict[str, Any]:
         "baseline": report.baseline,
         "verdict": report.verdict,
         "fails": report.fails,
+        "changed": report.has_changes,
+        "accepted": report.accepted,
         "error_rate": report.error_rate,
         "looks": report.looks,
         "seeds": dict(report.trials),
         "failing": [{"trouble": one.trouble.value, "text": one.text} for one in report.failing],
-        "comparisons": [_comparison(one) for one in report.comparisons],
+        "comparisons": [_comparison(one, report.powers.get(one.subject)) for one in report.comparisons],
         "behaviour": {
             "compared": report.behaviour.compared,
             "changed": [
                 {"run": one.run, "variant": one.variant, "seed": one.seed, "phase": one.phase}
                 for one in report.behaviour.changed
             ],
-            "platform": report.behaviour.platform,
+            "machine": report.behaviour.machine,
         },
+        "inputs": [
+            {"kind": one.kind.value, "name": one.name, "then": one.then, "now": one.now, "where": one.where}
+            for one in report.inputs
+        ],
         "notes": list(report.notes),
     }
 
@@ -50,14 +69,15 @@ def report_to_json(report: RegressionReport) -> dict[str, Any]:
 def report_to_junit(report: RegressionReport) -> bytes:
     """The report as JUnit XML: a case for each comparison, for each other failure and for behaviour.
 
-    What fails the guard fails its case; a trial that could not be run is an error; what is
-    inconclusive is skipped, with the reason.
+    What fails the guard fails its case, and so does changed behaviour without a stated reason; a trial that
+    could not be run is an error; what is inconclusive is skipped, with the reason. The power of each comparison
+    is a property of the suite.
     """
     cases: list[tuple[str, str, str, str, str]] = [
         (
             f"rgss.regress.{one.subject.run}",
             str(one.subject),
-            _element_of(one.outcome),
+            _element_of(one.outcome, unexplained=report.is_unexplained),
             one.outcome.value,
             detail_of(one),
         )
@@ -73,7 +93,9 @@ def report_to_junit(report: RegressionReport) -> bytes:
         )
         for one in report.failing
     ]
-    cases.append(("rgss.regress", "behaviour", "system-out", "", behaviour_of(report)))
+    element = "failure" if report.is_unexplained and list(reasons_of(report)) else "system-out"
+    said = dict.fromkeys([behaviour_of(report), *reasons_of(report), *inputs_of(report), remedy_of(report)])
+    cases.append(("rgss.regress", "behaviour", element, "changed", "; ".join(each for each in said if each)))
     suite = ET.Element(
         "testsuite",
         name=_xml(f"rgss regress {report.study}"),
@@ -82,6 +104,12 @@ def report_to_junit(report: RegressionReport) -> bytes:
         errors=str(sum(case[2] == "error" for case in cases)),
         skipped=str(sum(case[2] == "skipped" for case in cases)),
     )
+    properties = ET.SubElement(suite, "properties")
+    for one in report.comparisons:
+        power = report.powers.get(one.subject)
+        if power is not None:
+            name = _xml(f"power: {one.subject} (run {one.subject.run})")
+            ET.SubElement(properties, "property", name=name, value=_xml(power_text(power, one.guard)))
     for owner, name, element, word, text in cases:
         case = ET.SubElement(suite, "testcase", classname=_xml(owner), name=_xml(name), time="0")
         if element in ("failure", "error", "skipped"):
@@ -99,6 +127,10 @@ def report_to_markdown(report: RegressionReport) -> str:
     if report.failing:
         lines += [f"- ❌ **{one.trouble.value}**: {_text(one.text)}" for one in report.failing]
         lines.append("")
+    reasons = list(reasons_of(report))
+    if reasons:
+        sign, word = ("✅", "accepted") if report.accepted else ("❗", "changed")
+        lines += [*(f"- {sign} **{word}**: {_text(reason)}" for reason in reasons), ""]
     shown = [one for one in listed(report) if one.outcome is not Outcome.SAME]
     if shown:
         lines += ["| | metric | phase | run | baseline | now | finding |", "|---|---|---|---|---:|---:|---|"]
@@ -106,19 +138,22 @@ def report_to_markdown(report: RegressionReport) -> str:
         lines.append("")
     lines.append(_text(counts_of(report)) + ".")
     lines += ["", _text(behaviour_of(report)) + "."]
-    if report.notes:
-        lines += ["", *(f"- {_text(note)}" for note in report.notes)]
+    notes = [*inputs_of(report), *report.notes, *power_lines(report, everything=False)]
+    if notes:
+        lines += ["", *(f"- {_text(note)}" for note in notes)]
+    if remedy_of(report):
+        lines += ["", _text(remedy_of(report)) + "."]
     return "\n".join(lines) + "\n"
 
 
-def _comparison(one: Comparison) -> dict[str, Any]:
+def _comparison(one: Comparison, power: Power | None) -> dict[str, Any]:
     return {
         "run": one.subject.run,
         "metric": one.subject.metric,
         "phase": one.subject.phase,
         "verdict": one.outcome.value,
         "unit": one.guard.unit,
-        "better": "higher" if one.guard.higher_is_better else "lower",
+        "better": one.guard.direction,
         "margin": one.guard.margin,
         "baseline": one.baseline_mean,
         "now": one.current_mean,
@@ -131,11 +166,20 @@ def _comparison(one: Comparison) -> dict[str, Any]:
         "look": one.look,
         "identical": one.identical,
         "p_values": dict(one.p_values),
+        "power": None
+        if power is None
+        else {
+            "loss": power.loss,
+            "probability": power.probability,
+            "seeds": power.seeds,
+            "target": TARGET,
+            "seeds_needed": power.seeds_needed,
+        },
     }
 
 
-def _element_of(outcome: Outcome) -> str:
-    if outcome in (Outcome.WORSE, Outcome.MISSING):
+def _element_of(outcome: Outcome, *, unexplained: bool) -> str:
+    if outcome in (Outcome.WORSE, Outcome.MISSING) or (unexplained and outcome in (Outcome.BETTER, Outcome.MOVED)):
         return "failure"
     return "skipped" if outcome is Outcome.INCONCLUSIVE else "system-out"
 

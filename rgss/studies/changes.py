@@ -32,12 +32,21 @@ def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
         then: Plain data: mappings, lists, texts, numbers.
         now: The same as it is now.
     """
-    before, after = dict(_leaves(then, "")), dict(_leaves(now, ""))
+    before, after = values_by_name(then), values_by_name(now)
     return tuple(
         Change(name=name, then=before.get(name, ABSENT), now=after.get(name, ABSENT))
         for name in dict.fromkeys([*before, *after])
         if before.get(name) != after.get(name)
     )
+
+
+def values_by_name(value: Any) -> dict[str, str]:
+    """Every value by its dotted name, as text.
+
+    Args:
+        value: Plain data: mappings, lists, texts, numbers.
+    """
+    return dict(_leaves(value, ""))
 
 
 def _leaves(value: Any, name: str) -> Iterator[tuple[str, str]]:

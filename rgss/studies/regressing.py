@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore, Phase
-from rgss.evidence.origin import code_revision, file_digests, machine
 from rgss.findings import shown
-from rgss.regression.baseline import Baseline, BaselineOrigin, BaselineRun, Change
+from rgss.regression.baseline import Baseline, BaselineRun, Change
 from rgss.regression.comparing import Candidate, Subject
 from rgss.regression.comparing_baselines import (
     changed_trials,
@@ -18,10 +18,13 @@ from rgss.regression.comparing_baselines import (
     schema_failings,
     unchanged_phases,
 )
+from rgss.regression.input_changes import InputChange, InputKind, Inputs, origin_changes, value_changes
 from rgss.regression.looking import settle
+from rgss.regression.power import Power, powers
 from rgss.regression.report import Behaviour, ChangedTrial, Failing, RegressionReport, Trouble
-from rgss.studies.project import FOLDERS, Project
+from rgss.studies.project import Project
 from rgss.studies.regressing_decision import decision_of, explained_by_noise, p_values
+from rgss.studies.regressing_inputs import BASELINE_SUFFIX, inputs_of_trials, origin_of_trials, shared_inputs
 from rgss.studies.regressing_runs import (
     Records,
     RunTrials,
@@ -34,15 +37,10 @@ from rgss.studies.regressing_runs import (
 )
 from rgss.studies.regression_section import RegressionGuard
 from rgss.trials.metrics import METRICS
-from rgss.trials.versions import versions
-
-BASELINE_SUFFIX = ".baseline.json"
-"""What a study's file has in place of its own ending in the name of its baseline."""
 
 LONGEST_REASON = 500
 
 _PHASES = tuple(phase.value for phase in Phase)
-_CODE = "rgss-"
 
 
 def baseline_name(label: str) -> str:
@@ -68,11 +66,9 @@ def make_baseline(
         EvidenceError: A trial could not be run.
     """
     guard = guard_of(project)
-    words = " ".join(reason.split())
+    words = _reason(reason)
     if not words:
         raise DefinitionError("--update needs a reason", hint="say with --reason why the numbers may move")
-    if len(words) > LONGEST_REASON:
-        raise DefinitionError(f"the reason has {len(words)} characters", hint=f"say it in {LONGEST_REASON}")
     watched = watched_trials(project, guard)
     records = Records(store, run_trials)
     records.fetch([(trials, trials.run.cap) for trials in watched])
@@ -85,7 +81,9 @@ def make_baseline(
                 f"with seed {seed}",
                 hint="a baseline needs all of them",
             )
-    origin = _origin(project)
+    origin = origin_of_trials(project, records.provenances())
+    inputs = inputs_of_trials(watched)
+    shared = shared_inputs(inputs)
     decision = None
     if guard.decision is not None:
         trials = next(one for one in watched if one.run.id == guard.decision)
@@ -95,10 +93,11 @@ def make_baseline(
         study=project.study.id,
         units=_units(guard),
         record=_record_schema(),
-        runs={trials.run.id: _baseline_run(guard, trials, records) for trials in watched},
+        runs={trials.run.id: _baseline_run(guard, trials, records, inputs, shared) for trials in watched},
         decision=decision,
         origin=origin,
         history=(*history, Change(reason=words, revision=origin.revision)),
+        inputs=shared,
     )
 
 
@@ -110,6 +109,7 @@ def compare_with_baseline(
     *,
     label: str,
     on_look: Callable[[int, int], None] | None = None,
+    accepted: str = "",
 ) -> RegressionReport:
     """Compare what there is now with the baseline, with more seeds while something is inconclusive.
 
@@ -119,10 +119,11 @@ def compare_with_baseline(
         run_trials: Runs the trials that the store has not.
         baseline: The baseline.
         label: The name of its file.
-        on_look: Told the number of each look and how many comparisons are open before it.
+        on_look: Callback before each look, with its number and how many comparisons are open.
+        accepted: Why changed behaviour is accepted in this run; empty if it is not.
 
     Raises:
-        DefinitionError: The study guards nothing, or the baseline is of another study.
+        DefinitionError: The study guards nothing, the baseline is of another study, or the reason is too long.
         EvidenceError: The store is damaged.
     """
     guard = guard_of(project)
@@ -131,7 +132,14 @@ def compare_with_baseline(
             f"the baseline {label} is of study {shown(baseline.study)}, not of {project.study.id!r}",
             hint="name another with --baseline",
         )
-    return _Comparing(project, guard, Records(store, run_trials), baseline, label).run(on_look)
+    return _Comparing(project, guard, Records(store, run_trials), baseline, label).run(on_look, _reason(accepted))
+
+
+def _reason(text: str) -> str:
+    words = " ".join(text.split())
+    if len(words) > LONGEST_REASON:
+        raise DefinitionError(f"the reason has {len(words)} characters", hint=f"say it in {LONGEST_REASON}")
+    return words
 
 
 class _Comparing:
@@ -147,10 +155,8 @@ class _Comparing:
         self._label = label
         self._watched = watched_trials(project, guard)
         self._seeds = {trials.run.id: 0 for trials in self._watched}
-        self._origin = _origin(project)
-        self._same_platform = baseline.origin.same_platform(self._origin)
 
-    def run(self, on_look: Callable[[int, int], None] | None) -> RegressionReport:
+    def run(self, on_look: Callable[[int, int], None] | None, accepted: str) -> RegressionReport:
         failing = list(schema_failings(self._baseline, _units(self._guard), _record_schema()))
         for trials in self._watched:
             failing += run_failings(
@@ -176,16 +182,20 @@ class _Comparing:
                 text = f"run {trials.run.id}: the trial of variant {variant} with seed {seed} could not be run"
                 failing.append(Failing(trouble=Trouble.NOT_RUN, text=text))
         unstable, notes = self._decision()
+        inputs = self._changed_inputs()
         return RegressionReport(
             study=self._project.study.label,
             baseline=self._label,
             comparisons=tuple(latest[subject] for subject in sorted(latest, key=_order)),
-            behaviour=self._behaviour(),
+            behaviour=self._behaviour(inputs),
             failing=(*failing, *unstable),
-            notes=(*self._what_changed(), *notes),
+            notes=(*self._of_the_baseline(), *notes),
             looks=settled.looks,
             trials=dict(self._seeds),
             error_rate=self._guard.error_rate,
+            inputs=inputs,
+            powers=self._powers(),
+            accepted=accepted,
         )
 
     def _candidates_at(self, look: int, only: Collection[str] | None) -> list[Candidate]:
@@ -201,26 +211,53 @@ class _Comparing:
             count = self._seeds[trials.run.id]
             seeds = trials.seeds(count)
             records = self._records.of(trials, count)
-            same: frozenset[str] = frozenset()
-            if self._same_platform:
-                same = unchanged_phases(before, fingerprints_of(records), seeds, _PHASES)
+            same = unchanged_phases(before, fingerprints_of(records), seeds, _PHASES)
             for metric, phase in subjects_of(self._guard, trials.run.id):
-                rows = before.values.get(metric.metric, {}).get(phase)
-                if rows is None:
+                baseline = self._values(trials.run.id, metric.metric, phase)
+                if baseline is None:
                     continue
                 found.append(
                     Candidate(
                         subject=Subject(run=trials.run.id, metric=metric.metric, phase=phase),
-                        guard=metric.guard,
-                        baseline={
-                            int(variant): dict(zip(before.seeds, row, strict=True)) for variant, row in rows.items()
-                        },
+                        guard=metric.guard.for_baseline(_mean_of(baseline)),
+                        baseline=baseline,
                         current=series_of(records, metric.metric, phase),
                         seeds=seeds,
                         identical=phase in same,
                     )
                 )
         return found
+
+    def _values(self, run: str, metric: str, phase: str) -> dict[int, dict[int, float | None]] | None:
+        """The baseline's values by variant and seed; None if it has none."""
+        before = self._baseline.runs[run]
+        rows = before.values.get(metric, {}).get(phase)
+        if rows is None:
+            return None
+        return {int(variant): dict(zip(before.seeds, row, strict=True)) for variant, row in rows.items()}
+
+    def _powers(self) -> dict[Subject, Power]:
+        """The power of each comparison, were all seeds of the baseline compared."""
+        candidates = []
+        for trials in self._watched:
+            if trials.run.id not in self._baseline.runs:
+                continue
+            for metric, phase in subjects_of(self._guard, trials.run.id):
+                values = self._values(trials.run.id, metric.metric, phase)
+                if values is not None:
+                    candidates.append(
+                        Candidate(
+                            subject=Subject(run=trials.run.id, metric=metric.metric, phase=phase),
+                            guard=metric.guard.for_baseline(_mean_of(values)),
+                            baseline=values,
+                            current={},
+                            seeds=(),
+                            identical=False,
+                        )
+                    )
+        looks = range(1, 1 + max(trials.run.looks for trials in self._watched))
+        seeds_at = {trials.run.id: [trials.run.seeds_at(look) for look in looks] for trials in self._watched}
+        return powers(candidates, seeds_at, error_rate=self._guard.error_rate)
 
     def _unguarded(self) -> list[Failing]:
         """What stands on one side alone: named by the study, or kept by the baseline."""
@@ -241,12 +278,22 @@ class _Comparing:
                     failing.append(Failing(trouble=Trouble.CHANGED_SCHEMA, text=text))
         return failing
 
-    def _behaviour(self) -> Behaviour:
-        if not self._same_platform:
-            was, here = _differences(self._baseline.origin, self._origin)
-            return Behaviour(
-                compared=0, changed=(), platform=f"the baseline is of another platform ({was}), here {here}"
-            )
+    def _changed_inputs(self) -> tuple[InputChange, ...]:
+        now = inputs_of_trials(self._watched)
+        origin = origin_of_trials(self._project, self._records.provenances())
+        changes = (
+            *value_changes(self._baseline, now),
+            *origin_changes(self._baseline.origin, origin, with_values=self._baseline.has_values),
+        )
+        return tuple(one for one in changes if one.kind is not InputKind.FILE or one.name != self._label)
+
+    def _of_the_baseline(self) -> list[str]:
+        if self._baseline.has_values:
+            return []
+        text = "the baseline was written by an earlier rgss and lacks the values of inputs, so that changes of them "
+        return [f"{text}are not named; write it anew with 'rgss regress --update --reason TEXT'"]
+
+    def _behaviour(self, inputs: Sequence[InputChange]) -> Behaviour:
         changed: list[ChangedTrial] = []
         compared = 0
         for trials in self._watched:
@@ -256,7 +303,11 @@ class _Comparing:
                 records = self._records.of(trials, count)
                 changed += changed_trials(trials.run.id, before, fingerprints_of(records), trials.seeds(count))
                 compared += sum(len(set(row) & set(before.seeds)) for row in records.values())
-        return Behaviour(compared=compared, changed=tuple(changed))
+        # A file may have changed in what no trial reads; of a baseline without values no one can tell.
+        harmless = {InputKind.MACHINE, *((InputKind.FILE,) if self._baseline.has_values else ())}
+        machines = [f"{one.then} → {one.now}" for one in inputs if one.kind is InputKind.MACHINE]
+        only_machine = bool(machines) and all(one.kind in harmless for one in inputs)
+        return Behaviour(compared=compared, changed=tuple(changed), machine=machines[0] if only_machine else "")
 
     def _decision(self) -> tuple[Sequence[Failing], Sequence[str]]:
         before, run = self._baseline.decision, self._guard.decision
@@ -276,21 +327,15 @@ class _Comparing:
         by_luck = p_values(trials.project, before, now)
         return decision_changes(before, now, explained=explained, by_luck=by_luck, error_rate=self._guard.error_rate)
 
-    def _what_changed(self) -> list[str]:
-        was, here = self._baseline.origin, self._origin
-        notes = []
-        for what, old, new in (("inputs", was.inputs, here.inputs), ("engines", was.engines, here.engines)):
-            names = sorted(name for name in old.keys() | new.keys() if old.get(name) != new.get(name))
-            names = [name for name in names if name != self._label]
-            if names:
-                notes.append(f"{what} changed since the baseline: {', '.join(names)}")
-        pieces = [name for name in here.code if was.code.get(name) != here.code[name]]
-        if pieces:
-            notes.append(f"code changed since the baseline: what makes {', '.join(sorted(pieces))}")
-        return notes
+
+def _mean_of(series: Mapping[int, Mapping[int, float | None]]) -> float | None:
+    known = [value for row in series.values() for value in row.values() if value is not None]
+    return math.fsum(known) / len(known) if known else None
 
 
-def _baseline_run(guard: RegressionGuard, trials: WatchedTrials, records: Records) -> BaselineRun:
+def _baseline_run(
+    guard: RegressionGuard, trials: WatchedTrials, records: Records, inputs: Inputs, shared: Mapping[str, str]
+) -> BaselineRun:
     rows = records.of(trials, trials.run.cap)
     values: dict[str, dict[str, dict[str, tuple[float | None, ...]]]] = {}
     for metric, phase in subjects_of(guard, trials.run.id):
@@ -309,19 +354,10 @@ def _baseline_run(guard: RegressionGuard, trials: WatchedTrials, records: Record
         seeds=trials.seeds(trials.run.cap),
         values=values,
         fingerprints={str(variant): tuple(row.values()) for variant, row in fingerprints_of(rows).items()},
-    )
-
-
-def _origin(project: Project) -> BaselineOrigin:
-    found = versions()
-    inputs = file_digests(project.folder, FOLDERS)
-    return BaselineOrigin(
-        revision=code_revision(),
-        machine=machine(),
-        engines={name: version for name, version in found.items() if not name.startswith(_CODE)},
-        code={name.removeprefix(_CODE): version for name, version in found.items() if name.startswith(_CODE)},
-        # A baseline is no input of the trials, and none could name its own digest.
-        inputs={name: value for name, value in inputs.items() if not name.endswith(BASELINE_SUFFIX)},
+        inputs={
+            str(variant): {name: value for name, value in values.items() if name not in shared}
+            for variant, values in inputs[trials.run.id].items()
+        },
     )
 
 
@@ -333,22 +369,6 @@ def _record_schema() -> dict[str, str]:
     return {
         name: kind.unit if kind.length is None else f"{kind.length} × {kind.unit}" for name, kind in METRICS.items()
     }
-
-
-def _differences(one: BaselineOrigin, other: BaselineOrigin) -> tuple[str, str]:
-    """What tells each of two platforms from the other."""
-    of_one, of_other = _parts(one), _parts(other)
-    told = (
-        ", ".join(part for part in parts if part not in others)
-        for parts, others in ((of_one, of_other), (of_other, of_one))
-    )
-    first, second = (parts or "the same without it" for parts in told)
-    return first, second
-
-
-def _parts(origin: BaselineOrigin) -> list[str]:
-    engines = (f"{name} {version}" for name, version in sorted(origin.engines.items()))
-    return [*origin.machine.split(", "), *engines]
 
 
 def _order(subject: Subject) -> tuple[str, str, int]:

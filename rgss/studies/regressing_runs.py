@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError, DocumentError
-from rgss.evidence import EvidenceStore, TrialRecord
+from rgss.evidence import EvidenceStore, Provenance, TrialRecord
 from rgss.regression.observing import fingerprint, observed
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -62,6 +62,7 @@ class Records:
         self._store = store
         self._run_trials = run_trials
         self._found: dict[str, dict[tuple[int, int], TrialRecord]] = {}
+        self._keys: dict[str, None] = {}
 
     def fetch(self, wanted: Sequence[tuple[WatchedTrials, int]]) -> None:
         """Run and read the trials of some runs.
@@ -84,6 +85,7 @@ class Records:
         records = self._store.records(list(specs))
         for run, spec, key in shared:
             if key in records:
+                self._keys[key] = None
                 self._found.setdefault(run, {})[spec.variant, spec.seed] = records[key]
 
     def of(self, trials: WatchedTrials, count: int) -> Mapping[int, Mapping[int, TrialRecord]]:
@@ -93,6 +95,15 @@ class Records:
             variant: {seed: found[variant, seed] for seed in trials.seeds(count) if (variant, seed) in found}
             for variant in trials.ids
         }
+
+    def provenances(self) -> tuple[Provenance, ...]:
+        """The provenance of every record that was read.
+
+        Raises:
+            EvidenceError: The store is damaged.
+        """
+        stored = (self._store.get(key) for key in self._keys)
+        return tuple(one.provenance for one in stored if one is not None)
 
     def lost(self, trials: WatchedTrials, count: int) -> tuple[tuple[int, int], ...]:
         """Variant and seed of each trial among the first seeds that could not be run."""

@@ -66,8 +66,9 @@ class RegressionMetricEntry(DocumentModel):
     metric: Identifier
     runs: Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
     phases: Literal["all"] | Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
-    better: Literal["higher", "lower"]
+    better: Literal["higher", "lower", "neither"]
     margin: MarginText
+    at_least: MarginText | None = None
 
 
 class RegressionEntry(DocumentModel):
@@ -209,7 +210,7 @@ class _Reader:
             if run not in runs:
                 self._unknown_run(run, (*at, "runs", number), runs)
         unit = self._unit(entry, at)
-        margin = 1.0 if unit is None else self._margin(entry, unit, at)
+        margin, relative = (1.0, 0.0) if unit is None else self._margins(entry, unit, at)
         phases = (WHOLE_TRIAL,) if entry.phases is None else _PHASES if entry.phases == "all" else tuple(entry.phases)
         for key, names in (("runs", entry.runs or ()), ("phases", phases)):
             for number, name in enumerate(names):
@@ -226,6 +227,8 @@ class _Reader:
                 higher_is_better=entry.better == "higher",
                 margin=margin,
                 is_success=entry.metric == SUCCESS,
+                both_ways=entry.better == "neither",
+                relative=relative,
             ),
             runs=tuple(runs) if entry.runs is None else entry.runs,
             phases=phases,
@@ -248,21 +251,37 @@ class _Reader:
             return None
         return kind.unit
 
-    def _margin(self, entry: RegressionMetricEntry, unit: str, at: tuple[str | int, ...]) -> float:
-        text = entry.margin.strip()
+    def _margins(self, entry: RegressionMetricEntry, unit: str, at: tuple[str | int, ...]) -> tuple[float, float]:
+        """The margin in the metric's unit, and its share of the baseline's mean, 0 if it has none."""
+        if entry.metric == SUCCESS and entry.better != "higher":
+            self._report(f"of success, {entry.better} is not better", (*at, "better"), "write 'better: higher'")
+        if not (_is_share(entry.margin) and unit != "1"):
+            if entry.at_least is not None:
+                hint = "leave it away, or give the margin in per cent of the baseline's mean"
+                self._report("at_least belongs to a margin in per cent", (*at, "at_least"), hint)
+            return self._margin(entry, entry.margin, unit, (*at, "margin")), 0.0
+        relative = self._margin(entry, entry.margin, "1", (*at, "margin"))
+        if entry.at_least is None:
+            hint = "add the least margin in its unit, such as 'at_least: 50 ms', for a baseline near zero"
+            self._report(f"a margin of {shown(entry.margin)} needs 'at_least'", (*at, "margin"), hint)
+            return 1.0, relative
+        return self._margin(entry, entry.at_least, unit, (*at, "at_least")), relative
+
+    def _margin(self, entry: RegressionMetricEntry, given: str, unit: str, place: tuple[str | int, ...]) -> float:
+        text = given.strip()
         if unit == "1":
             text = text.removesuffix("percent") + "%" if text.endswith("percent") else text
         try:
             margin = parse_quantity(text, unit)
         except QuantityError as error:
-            self._report(error.message, (*at, "margin"), error.hint)
+            self._report(error.message, place, error.hint)
             return 1.0
         if margin <= 0.0:
-            message = f"a margin of {shown(entry.margin)} can never be kept for certain"
-            self._report(message, (*at, "margin"), "say how much worse it may get")
+            message = f"a margin of {shown(given)} can never be kept for certain"
+            self._report(message, place, "say how much worse it may get")
         elif entry.metric == SUCCESS and margin >= 1.0:
-            message = f"a margin of {shown(entry.margin)} lets every trial fail"
-            self._report(message, (*at, "margin"), "give a share below 1, such as 20 %")
+            message = f"a margin of {shown(given)} lets every trial fail"
+            self._report(message, place, "give a share below 1, such as 20 %")
         return margin
 
     def _unknown_run(self, name: str, at: tuple[str | int, ...], runs: list[str]) -> None:
@@ -270,6 +289,10 @@ class _Reader:
 
     def _report(self, message: str, at: tuple[str | int, ...], hint: str) -> None:
         self._findings.append(self._document.finding("study.regression", message, ("regression", *at), hint=hint))
+
+
+def _is_share(text: str) -> bool:
+    return text.strip().endswith(("%", "percent"))
 
 
 def _near(name: str, names: tuple[str, ...]) -> str:

@@ -81,8 +81,12 @@ def test_nothing_changed(rgss, with_baseline):
         f"{STUDY} against {BASELINE}: same",
         "6 comparisons: 6 same; seeds after 1 look: planning 4",
         "behaviour unchanged: 8 trials the same bit for bit",
+        (
+            "power: success of the trial (run planning): a loss of 40% is found with a probability of at least 17% "
+            "with up to 8 seeds; 80% takes 19"
+        ),
     ]
-    assert len(rgss("regress", "--all", "--project", with_baseline).output.splitlines()) == 9
+    assert len(rgss("regress", "--all", "--project", with_baseline).output.splitlines()) == 11
 
 
 def test_a_regression_in_every_form(rgss, spoil, tmp_path):
@@ -94,7 +98,7 @@ def test_a_regression_in_every_form(rgss, spoil, tmp_path):
     assert "  MISSING       planning_time_s at lift (run planning): 8 trials had a value" in told.output
     suite = ET.fromstring((tmp_path / "j.xml").read_bytes())  # noqa: S314 - our own file
     failed = {case.get("name") for case in suite if case.find("failure") is not None}
-    assert failed == {"planning_time_s at move_to_grasp", "planning_time_s at lift"}
+    assert failed == {"planning_time_s at move_to_grasp", "planning_time_s at lift", "behaviour"}
     assert "❌ worse | planning\\_time\\_s | move\\_to\\_grasp" in (tmp_path / "s.md").read_text(encoding="utf-8")
     document = rgss("regress", "--json", "--project", folder).document
     assert (document["verdict"], document["fails"]) == ("failed", True)
@@ -111,8 +115,68 @@ def test_what_is_inconclusive_fails_if_it_must(rgss, spoil):
     told = rgss("regress", "--project", folder)
     assert "INCONCLUSIVE  planning_time_s at move_to_grasp" in told.output
     assert "seeds after 2 looks: planning 8" in told.output
+    assert told.status == 4
+    accepted = ("regress", "--accept-change", "Noise.", "--project", folder)
+    assert rgss(*accepted).status == 0
+    assert rgss(*accepted, "--strict").status == 1
+
+
+def test_changed_behaviour_has_a_status_of_its_own_until_a_reason_is_stated(rgss, spoil, tmp_path):
+    """Every record differs and no metric does: nothing is worse, and the robot is another one."""
+
+    def other(document):
+        for row in document["runs"]["planning"]["fingerprints"].values():
+            row[:] = [" ".join([f"{place:012x}"] * 9) for place, _ in enumerate(row)]
+        document["inputs"]["scene.workpiece.friction"] = "0.98"
+
+    folder = spoil(other)
+    told = rgss("regress", "--project", folder, "--junit", tmp_path / "j.xml", "--markdown", tmp_path / "s.md")
+    assert told.status == 4
+    assert told.output.splitlines()[:2] == [
+        f"{STUDY} against {BASELINE}: changed",
+        (
+            "  CHANGED       behaviour changed: 16 of 16 trials not the same bit for bit; first different phase: "
+            "move_to_grasp in 16"
+        ),
+    ]
+    assert "input changed: scene.workpiece.friction 0.98 → 1.0" in told.output.splitlines()
+    assert told.output.splitlines()[-1].startswith("a change needs a reason: make it the baseline with 'rgss regress")
+    assert "❗ **changed**" in (tmp_path / "s.md").read_text(encoding="utf-8")
+    assert b'failures="1"' in (tmp_path / "j.xml").read_bytes()
+    document = rgss("regress", "--json", "--project", folder)
+    assert (document.status, document.document["verdict"], document.document["changed"]) == (4, "changed", True)
+
+    accepted = rgss("regress", "--project", folder, "--accept-change", "A <new> pad.")
+    assert accepted.status == 0
+    assert "  ACCEPTED      behaviour changed: 16 of 16 trials" in accepted.output
+    assert accepted.output.splitlines()[-1] == "changed behaviour is accepted in this run: A <new> pad."
+    # Once is once; an update is for good.
+    assert rgss("regress", "--project", folder).status == 4
+    assert rgss("regress", "--project", folder, "--update", "--reason", "A new pad.").status == 0
+    assert rgss("regress", "--project", folder).status == 0
+
+
+def test_an_accepted_change_still_fails_for_what_is_worse(rgss, spoil):
+    folder = spoil(faster)
+    assert rgss("regress", "--project", folder, "--accept-change", "Why not.").status == 1
+
+
+def test_a_baseline_of_the_schema_before_is_compared_and_brought_up_to_date(rgss, spoil):
+    def earlier(document):
+        for part in (document, *document["runs"].values()):
+            del part["inputs"]
+        del document["origin"]["modules"], document["origin"]["constants"]
+        document["schema"] = 2
+
+    folder = spoil(earlier)
+    told = rgss("regress", "--project", folder)
     assert told.status == 0
-    assert rgss("regress", "--strict", "--project", folder).status == 1
+    assert "note: the baseline was written by an earlier rgss and lacks the values of inputs" in told.output
+    assert rgss("regress", "--project", folder, "--update", "--reason", "New schema.").status == 0
+    document = json.loads((folder / BASELINE).read_text(encoding="ascii"))
+    assert document["schema"] == 3
+    assert document["inputs"]["settings.control.firm_grasp_s"] == "0.05"
+    assert "note:" not in rgss("regress", "--project", folder).output
 
 
 def test_the_history_goes_on(rgss, with_baseline):
@@ -152,6 +216,14 @@ def test_a_damaged_baseline_is_not_replaced_unseen(rgss, with_baseline):
         (
             ("--update", "--reason", "x", "--markdown", "m"),
             "rgss: --update and --markdown exclude each other (compare in a run of its own)",
+        ),
+        (
+            ("--accept-change", " "),
+            "rgss: --accept-change needs a reason (say why behaviour may change)",
+        ),
+        (
+            ("--update", "--reason", "x", "--accept-change", "y"),
+            "rgss: --update and --accept-change exclude each other (compare in a run of its own)",
         ),
         (
             ("--update", "--reason", "x", "--strict"),

@@ -21,13 +21,23 @@ def candidate():
     """Makes a comparison of one variant from rows of values by seed."""
 
     def make(
-        old, new, *, metric="time_s", phase="lift", margin=1.0, higher=False, success=False, identical=False, run="r"
+        old,
+        new,
+        *,
+        metric="time_s",
+        phase="lift",
+        margin=1.0,
+        higher=False,
+        success=False,
+        identical=False,
+        run="r",
+        both=False,
     ):
         rows = [row if isinstance(row, dict) else {1: row} for row in (old, new)]
         series = [{variant: dict(enumerate(row)) for variant, row in each.items()} for each in rows]
         return Candidate(
             subject=Subject(run=run, metric=metric, phase=phase),
-            guard=Guard(unit="s", higher_is_better=higher, margin=margin, is_success=success),
+            guard=Guard(unit="s", higher_is_better=higher, margin=margin, is_success=success, both_ways=both),
             baseline=series[0],
             current=series[1],
             seeds=tuple(range(max(len(row) for row in rows[0].values()))),
@@ -64,6 +74,7 @@ def baseline() -> Baseline:
                     "success": {"trial": {"9": (1.0, 0.0, 1.0), "10": (1.0, 1.0, 1.0)}},
                 },
                 fingerprints={"9": (prints("a"),) * 3, "10": (prints("b"),) * 3},
+                inputs={"9": {"planner": "'RRT'"}, "10": {"planner": "'TRRT'"}},
             )
         },
         decision=DecisionState(
@@ -74,7 +85,14 @@ def baseline() -> Baseline:
             measures={"9": {"t_p": (1.0, None, 2.0)}, "10": {"t_p": (3.0, 4.0, 5.0)}},
         ),
         origin=BaselineOrigin(
-            revision="abc", machine="Linux", engines={"ompl": "1"}, code={"plan": "d"}, inputs={"scenes/a.yaml": "e"}
+            revision="abc",
+            machine="Linux",
+            engines={"ompl": "1"},
+            code={"plan": "d"},
+            inputs={"scenes/a.yaml": "e"},
+            modules={"rgss.physics.world": "f"},
+            constants={"rgss.physics.world._ARM_POSITION_GAIN": "0.4"},
         ),
         history=(Change(reason="First.", revision="abc"),),
+        inputs={"tool_speed_m_s": "0.5", "settings.control.firm_grasp_s": "0.05"},
     )

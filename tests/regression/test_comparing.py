@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from rgss.regression import paired
-from rgss.regression.comparing import Outcome, judge, pair
+from rgss.regression.comparing import Guard, Outcome
+from rgss.regression.judging import judge, pair, weights_of
 from rgss.regression.looking import settle
 
 TIMES = [2.0, 2.5, 1.5, 3.0, 2.2, 1.9]
@@ -35,6 +36,39 @@ def test_a_shift_against_its_margin(candidate, by, higher, expected):
     if by == 1.0:
         new = [each + by + 0.1 * (-1) ** place for place, each in enumerate(TIMES)]
     assert outcome_of(candidate(TIMES, new, higher=higher)) == [expected]
+
+
+@pytest.mark.parametrize(("by", "expected"), [(1.5, Outcome.MOVED), (-1.5, Outcome.MOVED), (0.2, Outcome.SAME)])
+def test_where_neither_direction_is_better_a_move_either_way_is_one(candidate, by, expected):
+    new = [each + by + 0.001 * place for place, each in enumerate(TIMES)]
+    assert outcome_of(candidate(TIMES, new, both=True)) == [expected]
+
+
+def test_the_same_excludes_both_directions(candidate):
+    """Times a sixtieth of what they were are not the same, whichever direction is better."""
+    new = [each / 60.0 for each in TIMES]
+    assert outcome_of(candidate(TIMES, new, margin=1.0)) == [Outcome.BETTER]
+    assert outcome_of(candidate(TIMES[:3], new[:3], margin=1.9)) == [Outcome.INCONCLUSIVE]
+
+
+def test_a_margin_in_per_cent_of_the_baseline():
+    guard = Guard(unit="s", higher_is_better=False, margin=0.1, is_success=False, relative=0.2)
+    assert [guard.for_baseline(mean).margin for mean in (None, 0.0, 0.4, -2.0, 5.0)] == [0.1, 0.1, 0.1, 0.4, 1.0]
+
+
+def test_what_is_bit_for_bit_the_same_costs_no_other_comparison_its_part(candidate):
+    worse = candidate([1.0] * 9, [0.0] * 9, success=True, higher=True, margin=0.2)
+    same = [candidate(TIMES, TIMES, metric=f"m{place}", identical=True) for place in range(200)]
+    (alone,) = judge([worse], level=0.05, look=1)
+    assert judge([worse, *same], level=0.05, look=1)[0].p_values == alone.p_values
+
+
+def test_the_success_of_whole_trials_has_half_of_the_error_rate(candidate):
+    whole = candidate([1.0] * 9, [0.0] * 9, success=True, higher=True, margin=0.2, phase="trial")
+    others = [candidate(TIMES, [each + 9.0 for each in TIMES], metric=f"m{place}") for place in range(200)]
+    assert weights_of([whole, *others])[0] == 0.5
+    (alone,) = judge([whole], level=0.05, look=1)
+    assert judge([whole, *others], level=0.05, look=1)[0].p_values["worse"] <= 2.0 * alone.p_values["worse"] + 1e-12
 
 
 def test_noise_beyond_the_margin_is_inconclusive(candidate):
@@ -78,9 +112,11 @@ def test_one_pair_is_inconclusive(candidate):
         # Nothing changed in four seeds, which proves little of a probability.
         ([1.0] * 4, [1.0] * 4, Outcome.INCONCLUSIVE),
         ([1.0] * 4, [0.0] * 4, Outcome.INCONCLUSIVE),
-        # Six of thirty are worse and none is better: significant, but less than the margin.
-        ([1.0] * 30, [0.0] * 6 + [1.0] * 24, Outcome.INCONCLUSIVE),
-        ([1.0] * 30, [0.0] * 8 + [1.0] * 22, Outcome.WORSE),
+        # Six of thirty are worse and none is better: a loss of the margin is as likely to show as 6 as as 9.
+        ([1.0] * 30, [0.0] * 6 + [1.0] * 24, Outcome.WORSE),
+        # Six of sixty are significant, too, but less than half of the margin, which is excluded.
+        ([1.0] * 60, [0.0] * 6 + [1.0] * 54, Outcome.SAME),
+        ([0.0] * 30, [1.0] * 6 + [0.0] * 24, Outcome.BETTER),
     ],
 )
 def test_success(candidate, old, new, expected):
@@ -93,7 +129,7 @@ def test_what_is_bit_for_bit_the_same_needs_no_statistics(candidate):
 
 
 def test_many_comparisons_ask_for_more(candidate):
-    # A p-value of 2^-7: enough alone, not among ten.
+    # A p-value of about 2^-8: enough alone, not among ten.
     worse = candidate([1.0] * 7, [0.0] * 7, success=True, higher=True, margin=0.2)
     assert outcome_of(worse) == [Outcome.WORSE]
     others = [candidate(TIMES, TIMES, metric=f"m{place}") for place in range(9)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
@@ -15,30 +14,66 @@ from statsmodels.stats.multitest import multipletests
 
 from rgss.errors import DefinitionError
 from rgss.regression.error_rates import holm_adjusted, level_of_look
-from rgss.regression.mcnemar import discordance_p_value, worsening_below
+from rgss.regression.mcnemar import critical_worsenings, discordance_p_value, worsening_below
 from rgss.regression.paired import DRAWS, PairedMean
 
 
-@given(worse=st.integers(0, 30), better=st.integers(0, 30), equal=st.integers(0, 5))
-def test_one_variant_is_mcnemars_exact_test(worse, better, equal):
-    ours = discordance_p_value([1] * worse + [-1] * better + [0] * equal)
-    if worse + better:
-        assert ours == pytest.approx(stats.binomtest(worse, worse + better, alternative="greater").pvalue, rel=1e-12)
-    else:
+def _mid_p(worse, better):
+    if worse + better == 0:
+        return 1.0
+    law = stats.binom(worse + better, 0.5)
+    return law.sf(worse) + 0.5 * law.pmf(worse)
+
+
+@settings(max_examples=40, deadline=None)
+@given(worse=st.integers(0, 9), better=st.integers(0, 9), equal=st.integers(0, 9))
+def test_the_p_value_is_the_greatest_probability_of_what_is_as_extreme(worse, better, equal):
+    """Each outcome of the seeds by itself, at many probabilities of a discordant one."""
+    seeds = worse + better + equal
+    ours = discordance_p_value(worse, better, seeds)
+    if worse + better == 0:
         assert ours == 1.0
-    # The published test is two-sided: twice the smaller tail, and at most 1.
-    both = min(1.0, 2.0 * min(ours, discordance_p_value([-1] * worse + [1] * better)))
-    theirs = mcnemar([[equal, better], [worse, 0]], exact=True).pvalue
-    assert both == pytest.approx(theirs, rel=1e-12)
+        return
+    outcomes = [(b, c) for b in range(seeds + 1) for c in range(seeds + 1 - b)]
+    extreme = [(b, c) for b, c in outcomes if _mid_p(b, c) <= _mid_p(worse, better) * (1 + 1e-9)]
+    rows = np.array([(b, c, seeds - b - c) for b, c in extreme])
+    greatest = max(
+        stats.multinomial.pmf(rows, seeds, [rate / 2, rate / 2, 1 - rate]).sum() for rate in np.linspace(0.01, 1, 100)
+    )
+    assert ours == pytest.approx(greatest, abs=2e-4)
+    assert ours >= greatest - 1e-9
 
 
-@given(st.lists(st.integers(-4, 4), max_size=9))
-def test_several_variants_are_every_assignment_of_signs(net):
-    reached = [
-        sum(sign * abs(each) for sign, each in zip(signs, net, strict=True)) >= sum(net)
-        for signs in itertools.product((1, -1), repeat=len(net))
+@given(worse=st.integers(0, 30), better=st.integers(0, 30), equal=st.integers(0, 30))
+def test_it_rejects_at_least_where_twice_mcnemars_exact_test_does(worse, better, equal):
+    # The published test is two-sided: twice the smaller tail.
+    theirs = mcnemar([[equal, better], [worse, 0]], exact=True).pvalue if worse + better else 1.0
+    ours = discordance_p_value(worse, better, worse + better + equal)
+    assert 0.0 < ours <= 1.0
+    if worse > better:
+        assert ours <= theirs + 1e-9
+
+
+@pytest.mark.parametrize("seeds", [4, 12, 16, 40, 64])
+@pytest.mark.parametrize("level", [0.05, 0.0075, 0.001])
+def test_the_test_of_success_keeps_its_level_whatever_share_of_seeds_differs(seeds, level):
+    """Exact size by enumeration: no probability of a discordant seed makes it exceed the level."""
+    rejected = [
+        (b, c) for b in range(seeds + 1) for c in range(seeds + 1 - b) if discordance_p_value(b, c, seeds) <= level
     ]
-    assert discordance_p_value(net) == pytest.approx(sum(reached) / len(reached), rel=1e-12)
+    critical = critical_worsenings(seeds, level)
+    assert {(b, c) for b, c in rejected} == {
+        (b, d - b) for d in range(seeds + 1) for b in range(int(critical[d]), d + 1)
+    }
+    rows = np.array([(b, c, seeds - b - c) for b, c in rejected])
+    sizes = [
+        stats.multinomial.pmf(rows, seeds, [rate / 2, rate / 2, 1 - rate]).sum() if len(rows) else 0.0
+        for rate in np.linspace(0.003, 1, 150)
+    ]
+    assert max(sizes) <= level * 1.001
+    # It uses most of what the conditional test leaves unused.
+    if seeds >= 16 and level == 0.05:
+        assert max(sizes) > 0.04
 
 
 @given(worse=st.integers(0, 40), more=st.integers(0, 40), margin=st.floats(0.01, 0.99))
@@ -58,6 +93,28 @@ def test_the_margin_of_a_success_is_a_share(margin):
 @given(st.lists(st.floats(0.0, 1.0), min_size=1, max_size=30))
 def test_holm_is_that_of_statsmodels(p_values):
     assert holm_adjusted(p_values) == pytest.approx(multipletests(p_values, method="holm")[1].tolist(), abs=1e-15)
+
+
+@given(st.lists(st.tuples(st.floats(0.0, 1.0), st.integers(1, 5)), min_size=1, max_size=12), st.floats(0.01, 0.2))
+def test_weighted_holm_is_the_closure_of_weighted_bonferroni(pairs, level):
+    """A hypothesis is rejected where every intersection that holds it is, by weighted Bonferroni."""
+    p_values, weights = zip(*pairs, strict=True)
+    adjusted = holm_adjusted(p_values, weights)
+    # Step down by hand: reject the least p/w while p <= w / (what is left) * level.
+    left, rejected = set(range(len(p_values))), set()
+    while left:
+        least = min(left, key=lambda place: p_values[place] / weights[place])
+        if p_values[least] > weights[least] / sum(weights[place] for place in left) * level:
+            break
+        rejected.add(least)
+        left.remove(least)
+    for place, value in enumerate(adjusted):
+        if abs(value - level) > 1e-12:
+            assert (value <= level) == (place in rejected)
+
+
+def test_a_comparison_without_weight_is_never_rejected_and_costs_nothing():
+    assert holm_adjusted([0.0, 0.01, 0.02], [0.0, 1.0, 1.0]) == (1.0, 0.02, 0.02)
 
 
 def test_nothing_to_adjust_is_nothing():

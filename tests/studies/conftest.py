@@ -290,7 +290,9 @@ def runner(record_of):
 def compared(project_of, stores, runner):
     """The report of a project whose trials changed since its baseline."""
 
-    def compare(section=SECTION, baseline_of=lambda baseline: baseline, on_look=None, before=SECTION, **changes):
+    def compare(
+        section=SECTION, baseline_of=lambda baseline: baseline, on_look=None, before=SECTION, accepted="", **changes
+    ):
         project = project_of(before)
         first = stores()
         baseline = make_baseline(project, first, runner(first), before=None, reason=REASON)
@@ -298,7 +300,13 @@ def compared(project_of, stores, runner):
             project = project_of(section)
         now = stores()
         return compare_with_baseline(
-            project, now, runner(now, **changes), baseline_of(baseline), label="b", on_look=on_look
+            project,
+            now,
+            runner(now, **changes),
+            baseline_of(baseline),
+            label="b",
+            on_look=on_look,
+            accepted=accepted,
         )
 
     return compare

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import platform
 import re
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import pytest
 
 from rgss.errors import DefinitionError, DocumentError, EvidenceError
-from rgss.evidence import PieceKind
+from rgss.evidence import PieceKind, Provenance
 from rgss.regression.baseline import baseline_to_text
 from rgss.regression.comparing import Outcome
 from rgss.regression.report import Trouble
 from rgss.studies.project import load_project
 from rgss.studies.regressing import baseline_name, compare_with_baseline, make_baseline
+from rgss.studies.regressing_inputs import constants_of, origin_of_trials
 from rgss.studies.regressing_runs import guard_of, watched_trials
 from rgss.studies.sweep import sweep, trials_of
 from rgss.trials import execution
@@ -41,6 +42,7 @@ def test_nothing_changed(compared):
     looks = []
     report = compared(on_look=lambda *seen: looks.append(seen))
     assert (report.verdict, report.fails, report.failing, report.notes) == ("same", False, (), ())
+    assert report.inputs == ()
     assert looks == [(1, 0)]
     assert report.trials == {"planning": 4, "grasp": 4}
     assert (report.behaviour.compared, report.behaviour.changed) == (12, ())
@@ -139,39 +141,107 @@ def test_a_study_that_guards_less_or_other_things(compared, old, new, said):
     assert said in troubles(report)
 
 
-def test_of_another_platform_only_the_difference_is_told(compared):
-    def with_other_python(baseline):
-        machine = re.sub(r"Python [\d.]+", "Python 3.0.1", baseline.origin.machine)
-        return replace(baseline, origin=replace(baseline.origin, machine=machine))
-
-    python = f"Python {platform.python_version()}"
-    assert compared(baseline_of=with_other_python).behaviour.platform == (
-        f"the baseline is of another platform (Python 3.0.1), here {python}"
-    )
+def test_on_another_machine_the_same_records_are_the_same(compared):
+    report = compared(baseline_of=lambda one: replace(one, origin=replace(one.origin, machine="Other")))
+    assert (report.verdict, report.behaviour.compared, report.behaviour.machine[:8]) == ("same", 12, "Other → ")
+    assert all(one.identical for one in report.comparisons)
 
 
-def test_another_platform_is_not_compared_bit_for_bit(compared):
-    report = compared(
-        baseline_of=lambda one: replace(one, origin=replace(one.origin, machine="Other", engines={"ompl": "0"}))
-    )
-    assert report.behaviour.compared == 0
-    assert report.behaviour.platform.startswith("the baseline is of another platform (Other, ompl 0), here ")
-    assert not any(one.identical for one in report.comparisons)
-    assert any(note.startswith("engines changed since the baseline: coal,") for note in report.notes)
-    assert named(report, Outcome.WORSE, Outcome.MISSING) == set()
+def test_another_version_of_an_engine_needs_a_reason(compared):
+    def other(baseline):
+        engines = {**baseline.origin.engines, "ompl": "0", "numerics.libm": "x"}
+        return replace(baseline, origin=replace(baseline.origin, engines=engines))
+
+    report = compared(baseline_of=other)
+    installed = report.inputs[-1].now
+    assert [str(one) for one in report.inputs] == [
+        "engine changed: numerics.libm x → –",
+        f"engine changed: ompl 0 → {installed}",
+    ]
+    assert (report.verdict, report.fails, report.is_unexplained) == ("changed", False, True)
+    accepted = compared(baseline_of=other, accepted="Bug fixes in OMPL.")
+    assert (accepted.verdict, accepted.is_unexplained) == ("same", False)
 
 
-def test_what_changed_is_noted(compared):
+def test_whatever_a_provenance_names_is_compared(project_of):
+    """A field that provenance gets later is guarded without a line here."""
+
+    @dataclass(frozen=True, kw_only=True)
+    class Richer(Provenance):
+        numerics: Mapping[str, str] = field(default_factory=dict)
+        kernel: str = ""
+
+    here = Richer(inputs={}, versions={"ompl": "9", "rgss-plan": "d"}, numerics={"blas": "Haswell"}, kernel="k")
+    there = replace(here, numerics={"blas": "Zen"}, machine="M")
+    origin = origin_of_trials(project_of(), [here, there])
+    assert (origin.engines["numerics.blas"], origin.engines["kernel"]) == ("Haswell | Zen", "k")
+    assert (origin.engines["ompl"], origin.machine) == ("9", "M")
+    assert "rgss-plan" not in origin.engines
+
+
+def test_what_changed_is_named(compared):
     report = compared(
         baseline_of=lambda one: replace(
             one,
-            origin=replace(one.origin, code={**one.origin.code, "plan": "x"}, inputs={**one.origin.inputs, "a": "b"}),
+            origin=replace(
+                one.origin,
+                modules={**one.origin.modules, "rgss.trials.gone": "x"},
+                inputs={**one.origin.inputs, "a": "b"},
+            ),
+            inputs={**one.inputs, "settings.control.settled_s": "0.2"},
         )
     )
-    assert report.notes == (
-        "inputs changed since the baseline: a",
-        "code changed since the baseline: what makes plan",
+    assert [str(one) for one in report.inputs] == [
+        "input changed: settings.control.settled_s 0.2 → 0.1",
+        "code changed: rgss.trials.gone",
+        "file changed: a",
+    ]
+    assert (report.verdict, report.notes) == ("same", ())
+
+
+def test_a_value_that_not_all_trials_have_is_named_with_those_that_have_it(compared):
+    def other(baseline):
+        run = baseline.runs["planning"]
+        inputs = {**run.inputs, "60": {**run.inputs["60"], "planner": "'RRT'"}}
+        return replace(baseline, runs={**baseline.runs, "planning": replace(run, inputs=inputs)})
+
+    report = compared(baseline_of=other)
+    assert [str(one) for one in report.inputs] == ["input changed: planner 'RRT' → 'TRRT' (planning 60)"]
+
+
+def test_of_a_baseline_without_values_files_and_pieces_are_named(compared):
+    def earlier(baseline):
+        origin = replace(
+            baseline.origin,
+            code={**baseline.origin.code, "plan": "x"},
+            inputs={**baseline.origin.inputs, "a": "b"},
+            modules={},
+            constants={},
+        )
+        runs = {name: replace(run, inputs={}) for name, run in baseline.runs.items()}
+        return replace(baseline, origin=origin, runs=runs, inputs={}, schema=2)
+
+    report = compared(baseline_of=earlier)
+    assert [str(one) for one in report.inputs] == ["code changed: what makes plan", "file changed: a"]
+    assert report.verdict == "same"
+    (note,) = report.notes
+    assert note.startswith("the baseline was written by an earlier rgss and lacks the values of inputs")
+
+
+def test_constants_of_the_code_by_name(tmp_path, monkeypatch):
+    (tmp_path / "gains.py").write_text(
+        "A = 1\n_B = -2.5e-3\nC: float = 2 * 3\nD = (1, 2.0)\nE = 'x'\nF = len('x')\nG = ()\nH = A\n"
+        "class K:\n    i: float = 0.5\n    j: str = 'y'\n",
+        encoding="utf-8",
     )
+    monkeypatch.syspath_prepend(tmp_path)
+    assert constants_of(["gains", "no_such_module"]) == {
+        "gains.A": "1",
+        "gains._B": "-0.0025",
+        "gains.C": "2 * 3",
+        "gains.D": "(1, 2.0)",
+        "gains.K.i": "0.5",
+    }
 
 
 def test_a_baseline_of_another_study(compared):
@@ -260,7 +330,10 @@ regression:
     }
     assert {one.subject.metric for one in report.of(Outcome.WORSE)} == {"grip_margin_min"}
     assert {one.phase for one in report.behaviour.changed} == {"grasp"}
-    assert report.notes == ("inputs changed since the baseline: designs/grasping_system.yaml",)
+    assert [str(one) for one in report.inputs] == [
+        "input changed: gripper.friction 0.7 → 0.5",
+        "file changed: designs/grasping_system.yaml",
+    ]
     edit("designs/grasping_system.yaml", "d6: 0.5", "d6: 0.7")
 
     edit(STUDY, "charge_per_check: 0.25 ms", "charge_per_check: 0.5 ms")

@@ -70,7 +70,21 @@ FINDINGS = [
     ("[lift, place]", "[lift, place, lift]", "10:63: error: lift is named twice (keep one)"),
     ("[lift, place]", "[]", "10:49: error: phases: at least 1 entry is expected"),
     ("runs: [planning]", "runs: []", "9:39: error: runs: at least 1 entry is expected"),
-    ("better: higher", "better: more", "8:33: error: better: 'more' is not one of 'higher' or 'lower'"),
+    ("better: higher", "better: lower", "8:33: error: of success, lower is not better (write 'better: higher')"),
+    ("margin: 0.2 s", "margin: 20 %", "9:87: error: a margin of '20 %' needs 'at_least' (add the least margin in its"),
+    (
+        "margin: 0.2 s",
+        "margin: 0.2 s, at_least: 0.1 s",
+        "9:104: error: at_least belongs to a margin in per cent (leave it away, or give the margin",
+    ),
+    (
+        "margin: 0.2 s",
+        "margin: 20 %, at_least: 0 s",
+        "9:103: error: a margin of '0 s' can never be kept for certain",
+    ),
+    ("margin: 0.2 s", "margin: 0 %, at_least: 1 s", "9:87: error: a margin of '0 %' can never be kept for certain"),
+    ("margin: 0.2 s", "margin: 20 %, at_least: 1 m", "9:103: error: unit 'm' does not measure what 's' measures"),
+    ("better: higher", "better: more", "8:33: error: better: 'more' is not one of 'higher', 'lower' or 'neither'"),
 ]
 
 
@@ -104,6 +118,14 @@ def test_what_it_says(read):
     assert (slip.phases, slip.wherever) == (("lift", "place"), False)
 
 
+def test_a_margin_in_per_cent_and_a_metric_without_a_better_direction(read):
+    old = "better: lower, margin: 0.2 s"
+    guard = read(SECTION.replace(old, "better: neither, margin: 15 percent, at_least: 30 ms")).regression
+    assert guard.metrics[1].guard == Guard(
+        unit="s", higher_is_better=False, margin=0.03, is_success=False, both_ways=True, relative=0.15
+    )
+
+
 def test_it_may_be_left_out(read):
     assert read("").regression is None
 
@@ -122,6 +144,9 @@ def test_the_shipped_study_guards_itself(shipped):
     guard = shipped.study.regression
     assert {run.fidelity for run in guard.runs} == {Fidelity.KINEMATIC, Fidelity.CONTACT}
     assert any(metric.metric == "success" and metric.wherever for metric in guard.metrics)
+    guarded = {metric.metric: metric.guard.direction for metric in guard.metrics}
+    assert guarded["peak_tool_speed_m_s"] == "neither"
+    assert guarded.keys() >= {"tracking_error_m", "motion_time_s", "planning_time_s", "peak_joint_torque_ratio"}
 
 
 @pytest.mark.parametrize(
