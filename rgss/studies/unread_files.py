@@ -87,7 +87,7 @@ def _meant(project: Path, path: Path) -> str:
 
 
 def _of_other_folders(project: Path) -> Iterator[Finding]:
-    named = _named(project)
+    named, complete = _named(project)
     for folder in DATA_FOLDERS:
         if folder == _REQUIREMENTS:
             continue
@@ -96,7 +96,11 @@ def _of_other_folders(project: Path) -> Iterator[Finding]:
             home = _FOLDER_OF_KIND.get(kind, _REQUIREMENTS if kind else "")
             if path.resolve() in named or (folder == "studies" == home and path.suffix == ".yaml"):
                 continue
+            if path.suffix == ".yaml" and _data(path) is None:
+                continue  # what it is cannot be told; whoever reads it says what is wrong with it
             if home == folder and path.suffix == ".yaml":
+                if not complete:
+                    continue  # what cannot be read may well name it
                 label = path.relative_to(project).as_posix()
                 yield _finding(label, Severity.INFO, f"is a {kind} that no study names", "name it in a study")
             elif home == folder:
@@ -148,19 +152,21 @@ def _kind(path: Path) -> str:
     return kind
 
 
-def _named(project: Path) -> set[Path]:
-    """Every file that the studies name, and those that these name in turn."""
+def _named(project: Path) -> tuple[set[Path], bool]:
+    """Every file that the studies name, and those that these name in turn; and whether all could be read."""
     pending = [path for path in _documents(project / "studies") if path.suffix == ".yaml"]
     named: set[Path] = set()
+    complete = True
     while pending:
         path = pending.pop()
+        complete = complete and (path.suffix.lower() not in _ENDINGS or _data(path) is not None)
         for text in _texts_of(path):
             for base in (project, path.parent):
                 target = _file(base, text)
                 if target is not None and target not in named:
                     named.add(target)
                     pending.append(target)
-    return named
+    return named, complete
 
 
 def _texts_of(path: Path) -> Iterator[str]:

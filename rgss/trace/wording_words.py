@@ -31,6 +31,7 @@ _VERBS_NEXT = re.compile(
     r"\s+(?:is|are|was|were|has|have|had|shall|will|can|may|must|should|does|do|of)\b|\s*[.,;:]|\s*$"
 )
 _END_NEXT = re.compile(r"\s+of\b|\s*[.,;:]|\s*$")
+_END_OR_PURPOSE = re.compile(r"\s+(?:for|to)\b|\s*[.,;:]|\s*$")
 _HUNDRED = re.compile(r"(?<![\w.])100\s?(?:%|percent\b|per\s?cent\b)")
 _BOUND_BEFORE = re.compile(r"(?:at most|up to|to|than|below|under|within|and|-|–|≤|<)\s*$", re.IGNORECASE)
 _TIME_GIVEN = re.compile(r"\d\s?(?:ns|us|µs|ms|s|sec|seconds?|min|minutes?|h|hours?|d|days?)\b")
@@ -144,10 +145,20 @@ def _indefinite_time(sentence: Sentence, terms: TermList, _: Worded) -> Iterator
     found = _words(
         match
         for match in terms.find(sentence, start=sentence.response_start)
-        if not (is_timed and match.term in SEQUENCE_WORDS)
+        if not (is_timed and match.term in SEQUENCE_WORDS) and not _is_rate_or_name(sentence, match)
     )
     if found:
         yield Flaw(message=f"says {found}, which sets no time", hint="say within which time of which event")
+
+
+def _is_rate_or_name(sentence: Sentence, match: Match) -> bool:
+    """'once per day' is a rate, and 'a point in time' and 'in time services' are things."""
+    tokens = sentence.tokens
+    if match.term == "once":
+        return match.after < len(tokens) and tokens[match.after].word in ("a", "again", "daily", "each", "every", "per")
+    end = tokens[match.after - 1].end
+    is_point = match.first > 0 and tokens[match.first - 1].word in ("point", "points")
+    return match.term == "in time" and (is_point or _END_OR_PURPOSE.match(sentence.text, end) is None)
 
 
 def _unresolved(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:

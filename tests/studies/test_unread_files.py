@@ -75,6 +75,13 @@ def test_a_scene_that_no_study_names_is_only_noted(project):
     assert told(project) == []
 
 
+def test_nothing_is_noted_while_a_study_cannot_be_read(project):
+    (project / "scenes" / "second.yaml").write_text("bodies: []\n")
+    (project / "studies" / "broken.yaml").write_text("study: [\n")
+
+    assert told(project) == []
+
+
 def test_what_is_no_document_is_left_alone(project):
     for name in ("requirements/README.md", "scenes/.hidden.yaml", "studies/notes.txt", "mkdocs.yml"):
         (project / name).write_text("study: s\n")

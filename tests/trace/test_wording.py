@@ -116,6 +116,8 @@ BREAKING = {
         "The arm shall wait until the cup is placed.",
         "The arm shall stop as soon as possible.",
         "The arm shall stop ASAP.",
+        "The arm shall stop in time.",
+        "The arm shall stop once the cup is placed.",
         "The arm shall stop a.s.a.p. when told.",
         "The arm shall stop in a timely fashion.",
     ],
@@ -237,6 +239,8 @@ When the door opens, the controller shall cut the power of the heater.
 While the aircraft is on the ground, the control unit shall inhibit the thrust reverser lock.
 The archive shall store each record for at least 10 years.
 The message shall include the maximum number of resets.
+The cell shall report once per day.
+The cell shall report the counters in Time Services telemetry.
 The arm shall have a maximum speed of 2 m/s.
 The script shall accept a maximum of 3 studies.
 On a stop command, the controller shall enter the SAFE state.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,6 +12,9 @@ from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.reqif.prose import from_xhtml
 from rgss.exchange.reqif.vocabulary import MEASURE, TOOL, TYPE_NAMES, attribute_name
 from rgss.exchange.reqif.writing import type_identifier
+from rgss.findings import shown
+
+_MOST_NAMED = 8
 
 _ESCAPES_BREAKS = "strictdoc"
 r"""StrictDoc writes a break of a line in a string as ``\n``, since XML would make a blank of it."""
@@ -67,6 +71,8 @@ class ObjectReader:
         }
         self._parts = {name.lower(): kind for kind, name in TYPE_NAMES.items()}
         self._nameless: Counter[str] = Counter()
+        self._attributes: dict[str, dict[str, None]] = {}
+        """The attributes that the objects left aside have, by the name of their type."""
         self._unused: dict[str, None] = {}
         self.lost: list[tuple[int, str]] = []
         """Line and message of everything that a text loses with its markup."""
@@ -93,7 +99,9 @@ class ObjectReader:
     def notes(self) -> Iterator[str]:
         """What was not taken over."""
         for name, count in sorted(self._nameless.items()):
-            yield f"{count} objects of type {name!r} are left aside: they have no id or no text"
+            had = ", ".join(map(shown, itertools.islice(self._attributes[name], _MOST_NAMED)))
+            has = f" among their attributes {had}" if had else ""
+            yield f"{count} objects of type {shown(name)} are left aside: they have no id or no text{has}"
         for name in self._unused:
             yield f"the attribute {name!r} is left aside: there is none of that name here"
 
@@ -122,6 +130,7 @@ class ObjectReader:
         element_id = by_name.get("id", "").strip()
         if not is_ours and not (element_id and by_name.get("text", "").strip()):
             self._nameless[type_name] += 1
+            self._attributes.setdefault(type_name, {}).update(dict.fromkeys(values))
             return None
         is_measure = is_ours and kind.identifier == type_identifier(MEASURE)
         part = None if is_measure else self._parts.get(type_name.lower()) or self._known.get(element_id) or self._part

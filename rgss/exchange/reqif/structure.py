@@ -95,6 +95,8 @@ class _Reader:
         around = self._open[-1][0] if self._open else ""
         if around in _CHILDREN and name not in _CHILDREN[around]:
             self._report(line, f"an element {shown(name)} stands in {around}, where it does not belong")
+        if name == "EMBEDDED-VALUE" and "KEY" not in attributes:
+            self._report(line, "an element EMBEDDED-VALUE has no KEY")
         if name in _SIMPLE_VALUES and "THE-VALUE" not in attributes:
             self._report(line, f"an element {name} has no THE-VALUE")
         for *_, names in self._open[-3:]:

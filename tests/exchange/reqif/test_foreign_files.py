@@ -76,6 +76,7 @@ BREAKS = (
     ('<SPEC-OBJECT IDENTIFIER="[^"]*"', "<SPEC-OBJECT"),
     ('<ENUM-VALUE IDENTIFIER="[^"]*"', "<ENUM-VALUE"),
     ("<SPEC-OBJECT-REF>[^<]*</SPEC-OBJECT-REF>", "<SPEC-OBJECT-REF>_none</SPEC-OBJECT-REF>"),
+    ('<EMBEDDED-VALUE KEY="0"', "<EMBEDDED-VALUE"),
     ("<ENUM-VALUE-REF>[^<]*<", "<ENUM-VALUE-REF>_none<"),
     ("<TYPE>\n<DATATYPE-DEFINITION-XHTML-REF>.*?</TYPE>\n", ""),
     ("<SPEC-OBJECT ([^>]*)>(.*?)</SPEC-OBJECT>", r"<OTHER \1>\2</OTHER>"),

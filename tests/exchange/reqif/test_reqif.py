@@ -151,8 +151,11 @@ def test_a_file_of_strictdoc_is_imported(project, refused):
     wishes = {"part": Part.SYSTEM, "defaults": DEFAULTS}
     foreign = read_reqif(STRICTDOC, part=Part.SYSTEM)
     assert foreign.notes == (
-        "1 objects of type 'SECTION' are left aside: they have no id or no text",
-        "1 objects of type 'TEXT' are left aside: they have no id or no text",
+        (
+            "1 objects of type 'SECTION' are left aside: "
+            "they have no id or no text among their attributes 'ReqIF.ChapterName'"
+        ),
+        "1 objects of type 'TEXT' are left aside: they have no id or no text among their attributes 'ReqIF.Text'",
         "the attribute 'ReqIF.Name' is left aside: there is none of that name here",
     )
     assert {change.kind for change in project.compare(foreign, **wishes)} == {ChangeKind.ADDED}
