@@ -7,7 +7,9 @@ requirements into the file, and the run the digests of what was tested; `rgss tr
 
 from __future__ import annotations
 
+import os
 import signal
+import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -17,6 +19,8 @@ import pytest
 from _pytest.junitxml import xml_key
 from hypothesis import settings
 
+from rgss.trials.numeric_environment import is_in_force, numeric_environment
+
 from . import story as story_module
 
 PROJECT = Path(__file__).parents[1]
@@ -25,8 +29,21 @@ settings.register_profile("repeatable", derandomize=True, database=None, deadlin
 settings.load_profile("repeatable")
 
 
-def pytest_configure() -> None:
-    """Let the processes that tests start be interrupted, in the background of a shell that has it ignored too."""
+def pytest_configure(config: pytest.Config) -> None:
+    """Let the tests compute as trials do, and let the processes that they start be interrupted.
+
+    Kernels of the mathematics are chosen when a process starts, so that this one begins again where it has others.
+    The processes of pytest-xdist inherit what this one is started with. In the background of a shell an interrupt
+    is ignored by what is started there.
+    """
+    if not is_in_force():
+        capture = config.pluginmanager.getplugin("capturemanager")
+        if capture is not None:
+            capture.stop_global_capturing()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        words = [sys.executable, *sys.orig_argv[1:]]
+        os.execve(sys.executable, words, numeric_environment(os.environ))  # noqa: S606 - this very program
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 from multiprocessing import connection, parent_process
 from typing import Any
 
-_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+from rgss.trials.numeric_environment import ONE_THREAD, problem_here
+
 _STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
 _OBJECTS_BETWEEN_COLLECTIONS = 50_000
 _MIB = 1024 * 1024
@@ -57,8 +58,8 @@ class Answer:
 def settle() -> None:
     """Make this process one that makes pieces and nothing else; to be called before an engine or NumPy is loaded."""
     # The processes share the cores between them; threads within one would only get in their way.
-    for name in _ONE_THREAD:
-        os.environ.setdefault(name, "1")
+    for name, threads in ONE_THREAD.items():
+        os.environ.setdefault(name, threads)
     _keep_freed_memory()
     # Most of the process's objects are those of the engines and stay; they need not be looked through so often.
     gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
@@ -77,6 +78,10 @@ def serve(function: bytes, asked: connection.Connection, memory_limit_bytes: int
     _redirect_output(output)
     _limit_memory(memory_limit_bytes)
     _end_with_parent()
+    problem = problem_here()
+    if problem:
+        asked.send(Ready(error=f"it would compute with other kernels: {problem}"))
+        return
     # From here on engines may be loaded. What is read here was written by the process that started this one.
     try:
         make = pickle.loads(function)  # noqa: S301

@@ -28,6 +28,7 @@ from typing import Any, Protocol
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.studies.worker_process import Answer, Ready, serve
+from rgss.trials.numeric_environment import numeric_environment_of_children
 
 _ENDING_S = 5.0
 _STARTING_S = 120.0
@@ -203,7 +204,7 @@ class WorkerPool:
         process = self._context.Process(
             target=serve, args=(self._function, there, self._memory_limit_bytes, str(output)), daemon=True
         )
-        with _interrupts_held_back():
+        with _interrupts_held_back(), numeric_environment_of_children():
             process.start()
             there.close()
             begun = time.monotonic()

@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass, field
 
 from rgss.errors import DefinitionError
+from rgss.evidence import Fidelity
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Cylinder, Gripper, Scene
+from rgss.trials.trial_spec import TrialSpec
 
 SAFETY_FACTOR = 1.5
 """Of a gripper's payload by friction (thesis, eq. 4.8)."""
@@ -155,6 +157,24 @@ class BenchSpec:
                 f"gripper {geometry.id!r}, which is {palm_m:g} m above",
                 hint="take a lower object or a deeper grasp",
             )
+
+
+def bench_of(spec: TrialSpec) -> BenchSpec | None:
+    """The payload bench of a trial's gripper; None where only contact physics would know.
+
+    Args:
+        spec: The trial.
+    """
+    if spec.fidelity is not Fidelity.CONTACT:
+        return None
+    robot = spec.scene.robot
+    return bench_spec(
+        spec.scene,
+        spec.gripper,
+        acceleration_m_s2=robot.tool_acceleration_m_s2,
+        rated_kg=robot.payload_kg,
+        physics=spec.settings.physics,
+    )
 
 
 def bench_spec(
