@@ -7,7 +7,9 @@ requirements into the file, and the run the digests of what was tested; `rgss tr
 
 from __future__ import annotations
 
+import os
 import signal
+import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -16,6 +18,8 @@ import pytest
 # The fixture `record_testsuite_property` reaches no file where tests run in several processes.
 from _pytest.junitxml import xml_key
 from hypothesis import settings
+
+from rgss.trials.numeric_environment import is_in_force, numeric_environment
 
 from . import story as story_module
 from .processor_time import ProcessorTimes, name_of, slow_tests
@@ -32,7 +36,20 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Let the processes that tests start be interrupted, in the background of a shell that has it ignored too."""
+    """Let the tests compute as trials do, and let the processes that they start be interrupted.
+
+    Kernels of the mathematics are chosen when a process starts, so that this one begins again where it has others.
+    The processes of pytest-xdist inherit what this one is started with. In the background of a shell an interrupt
+    is ignored by what is started there.
+    """
+    if not is_in_force():
+        capture = config.pluginmanager.getplugin("capturemanager")
+        if capture is not None:
+            capture.stop_global_capturing()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        words = [sys.executable, *sys.orig_argv[1:]]
+        os.execve(sys.executable, words, numeric_environment(os.environ))  # noqa: S606 - this very program
     if config.getoption("--measure-slow"):
         config.pluginmanager.register(ProcessorTimes())
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

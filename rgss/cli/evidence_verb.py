@@ -154,12 +154,14 @@ def _summarise(options: argparse.Namespace, store: _Store) -> int:
 
 
 def _verify(options: argparse.Namespace, store: _Store) -> int:
+    from rgss.cli.evidence_numerics import computed_with, numerics_line
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.evidence.verification import verify
 
     found = verify(store.path, label=store.label)
     mended = _mend(found, store) if options.mend and found.damages else ""
+    computed = [] if found.damages else computed_with(store.path, store.label)
     if options.json:
         print_json(
             {
@@ -169,6 +171,7 @@ def _verify(options: argparse.Namespace, store: _Store) -> int:
                 "orphaned_inputs": found.orphaned_inputs,
                 "damages": [{"what": one.what, "key": one.key, "problem": one.problem} for one in found.damages],
                 "mended": mended,
+                "numerics": computed,
             }
         )
         return FINDINGS if found.damages else CLEAN
@@ -180,6 +183,9 @@ def _verify(options: argparse.Namespace, store: _Store) -> int:
         print(mended or _how_to_mend(found))
         return FINDINGS
     print(f"Sound: {sound}.")
+    for one in computed:
+        if one["numerics"]:
+            print(numerics_line(one))
     idle = {"pieces": found.orphaned_pieces, "inputs": found.orphaned_inputs}
     if any(idle.values()):
         which = " and ".join(f"{count} of the {name}" for name, count in idle.items() if count)

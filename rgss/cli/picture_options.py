@@ -104,13 +104,14 @@ def traced_trial(spec: TrialSpec) -> tuple[TrialRecord, TrialTrace | None]:
         SimulationError: The physics engine cannot build the world.
     """
     from rgss.evidence import Fidelity
+    from rgss.studies.engine_process import compute
     from rgss.trials.tracing import run_traced_trial
 
     if spec.fidelity is not Fidelity.CONTACT:
         raise DefinitionError(
             f"there are no pictures of a trial of {spec.fidelity.value} fidelity", hint="add --fidelity contact"
         )
-    return run_traced_trial(spec)
+    return compute(run_traced_trial, spec)
 
 
 def made_pictures(

@@ -1,4 +1,4 @@
-"""``rgss replay``: a stored trial once more, compared bit for bit."""
+"""``rgss replay``: a stored trial once more, compared bit for bit, or within a tolerance on other kernels."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from rgss.cli.options import add_fidelity, chosen_project
 HELP = "run a stored trial again and compare it bit for bit"
 EXAMPLE = "rgss replay 2/1"
 MORE_EXAMPLES = (("rgss replay 2/1 --json", "the differences, if any, as JSON"),)
+WITHIN_TOLERANCE = 4
+"""The exit status where the trial was computed with other numerics, and deviates within the tolerance."""
+
 _SHOWN = 12
 
 
@@ -21,11 +24,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run it again; 1 if a bit differs."""
+    """Run it again; 1 if a bit differs, or 4 if that is within what other numerics explain."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.cli.sweep_verb import shown_path
     from rgss.evidence import EvidenceStore, record_digest
+    from rgss.studies.agreement import Agreement, deviation
     from rgss.studies.replaying import find_trial, replay
 
     project = chosen_project(options)
@@ -41,17 +45,21 @@ def run(options: argparse.Namespace) -> int:
                 "variant": stored.record.variant,
                 "seed": stored.record.seed,
                 "same": result.same,
+                "agreement": result.agreement.value,
+                "numerics_then": dict(stored.provenance.numerics),
+                "numerics_now": dict(result.numerics),
                 "digest_then": stored.content_digest,
                 "digest_now": record_digest(result.record),
                 "versions": [_as_json(change) for change in result.versions],
                 "changed_inputs": list(result.inputs),
                 "inputs": [_as_json(change) for change in result.changes],
-                "differences": [_as_json(change) for change in result.differences],
+                "differences": [{**_as_json(change), "deviation": deviation(change)} for change in result.differences],
             }
         )
     else:
         _show(result)
-    return CLEAN if result.same else FINDINGS
+    statuses = {Agreement.BIT_FOR_BIT: CLEAN, Agreement.WITHIN_TOLERANCE: WITHIN_TOLERANCE}
+    return statuses.get(result.agreement, FINDINGS)
 
 
 def _as_json(change: Any) -> dict[str, str]:
@@ -59,7 +67,9 @@ def _as_json(change: Any) -> dict[str, str]:
 
 
 def _show(result: Any) -> None:
-    from rgss.cli.output import print_table
+    from rgss.cli.output import number, print_table
+    from rgss.evidence.numerics import numerics_difference
+    from rgss.studies.agreement import Agreement, beyond_tolerance, deviation
 
     record = result.stored.record
     print(f"Trial {result.stored.key[:12]}: variant {record.variant}, seed {record.seed}, {record.fidelity.value}")
@@ -72,8 +82,21 @@ def _show(result: Any) -> None:
     if result.same:
         print(f"The same, bit for bit: {result.stored.content_digest}")
         return
-    print(f"{len(result.differences)} values differ:")
-    rows = [[change.name, change.then, change.now] for change in result.differences[:_SHOWN]]
-    print_table(["value", "then", "now"], rows)
+    difference = numerics_difference(result.stored.provenance.numerics, result.numerics)
+    if difference:
+        print(f"Computed with other numerics: {difference.replace(' there', ' then').replace(' here', ' now')}")
+    if result.agreement is Agreement.WITHIN_TOLERANCE:
+        print(
+            "The same within the tolerance of other numerics, not bit for bit: "
+            f"{len(result.differences)} values differ:"
+        )
+    else:
+        beyond = len(beyond_tolerance(result.differences))
+        print(f"{len(result.differences)} values differ{f', {beyond} beyond the tolerance' if difference else ''}:")
+    shown = result.differences[:_SHOWN]
+    rows = [[change.name, change.then, change.now] for change in shown]
+    if difference:
+        rows = [[*row, number(deviation(change), 3)] for row, change in zip(rows, shown, strict=True)]
+    print_table(["value", "then", "now", *(["deviation"] if difference else [])], rows, right=(3,))
     if len(result.differences) > _SHOWN:
         print(f"… and {len(result.differences) - _SHOWN} more (--json shows them)")

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rgss.evidence.trial_trace import TrialTrace
     from rgss.reports.report_page import TrialPictures
+    from rgss.studies.engine_process import compute
     from rgss.studies.project import Project
     from rgss.studies.report_trials import NotableTrial
     from rgss.trials.spec import TrialSpec
@@ -107,7 +108,7 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
     from rgss.trace.verdict_evidence import KEY_DIGITS
     from rgss.trials.tracing import run_traced_trial
 
-    record, trace = run_traced_trial(spec)
+    record, trace = compute(run_traced_trial, spec)
     same = record_digest(record) == record_digest(one.record)
     strip, film = (b"", b"") if trace is None else _drawn(spec, one, trace, look)
     label = project.study.label

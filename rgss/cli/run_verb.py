@@ -31,6 +31,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.output import print_json
     from rgss.errors import DefinitionError
     from rgss.evidence import record_digest
+    from rgss.studies.engine_process import compute
     from rgss.studies.expansion import trial_specs
     from rgss.trials.run import run_trial
 
@@ -41,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
         raise DefinitionError(f"seed {seed} is out of range", hint="give a seed from 0 to 2147483647")
     variant = project.designs.variant(options.variant)
     (spec,) = trial_specs(project, variants=[variant], seeds=[seed])
-    record, trace = (run_trial(spec), None) if order is None else traced_trial(spec)
+    record, trace = (compute(run_trial, spec), None) if order is None else traced_trial(spec)
     digest = record_digest(record)
     if options.json:
         print_json(_as_json(record, digest))

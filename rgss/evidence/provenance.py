@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from types import MappingProxyType
 
 from rgss.documents.digests import canonical_json
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence.codec import plain_json, read_plain
+from rgss.evidence.numerics import Numerics
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,6 +27,7 @@ class Provenance:
         files: SHA-256 of each input file by its name in the project.
         revision: Revision of the code in its version control; empty if it is not known.
         machine: What it ran on: system, processor, Python; empty if it is not known.
+        numerics: What the mathematics of the process computed, part by part; empty if that was not recorded.
     """
 
     inputs: Mapping[str, str]
@@ -33,10 +36,16 @@ class Provenance:
     files: Mapping[str, str] = field(default_factory=dict)
     revision: str = ""
     machine: str = ""
+    numerics: Numerics = field(default_factory=dict)
 
 
 _FIRST_FIELDS = {"inputs", "versions"}
 """What a provenance of schema 1 says."""
+
+_LATER_FIELDS: Mapping[str, object] = MappingProxyType(
+    {"inputs_digest": "", "files": {}, "revision": "", "machine": "", "numerics": {}}
+)
+"""What later ones say besides, in the order in which it came, with what it is taken for where it is missing."""
 
 
 def provenance_to_json(provenance: Provenance) -> str:
@@ -54,12 +63,13 @@ def provenance_to_json(provenance: Provenance) -> str:
 
 
 def provenance_from_json(text: str) -> Provenance:
-    """Read a provenance that `provenance_to_json` wrote, or that of schema 1 did.
+    """Read a provenance that `provenance_to_json` wrote, or an earlier rgss did.
 
     Raises:
         EvidenceError: The text is no such provenance.
     """
     data = plain_json(text, "provenance")
-    if isinstance(data, dict) and data.keys() == _FIRST_FIELDS:
-        data |= {"inputs_digest": "", "files": {}, "revision": "", "machine": ""}
+    known_sets = (_FIRST_FIELDS, {*_FIRST_FIELDS, *_LATER_FIELDS} - {"numerics"})
+    if isinstance(data, dict) and data.keys() in known_sets:
+        data = {**_LATER_FIELDS, **data}
     return read_plain(data, Provenance, "provenance")

@@ -11,6 +11,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence.connection import Database, Row, connect, in_our_words, is_writable
 from rgss.evidence.creation import create_store, require_content
 from rgss.evidence.ledger import require_ledger
+from rgss.evidence.numerics import require_alike
 from rgss.evidence.outcomes import Fidelity
 from rgss.evidence.pieces import Piece, piece_row
 from rgss.evidence.provenance import Provenance
@@ -19,7 +20,7 @@ from rgss.evidence.run_failures import RunFailure, failure_row
 from rgss.evidence.schema import prepare, require_present, require_sound_pages
 from rgss.evidence.tables import FAILURES, INPUTS, PIECES, TRIALS, Table, brief
 from rgss.evidence.trial_inputs import inputs_row
-from rgss.evidence.trial_rows import StoredTrial, require_key, trial_row
+from rgss.evidence.trial_rows import StoredTrial, read_trial, require_key, trial_row
 from rgss.evidence.writing import EvidenceWriter, RowChanges
 
 Value = TypeVar("Value")
@@ -301,6 +302,9 @@ class EvidenceStore:
             return True
         there = self.database.one(table.by_key, [row[0]])
         if there is not None and there[table.content or 0] != row[table.content or 0]:
+            if table is TRIALS:
+                made, makes = read_trial(there).provenance, read_trial(row).provenance
+                require_alike(f"{what} in the store", made.numerics, makes.numerics)
             kept, other = brief(there[table.content or 0]), brief(row[table.content or 0])
             hint = f"the same inputs must give the same content; {kept} is kept, {other} is not"
             raise EvidenceError(f"non-determinism: {what} has another result than before", hint=hint)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -29,7 +30,7 @@ class Contacts(NamedTuple):
     @property
     def finger_force_sum_n(self) -> float:
         """Sum of the fingers' normal forces."""
-        return sum(self.finger_forces_n)
+        return math.fsum(self.finger_forces_n)
 
     @property
     def friction_n(self) -> tuple[float, float, float]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from pathlib import Path
+from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from rgss.documents import Document
+from rgss.documents.project_files import FilePlace, place_of
 from rgss.findings import Finding, shown
 
 Location = tuple["str | int", ...]
@@ -35,19 +36,29 @@ def negative(document: Document, values: Iterable[tuple[Location, float]]) -> It
             yield document.finding("scene.negative", f"{_name(location)} must not be less than zero", location)
 
 
-def missing_file(document: Document, name: str, location: Location) -> Finding:
-    """The finding that a file, named in another, is not there."""
-    return document.finding(
-        "scene.missing-file", f"there is no file {shown(name)}", location, hint="file names are relative to this file"
-    )
+def named_file_findings(
+    document: Document, name: str, location: Location, *, folder: Path, project: Path
+) -> Iterable[Finding]:
+    """Findings for a file, named in another, that cannot be taken: not there, or not of the project.
 
-
-def is_file(path: Path) -> bool:
-    """Tell whether a file is there; a name that no file can have is not there."""
-    try:
-        return path.is_file()
-    except OSError:  # a name that is too long, a folder that may not be searched
-        return False
+    Args:
+        document: Where it is named.
+        name: Its name as it is written.
+        location: Where the name stands.
+        folder: The folder of the naming file, relative to which names are.
+        project: The folder that no name may lead out of, by itself or through a symbolic link.
+    """
+    hint = "file names are relative to this file"
+    if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or "\\" in name:
+        message = f"{shown(name)} is no relative path"
+        yield document.finding("scene.outside", message, location, hint=f"copy the file into the project; {hint}")
+        return
+    place = place_of(folder / name, project)
+    if place is FilePlace.OUTSIDE:
+        message = f"{shown(name)} leads out of the project"
+        yield document.finding("scene.outside", message, location, hint="copy the file into the project and name it")
+    elif place is FilePlace.MISSING:
+        yield document.finding("scene.missing-file", f"there is no file {shown(name)}", location, hint=hint)
 
 
 def _name(location: Location) -> str:

@@ -29,18 +29,32 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RobotFile:
+    """A file that the robot's URDF names, such as a mesh.
+
+    Attributes:
+        name: Its name as the URDF has it.
+        sha256: SHA-256 of its content.
+    """
+
+    name: str
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Robot:
     """A six-joint arm.
 
     Attributes:
         id: Its name.
-        urdf: Text of its URDF, from the base to the flange, primitive collision shapes only.
+        urdf: Text of its URDF, from the base to the flange, as engines are given it: primitive shapes only.
         flange: Name of the link that carries the gripper; z points out of the flange.
         joints: The joints from base to flange.
         base: Transform of the arm's base frame to the world.
         payload_kg: Rated payload.
         tool_acceleration_m_s2: Greatest acceleration of the tool centre.
         home_rad: A configuration near which inverse-kinematics branches are preferred.
+        files: The meshes and textures that the URDF names, by their content.
     """
 
     id: str
@@ -51,3 +65,4 @@ class Robot:
     payload_kg: float
     tool_acceleration_m_s2: float
     home_rad: tuple[float, ...]
+    files: tuple[RobotFile, ...] = ()

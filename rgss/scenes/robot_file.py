@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -9,19 +10,20 @@ from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import RobotDocument
-from rgss.scenes.findings import is_file, missing_file, not_positive
+from rgss.scenes.findings import named_file_findings, not_positive
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Joint, Robot
-from rgss.scenes.urdf_file import read_urdf
+from rgss.scenes.urdf_file import ReadUrdf, read_urdf
 
 
-def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
+def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Path | None = None) -> Robot:
     """Read a robot file and the URDF that it names.
 
     Args:
         path: The robot file.
         base: Transform of the arm's base frame to the world.
         label: The file's name in messages.
+        project: The folder that no named file may lie outside of; that of the robot file by default.
 
     Raises:
         DocumentError: The file or its URDF is wrong; with every problem in it.
@@ -51,18 +53,16 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
     findings.extend(
         not_positive(document, [(("payload",), entry.payload), (("tool_acceleration",), entry.tool_acceleration)])
     )
-    urdf_path = path.parent / entry.description
-    urdf = ""
-    if is_file(urdf_path):
-        urdf, problems = read_urdf(urdf_path, document, entry)
-        findings.extend(problems)
-    else:
-        findings.append(missing_file(document, entry.description, ("description",)))
+    findings.extend(_home_findings(entry, document))
+    top = path.parent if project is None else project
+    problems = list(named_file_findings(document, entry.description, ("description",), folder=path.parent, project=top))
+    urdf = ReadUrdf() if problems else read_urdf(path.parent / entry.description, document, entry, project=top)
+    findings.extend((*problems, *urdf.findings))
     if findings:
         raise DocumentError(sorted(findings))
     return Robot(
         id=entry.robot,
-        urdf=urdf,
+        urdf=urdf.text,
         flange=entry.flange,
         joints=tuple(
             Joint(
@@ -79,7 +79,27 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None) -> Robot:
         payload_kg=entry.payload,
         tool_acceleration_m_s2=entry.tool_acceleration,
         home_rad=entry.home,
+        files=urdf.files,
     )
+
+
+def _home_findings(entry: RobotDocument, document: Document) -> Iterable[Finding]:
+    """A finding for each joint whose home position is outside its range."""
+    for index, (joint, home) in enumerate(zip(entry.joints, entry.home, strict=True)):
+        lower, upper = joint.range
+        if lower >= upper or lower <= home <= upper:
+            continue
+        side, limit = ("below its lower", lower) if home < lower else ("above its upper", upper)
+        yield document.finding(
+            "scene.home",
+            f"home of joint {joint.name!r} is {_degrees(home)}, {side} limit of {_degrees(limit)}",
+            ("home", index),
+            hint=f"give a position from {_degrees(lower)} to {_degrees(upper)}",
+        )
+
+
+def _degrees(angle_rad: float) -> str:
+    return f"{math.degrees(angle_rad):.6g} deg"
 
 
 def _repeated_joints(entry: RobotDocument, document: Document) -> Iterable[Finding]:

@@ -9,7 +9,7 @@ from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import BodyEntry, SceneDocument
-from rgss.scenes.findings import Location, is_file, missing_file, negative, not_positive
+from rgss.scenes.findings import Location, named_file_findings, negative, not_positive
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
 from rgss.scenes.robot_file import load_robot
@@ -17,12 +17,13 @@ from rgss.scenes.scene import ColourRgba, PlaceRegion, Scene, SceneBody, Task, W
 from rgss.scenes.shapes import Box, Cylinder, Shape
 
 
-def load_scene(path: Path, *, label: str | None = None) -> Scene:
+def load_scene(path: Path, *, label: str | None = None, project: Path | None = None) -> Scene:
     """Read a scene with its robot.
 
     Args:
         path: The scene file; the robot file that it names is read relative to it.
         label: The file's name in messages; the path by default.
+        project: The folder that no named file may lie outside of; that of the scene by default.
 
     Raises:
         DocumentError: A file is wrong; with every problem in it and in the files that it names.
@@ -36,7 +37,7 @@ def load_scene(path: Path, *, label: str | None = None) -> Scene:
         *not_positive(document, _positive_values(entry)),
         *negative(document, _values_from_zero(entry)),
     ]
-    robot = _robot(path, entry, document, findings)
+    robot = _robot(path, entry, document, findings, path.parent if project is None else project)
     if findings or robot is None:
         raise DocumentError(sorted(findings))
     tops = {body.id: _top(body) for body in entry.bodies}
@@ -79,17 +80,21 @@ def load_scene(path: Path, *, label: str | None = None) -> Scene:
     )
 
 
-def _robot(path: Path, entry: SceneDocument, document: Document, findings: list[Finding]) -> Robot | None:
+def _robot(
+    path: Path, entry: SceneDocument, document: Document, findings: list[Finding], project: Path
+) -> Robot | None:
     """The robot that a scene names, or None with what is wrong added to the findings."""
     placement = entry.robot
-    robot_path = path.parent / placement.description
-    if not is_file(robot_path):
-        findings.append(missing_file(document, placement.description, ("robot", "description")))
+    location = ("robot", "description")
+    problems = list(named_file_findings(document, placement.description, location, folder=path.parent, project=project))
+    if problems:
+        findings.extend(problems)
         return None
+    robot_path = path.parent / placement.description
     base = Pose.from_roll_pitch_yaw(placement.base, (0.0, 0.0, placement.yaw))
     label = (Path(document.label).parent / placement.description).as_posix()
     try:
-        return load_robot(robot_path, base=base, label=label)
+        return load_robot(robot_path, base=base, label=label, project=project)
     except DocumentError as error:
         findings.extend(error.findings)
         return None

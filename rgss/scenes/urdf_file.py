@@ -6,12 +6,15 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from rgss.documents import Document
 from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
+from rgss.scenes.robot import RobotFile
+from rgss.scenes.urdf_meshes import files_of, without_meshes
 
 _LARGEST_BYTES = 1024 * 1024
 _DEEPEST_NESTING = 40
@@ -34,27 +37,43 @@ _COMPLETE = frozenset({"mass", "inertia", "box", "cylinder", "sphere"})
 _POSITIVE = frozenset({"mass", "box", "cylinder", "sphere"})
 
 
-def read_urdf(path: Path, document: Document, entry: RobotDocument) -> tuple[str, tuple[Finding, ...]]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReadUrdf:
+    """A URDF that was read and checked.
+
+    Attributes:
+        text: Its text as engines are given it; of use only when there are no findings.
+        files: The meshes and textures that it names.
+        findings: Every problem found.
+    """
+
+    text: str = ""
+    files: tuple[RobotFile, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: Path) -> ReadUrdf:
     """Read a URDF and compare it with the robot file that names it.
 
     Args:
         path: The URDF; it is there.
         document: The robot file, for positions.
         entry: The robot file's content.
-
-    Returns:
-        Its text, and every problem found; the text is of use only when there is none.
+        project: The folder that no file may lie outside of.
     """
     try:
         text = _read_text(path)
         root = _parsed(text)
     except _UrdfError as error:
         message = f"{shown(entry.description)} {error.problem}"
-        return "", (document.finding("scene.urdf", message, ("description",), hint=error.hint),)
-    return text, tuple(
+        return ReadUrdf(findings=(document.finding("scene.urdf", message, ("description",), hint=error.hint),))
+    label = (Path(document.label).parent / entry.description).as_posix()
+    files, file_findings = files_of(text, path, project=project, label=label)
+    findings = [
         document.finding("scene.urdf", f"{shown(entry.description)} {problem}", location, hint=hint)
         for problem, location, hint in _problems(root, entry)
-    )
+    ]
+    return ReadUrdf(text=without_meshes(text), files=files, findings=(*findings, *file_findings))
 
 
 class _UrdfError(Exception):

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError, SimulationError
 from rgss.evidence import EvidenceStore
+from rgss.studies.engine_process import compute
+from rgss.studies.inline_workers import InlineWorkers
 from rgss.studies.keeping import origin_of
 from rgss.studies.project import Project
 from rgss.studies.staged_sweep import sweep_in_stages
-from rgss.studies.sweep import FinishedTrial, LostTrials, sweep
+from rgss.studies.sweep import FinishedTrial, LostTrials, Maker, sweep
+from rgss.studies.workers import Workers
 from rgss.trials.spec import TrialSpec
 
 
@@ -27,8 +31,8 @@ def sweep_study(
     Args:
         project: The project with its study.
         variants: The variants.
-        jobs: Number of worker processes; with 0 everything is done in this process; one for each
-            core by default.
+        jobs: Number of worker processes; with 0 trials are run one by one, and a script needs no guard
+            against being imported by workers; one for each core by default.
         on_trial: Called with the number of trials that are there and of all, for each trial.
 
     Raises:
@@ -42,6 +46,11 @@ def sweep_study(
     with EvidenceStore.open(project.evidence) as store:
         sweep_in_stages(project, variants, store, lambda specs: runner.run(specs, store))
     runner.require_all()
+
+
+def _one_by_one(maker: Maker) -> Workers:
+    """One task at a time, without a process that would import the caller's script."""
+    return InlineWorkers(partial(compute, maker))
 
 
 class _Runner:
@@ -68,7 +77,12 @@ class _Runner:
 
         try:
             result = sweep(
-                specs, store, jobs=self._jobs, on_finished=on_finished, origin=lambda: origin_of(self._project.folder)
+                specs,
+                store,
+                jobs=self._jobs,
+                on_finished=on_finished,
+                origin=lambda: origin_of(self._project.folder),
+                workers_for=None if self._jobs else _one_by_one,
             )
         except SimulationError as error:
             # A worker imports the script that started it, and would sweep in its turn.

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity, Metric, TrialRecord, record_digest
 from rgss.evidence.trial_trace import TrialTrace
+from rgss.studies.engine_process import compute
 from rgss.studies.expansion import trial_specs
 from rgss.studies.frame_columns import FRAMES
 from rgss.studies.frames import frame_of, phases_frame
@@ -184,7 +185,7 @@ def run_one(
         settings = spec.settings
         spec = replace(spec, settings=replace(settings, physics=replace(settings.physics, rate_hz=rate_hz)))
     seen = spec.fidelity is Fidelity.CONTACT
-    record, trace = run_traced_trial(spec) if seen else (run_trial(spec), None)
+    record, trace = compute(run_traced_trial, spec) if seen else (compute(run_trial, spec), None)
     return Trial(record=record, _spec=spec, _trace=trace, _drawing=drawing)
 
 
@@ -200,14 +201,15 @@ def payload_of(
         gripper = replace(gripper, friction=float(friction))
     if finger_force_n is not None:
         gripper = replace(gripper, finger_force_n=float(finger_force_n))
-    return run_bench(
+    return compute(
+        run_bench,
         bench_spec(
             spec.scene,
             gripper,
             acceleration_m_s2=robot.tool_acceleration_m_s2,
             rated_kg=robot.payload_kg,
             physics=spec.settings.physics,
-        )
+        ),
     )
 
 

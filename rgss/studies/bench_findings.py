@@ -20,7 +20,7 @@ def bench_findings(project: Project) -> Iterator[Finding]:
     if project.study.fidelity is not Fidelity.CONTACT:
         return
     from rgss.trials.bench_range import outside
-    from rgss.trials.spec import payload_bench
+    from rgss.trials.trial_bench import payload_bench
 
     strange: dict[str, list[int]] = {}
     known: dict[object, tuple[str, ...]] = {}

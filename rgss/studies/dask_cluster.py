@@ -14,7 +14,7 @@ from typing import Any
 from rgss.errors import DefinitionError, SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.evidence.origin import machine
-from rgss.studies.dask_tasks import Differs, Order, environment, inspect
+from rgss.studies.dask_tasks import Differs, Order, are_alike, environment, inspect
 from rgss.studies.dask_workers import WITHOUT_WORKERS_S, DaskWorkers, stop_all
 from rgss.studies.workers import Ended
 
@@ -127,7 +127,7 @@ def difference(differs: Differs, here: Mapping[str, str]) -> str:
     who = f"the Dask worker {differs.where}"
     if differs.why:
         return f"{who} cannot run trials: {differs.why}"
-    names = [name for name in here if differs.found.get(name) != here[name]]
+    names = [name for name in here if not are_alike({name: differs.found.get(name, "")}, {name: here[name]})]
     code = [name.removeprefix(_CODE) for name in names if name.startswith(_CODE)]
     parts = [
         f"{name} {differs.found.get(name, 'nothing')} instead of {here[name]}"

@@ -22,7 +22,11 @@ from functools import lru_cache
 from typing import Any
 
 from rgss.evidence import RunFailureKind
+from rgss.evidence.numerics import results_of
 from rgss.studies.workers import Ended, Trouble, WorkerPool
+
+NUMERICS = "numerics of "
+"""What the names of an environment begin with that tell what the mathematics computes."""
 
 EXTENSION = "rgss"
 """The name by which a Dask worker knows its engine processes."""
@@ -67,12 +71,28 @@ def environment() -> dict[str, str]:
     """What this process runs, as far as results or the way here and back depend on it.
 
     Beside the engines and the code these are Python (its `sum` of floats is another one from 3.12 on),
-    the kind of processor, and Dask. It is looked up once: a process keeps what it has loaded.
+    the kind of processor, what the mathematics computes, and Dask. It is looked up once: a process keeps what it
+    has loaded. Where this process makes no trials itself, the mathematics is that of the processes which do.
 
     Raises:
         PackageNotFoundError: An engine is not installed.
+        SimulationError: No process can be started to look at its mathematics.
     """
     return dict(_environment())
+
+
+def are_alike(found: Mapping[str, str], expected: Mapping[str, str]) -> bool:
+    """Tell whether two environments make the same results; what computes the same may go by another name.
+
+    Args:
+        found: The one environment, as `environment` gives it.
+        expected: The other.
+    """
+    return _compared(found) == _compared(expected)
+
+
+def _compared(environment: Mapping[str, str]) -> dict[str, str]:
+    return {**environment, **results_of({k: v for k, v in environment.items() if k.startswith(NUMERICS)})}
 
 
 def carry_out(order: Order, key: str, work: bytes) -> Ended:
@@ -135,7 +155,7 @@ def make_alike(expected: Mapping[str, str], work: bytes) -> Any:
         found = environment()
     except ImportError as error:
         return Differs(found={}, why=" ".join(str(error).split()))
-    if found != dict(expected):
+    if not are_alike(found, expected):
         return Differs(found=found)
     # Who may use a Dask cluster may run anything on it: this adds nothing to what its scheduler allows.
     function, arguments = pickle.loads(work)  # noqa: S301
@@ -273,6 +293,7 @@ class Engines:
 def _environment() -> Mapping[str, str]:
     from importlib.metadata import version
 
+    from rgss.trials.numerics import fixed_numerics
     from rgss.trials.versions import versions
 
     return {
@@ -280,6 +301,7 @@ def _environment() -> Mapping[str, str]:
         "python": ".".join(platform.python_version_tuple()[:2]),
         "processor": platform.machine(),
         "distributed": version("distributed"),
+        **{f"{NUMERICS}{part}": text for part, text in fixed_numerics().items()},
     }
 
 

@@ -8,12 +8,18 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
+from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, Provenance, TrialRecord
+from rgss.evidence.numerics import Numerics, require_alike
+from rgss.evidence.numerics_census import numerics_census
 from rgss.evidence.origin import code_revision, file_digests, machine
 from rgss.studies.named_inputs import named_inputs
 from rgss.studies.project import FOLDERS
 from rgss.studies.work import Trial
 from rgss.trials.versions import versions
+
+NON_DETERMINISM = "non-determinism: "
+"""What the store's message begins with if the same inputs gave another result."""
 
 LONGEST_S = 1.0
 """How long a finished result may wait until it is on disk."""
@@ -50,7 +56,12 @@ class Keeper:
     """Collects pieces and trials and puts them into the store about once a second."""
 
     def __init__(
-        self, store: EvidenceStore, origin: Callable[[], Origin], *, on_kept: Callable[[str, TrialRecord], None]
+        self,
+        store: EvidenceStore,
+        origin: Callable[[], Origin],
+        *,
+        on_kept: Callable[[str, TrialRecord], None],
+        numerics: Callable[[], Numerics] = dict,
     ) -> None:
         """Begin with nothing.
 
@@ -58,10 +69,12 @@ class Keeper:
             store: Where evidence is kept.
             origin: Tells where the trials come from; asked once there is one.
             on_kept: Told the key and the record of each trial once it is on disk.
+            numerics: Tells what the processes compute with that make the pieces; asked once there is a trial.
         """
         self._store = store
         self._origin = lru_cache(maxsize=1)(origin)
         self._on_kept = on_kept
+        self._numerics = lru_cache(maxsize=1)(numerics)
         self._versions = versions()
         self._pieces: list[Piece] = []
         self._trials: list[tuple[str, TrialRecord, Provenance]] = []
@@ -96,6 +109,7 @@ class Keeper:
             files=origin.files,
             revision=origin.revision,
             machine=origin.machine,
+            numerics=self._numerics(),
         )
         self._trials.append((trial.key, record, provenance))
         self._begin()
@@ -121,11 +135,26 @@ class Keeper:
         """
         if self._since is None:
             return
-        self._store.put_many(trials=self._trials, pieces=self._pieces, inputs=self._inputs.values())
+        try:
+            self._store.put_many(trials=self._trials, pieces=self._pieces, inputs=self._inputs.values())
+        except EvidenceError as error:
+            self._explain_by_numerics(error)
+            raise
         self._inputs_there.update(self._inputs)
         kept, self._trials, self._pieces, self._inputs, self._since = self._trials, [], [], {}, None
         for key, record, _ in kept:
             self._on_kept(key, record)
+
+    def _explain_by_numerics(self, error: EvidenceError) -> None:
+        """Say of another result for the same inputs that it comes from other numerics, if such are in the store.
+
+        Another sweep may have written it while this one ran; a piece does not say what it was computed with, but
+        the trials beside it do.
+        """
+        if not error.message.startswith(NON_DETERMINISM):
+            return
+        for there, _ in numerics_census(self._store.database):
+            require_alike(f"{error.message.removeprefix(NON_DETERMINISM)}: what is stored", there, self._numerics())
 
     def _begin(self) -> None:
         if self._since is None:

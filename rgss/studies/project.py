@@ -9,9 +9,10 @@ from typing import TypeVar
 
 from rgss.designs import DesignSpace, load_catalogue, load_design_space
 from rgss.documents import read_document
+from rgss.documents.project_files import FilePlace, place_of
 from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import Fidelity
-from rgss.findings import Finding, Severity
+from rgss.findings import Finding, Severity, shown
 from rgss.measures import MeasureKind as Kind
 from rgss.measures import MeasureSet, load_measures
 from rgss.quantities import same_dimension
@@ -176,7 +177,9 @@ class _Reader:
         named = self._named_files(path, label)
         designs = self._designs(named)
         scene = (
-            self._try(lambda: load_scene(folder / named["scene"], label=named["scene"])) if "scene" in named else None
+            self._try(lambda: load_scene(folder / named["scene"], label=named["scene"], project=folder))
+            if "scene" in named
+            else None
         )
         grippers = self._grippers(designs) if designs is not None else {}
         if designs is not None:
@@ -259,9 +262,15 @@ class _Reader:
     def _grippers(self, designs: DesignSpace) -> dict[str, GripperGeometry]:
         """The shape of every gripper that a variant uses, by the name of its file."""
         shapes: dict[str, GripperGeometry] = {}
-        for component in designs.catalogue.of_role(GRIPPER):
+        catalogue = designs.catalogue
+        for component in catalogue.of_role(GRIPPER):
             name = component.geometry
-            if name and name not in shapes:
+            if name and place_of(self._folder / name, self._folder) is FilePlace.OUTSIDE:
+                place = ("components", list(catalogue.components).index(component), "geometry")
+                message = f"geometry {shown(name)} leads out of the project"
+                hint = "copy the file into the project and name it"
+                self._findings.append(catalogue.document.finding("design.geometry", message, place, hint=hint))
+            elif name and name not in shapes:
                 shape = self._try(lambda name=name: load_gripper(self._folder / name, label=name))  # type: ignore[misc]
                 if shape is not None:
                     shapes[name] = shape

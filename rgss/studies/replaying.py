@@ -8,10 +8,14 @@ from typing import Any
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, StoredTrial, TrialRecord, record_digest
+from rgss.evidence.numerics import Numerics, numerics_difference
+from rgss.studies.agreement import Agreement, beyond_tolerance
 from rgss.studies.changes import ABSENT, Change, changes_between
+from rgss.studies.engine_process import compute
 from rgss.studies.expansion import trial_specs
 from rgss.studies.named_inputs import CODE, named_inputs
 from rgss.studies.project import Project
+from rgss.trials.numerics import fixed_numerics
 from rgss.trials.plain import plain
 from rgss.trials.run import run_trial
 from rgss.trials.spec import TrialSpec, digests_of
@@ -33,6 +37,7 @@ class Replay:
         inputs: Pieces whose inputs differ beyond the versions, such as ``plan``.
         changes: The inputs that differ, by name, as far as the store says what they were.
         differences: Where the records differ, in their order; empty if every bit is the same.
+        numerics: What the mathematics of the process that ran it now computes.
     """
 
     stored: StoredTrial
@@ -41,6 +46,21 @@ class Replay:
     inputs: tuple[str, ...]
     changes: tuple[Change, ...]
     differences: tuple[Change, ...]
+    numerics: Numerics
+
+    @property
+    def agreement(self) -> Agreement:
+        """How far the new record agrees with the stored one.
+
+        Numbers may deviate only where the stored trial was computed with other numerics, and by no more than
+        kernels of another processor have been seen to let contact deviate.
+        """
+        if self.same:
+            return Agreement.BIT_FOR_BIT
+        elsewhere = bool(numerics_difference(self.stored.provenance.numerics, self.numerics))
+        unchanged = not (self.versions or self.inputs or self.changes)
+        close = elsewhere and unchanged and not beyond_tolerance(self.differences)
+        return Agreement.WITHIN_TOLERANCE if close else Agreement.DIFFERENT
 
     @property
     def same(self) -> bool:
@@ -96,7 +116,7 @@ def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] |
     record = stored.record
     variant = project.designs.variant(record.variant)
     (spec,) = trial_specs(project.with_fidelity(record.fidelity.value), variants=[variant], seeds=[record.seed])
-    again = run_trial(spec)
+    again = compute(run_trial, spec)
     then, now = dict(stored.provenance.versions), versions()
     changed = tuple(
         Change(name=name, then=then.get(name, ABSENT), now=now.get(name, ABSENT))
@@ -114,6 +134,7 @@ def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] |
         differences=()
         if record_digest(again) == stored.content_digest
         else changes_between(plain(record), plain(again)),
+        numerics=fixed_numerics(),
     )
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
 from rgss.documents import Document, load_document
+from rgss.documents.project_files import FilePlace, place_of
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
@@ -197,24 +198,20 @@ def named_file(project: Path, name: str) -> Path | None:
         project: The project's folder.
         name: The name, as a user wrote it.
     """
-    try:
-        target = (project / name).resolve()
-        inside = target.is_relative_to(project.resolve())
-        return target if inside and target.is_file() else None
-    except (OSError, ValueError):  # a name that is too long, one with a null character
-        return None
+    return (project / name).resolve() if place_of(project / name, project) is FilePlace.INSIDE else None
 
 
 def _file_findings(document: Document, named: Mapping[str, str], project: Path) -> list[Finding]:
     findings = []
     for key, name in named.items():
-        if PurePath(name).is_absolute() or ".." in PurePath(name).parts:
+        place = place_of(project / name, project)
+        if PurePath(name).is_absolute() or ".." in PurePath(name).parts or place is FilePlace.OUTSIDE:
             findings.append(
                 document.finding(
                     "study.outside", f"{shown(name)} lies outside the project", (key,), hint="name a file in it"
                 )
             )
-        elif named_file(project, name) is None:
+        elif place is FilePlace.MISSING:
             findings.append(
                 document.finding(
                     "study.missing-file",

@@ -8,7 +8,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rgss.errors import EvidenceError
-from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind, TrialRecord, trial_key
+from rgss.evidence import (
+    EvidenceStore,
+    Piece,
+    PieceKind,
+    RunFailure,
+    RunFailureKind,
+    StoredTrial,
+    TrialRecord,
+    trial_key,
+)
+from rgss.evidence.numerics import Numerics, numerics_text, require_alike
 from rgss.evidence.run_failures import detail_line
 from rgss.studies.answers import checked, record_problem
 from rgss.studies.inline_workers import InlineWorkers
@@ -16,6 +26,7 @@ from rgss.studies.keeping import Keeper, Origin
 from rgss.studies.work import Trial, Work
 from rgss.studies.workers import Ended, Trouble, WorkerPool, Workers
 from rgss.trials.making import Task, TrialTask, make, record_of
+from rgss.trials.numerics import fixed_numerics, numerics
 from rgss.trials.run import require_search
 from rgss.trials.spec import TrialSpec, digests_of
 from rgss.trials.versions import versions
@@ -172,18 +183,25 @@ def sweep(
     """
     trials = trials_of(specs)
     there = store.has(trial.key for trial in trials)
+    made_with: dict[str, StoredTrial] = {}
     for trial in trials:
         found = store.get(trial.key) if trial.key in there else None
         if found is not None:
+            made_with[numerics_text(found.provenance.numerics)] = found
             on_finished(FinishedTrial(key=trial.key, record=found.record, fresh=False))
     missing = [trial for trial in trials if trial.key not in there]
     stored: set[str] = set()
+    computed_with = numerics if jobs == 0 and workers_for is None else fixed_numerics
+    for known in made_with.values() if missing else ():
+        # Pieces of both would be mixed, and their records could be run again nowhere.
+        _require_alike(known, computed_with())
     if share and missing:
         stored = store.has_pieces({digest for trial in missing for digest in trial.pieces.values()})
     keeper = Keeper(
         store,
         origin,
         on_kept=lambda key, record: on_finished(FinishedTrial(key=key, record=record, fresh=True)),
+        numerics=computed_with,
     )
     work = Work(missing, stored=stored, share=share)
     limits = limits or WorkerLimits()
@@ -360,6 +378,12 @@ class _Sweep:
                 saved=max(0, self._used - sum(self._made.values()) - sum(self._reused.values())),
             )
         )
+
+
+def _require_alike(stored: StoredTrial, here: Numerics) -> None:
+    record = stored.record
+    what = f"the stored trial {stored.key[:12]} (variant {record.variant}, seed {record.seed})"
+    require_alike(what, stored.provenance.numerics, here)
 
 
 def _trial(spec: TrialSpec, found: Mapping[str, str]) -> Trial:

@@ -17,8 +17,8 @@ from multiprocessing import connection, parent_process, resource_tracker
 from typing import Any
 
 from rgss.studies.worker_wire import LONGEST_ANSWER, BlockingChannel
+from rgss.trials.numeric_environment import ONE_THREAD, problem_here
 
-_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
 _OBJECTS_BETWEEN_COLLECTIONS = 50_000
 _MIB = 1024 * 1024
@@ -62,8 +62,8 @@ class Answer:
 def settle() -> None:
     """Make this process one that makes pieces and nothing else; to be called before an engine or NumPy is loaded."""
     # The processes share the cores between them; threads within one would only get in their way.
-    for name in _ONE_THREAD:
-        os.environ.setdefault(name, "1")
+    for name, threads in ONE_THREAD.items():
+        os.environ.setdefault(name, threads)
     _keep_freed_memory()
     # Most of the process's objects are those of the engines and stay; they need not be looked through so often.
     gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
@@ -87,6 +87,10 @@ def serve(
     _limit_output()
     _end_with_parent()
     channel = BlockingChannel(asked)
+    problem = problem_here()
+    if problem:
+        channel.send(pickle.dumps(Ready(error=f"it would compute with other kernels: {problem}")))
+        return
     # From here on engines may be loaded. What is read here was written by the process that started this one.
     try:
         make = pickle.loads(function)  # noqa: S301

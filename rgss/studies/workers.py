@@ -30,6 +30,7 @@ from rgss.evidence.run_failures import detail_line
 from rgss.studies.worker_output import WorkerOutput
 from rgss.studies.worker_process import Answer, Ready, serve
 from rgss.studies.worker_wire import Channel, WireError
+from rgss.trials.numeric_environment import numeric_environment_of_children
 
 _ENDING_S = 5.0
 _ENDING_LOOK_S = 0.01
@@ -222,7 +223,7 @@ class WorkerPool:
         process = self._context.Process(
             target=serve, args=(self._function, there, self._memory_limit_bytes, output.end), daemon=True
         )
-        with _interrupts_held_back():
+        with _interrupts_held_back(), numeric_environment_of_children():
             try:
                 process.start()
             except OSError:

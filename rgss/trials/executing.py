@@ -15,7 +15,7 @@ from rgss.trials.program import run_program
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import TaskTiming
 from rgss.trials.trial_spec import TrialSpec
-from rgss.trials.workcell import Workcell
+from rgss.trials.workcell import Workcell, cell_of
 
 
 def execute(
@@ -62,3 +62,24 @@ def execute(
     )
     with World(scene, gripper, firm) as world:
         return Execution(world, references, control, cell.arm, observer=observer, checkpoint=checkpoint).run()
+
+
+def execution_of(
+    spec: TrialSpec,
+    timing: TaskTiming,
+    *,
+    observer: StepObserver | None = None,
+    checkpoint: Callable[[], None] | None = None,
+) -> tuple[PhaseResult, ...]:
+    """The execution of a trial.
+
+    Args:
+        spec: The trial.
+        timing: Its timing.
+        observer: As of `execute`.
+        checkpoint: As of `execute`.
+
+    Raises:
+        SimulationError: The physics engine cannot build the world.
+    """
+    return execute(spec, cell_of(spec), timing, observer=observer, checkpoint=checkpoint)

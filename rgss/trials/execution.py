@@ -337,4 +337,4 @@ def _is_firm(forces_n: Sequence[float], needed_n: float) -> bool:
         forces_n: Normal force of each finger.
         needed_n: Force that each finger needs if all press alike.
     """
-    return min(forces_n) > _FAIR_PART * needed_n and sum(forces_n) > len(forces_n) * needed_n
+    return min(forces_n) > _FAIR_PART * needed_n and math.fsum(forces_n) > len(forces_n) * needed_n

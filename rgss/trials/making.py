@@ -1,30 +1,33 @@
 """Making one piece of a trial from its inputs and the pieces before it: the task of a worker.
 
 A task carries its inputs by value and a piece is text, so that it can be made in any process on
-any machine.
+any machine. The functions ``make_plan``, ``make_timing``, ``make_execution``, ``make_bench`` and
+``record_of`` are where the code of each piece begins, which its digest covers: `rgss.trials.versions`
+follows what each of them uses.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from types import MappingProxyType
 
 from rgss.errors import EvidenceError
 from rgss.evidence import Piece, PieceKind, TrialRecord
 from rgss.trials.bench import run_bench
 from rgss.trials.bench_text import bench_from_text, bench_to_text
-from rgss.trials.executing import execute
+from rgss.trials.executing import execution_of
 from rgss.trials.execution_text import execution_from_text, execution_to_text
-from rgss.trials.plan import plan_task
+from rgss.trials.plan import plan_of
 from rgss.trials.plan_text import plan_from_text, plan_to_text
 from rgss.trials.record import assemble_record
 from rgss.trials.run import Pieces
-from rgss.trials.spec import TrialDigests, bench_of
-from rgss.trials.timing import time_task
+from rgss.trials.spec import TrialDigests
+from rgss.trials.timing import timing_of
 from rgss.trials.timing_text import timing_from_text, timing_to_text
+from rgss.trials.trial_bench import bench_of
 from rgss.trials.trial_spec import TrialSpec
-from rgss.trials.workcell import Workcell, workcell_of
 
 _READ_KEPT = 16
 
@@ -112,23 +115,73 @@ def make_piece(task: PieceTask, needed: Mapping[str, Piece]) -> Piece:
         MotionError: The planner is not there.
         SimulationError: The physics engine cannot build the world.
     """
-    spec = task.spec
-    if task.kind is PieceKind.PLAN:
-        plan = plan_task(_cell(spec), spec.planner, seed=spec.seed, settings=spec.settings.planning)
-        text = plan_to_text(plan)
-    elif task.kind is PieceKind.TIMING:
-        plan = plan_from_text(needed[task.needs[0]].text)
-        timing = time_task(_cell(spec), plan, tool_speed_m_s=spec.tool_speed_m_s, settings=spec.settings.planning)
-        text = timing_to_text(timing)
-    elif task.kind is PieceKind.EXECUTION:
-        timing = timing_from_text(needed[task.needs[0]].text)
-        text = execution_to_text(execute(spec, _cell(spec), timing))
-    else:
-        bench = bench_of(spec)
-        if bench is None:
-            raise EvidenceError(f"a {spec.fidelity.value} trial knows no payload bench")
-        text = bench_to_text(run_bench(bench))
+    text = _MAKERS[task.kind](task.spec, *(needed[digest].text for digest in task.needs))
     return Piece(digest=task.digest, kind=task.kind, text=text)
+
+
+def make_plan(spec: TrialSpec) -> str:
+    """The plan of a trial, as a piece's text.
+
+    Args:
+        spec: The trial.
+
+    Raises:
+        MotionError: The planner is not there.
+    """
+    return plan_to_text(plan_of(spec))
+
+
+def make_timing(spec: TrialSpec, plan: str) -> str:
+    """The timing of a trial, as a piece's text.
+
+    Args:
+        spec: The trial.
+        plan: The text of its plan.
+
+    Raises:
+        EvidenceError: The plan is damaged.
+    """
+    return timing_to_text(timing_of(spec, plan_from_text(plan)))
+
+
+def make_execution(spec: TrialSpec, timing: str) -> str:
+    """The execution of a trial, as a piece's text.
+
+    Args:
+        spec: The trial.
+        timing: The text of its timing.
+
+    Raises:
+        EvidenceError: The timing is damaged.
+        SimulationError: The physics engine cannot build the world.
+    """
+    return execution_to_text(execution_of(spec, timing_from_text(timing)))
+
+
+def make_bench(spec: TrialSpec) -> str:
+    """The payload bench of a trial's gripper, as a piece's text.
+
+    Args:
+        spec: The trial.
+
+    Raises:
+        EvidenceError: The trial's fidelity knows no bench.
+        SimulationError: The physics engine cannot build the rig.
+    """
+    bench = bench_of(spec)
+    if bench is None:
+        raise EvidenceError(f"a {spec.fidelity.value} trial knows no payload bench")
+    return bench_to_text(run_bench(bench))
+
+
+_MAKERS: Mapping[PieceKind, Callable[..., str]] = MappingProxyType(
+    {
+        PieceKind.PLAN: make_plan,
+        PieceKind.TIMING: make_timing,
+        PieceKind.EXECUTION: make_execution,
+        PieceKind.BENCH: make_bench,
+    }
+)
 
 
 def record_of(spec: TrialSpec, pieces: Mapping[PieceKind, Piece]) -> TrialRecord:
@@ -156,7 +209,3 @@ _plan = lru_cache(maxsize=_READ_KEPT)(plan_from_text)
 _timing = lru_cache(maxsize=_READ_KEPT)(timing_from_text)
 _execution = lru_cache(maxsize=_READ_KEPT)(execution_from_text)
 _bench = lru_cache(maxsize=_READ_KEPT)(bench_from_text)
-
-
-def _cell(spec: TrialSpec) -> Workcell:
-    return workcell_of(spec.scene, spec.gripper.geometry, spec.settings.planning.clearance_m)

@@ -17,7 +17,8 @@ from rgss.scenes import Scene, Waypoint, waypoint_poses
 from rgss.trials.goal_reasons import GoalReason, reason_against
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
-from rgss.trials.workcell import Workcell
+from rgss.trials.trial_spec import TrialSpec
+from rgss.trials.workcell import Workcell, cell_of
 
 _ENDS: Mapping[Phase, tuple[Waypoint, Waypoint]] = {
     Phase.MOVE_TO_GRASP: (Waypoint.GRASP_APPROACH, Waypoint.GRASP),
@@ -140,6 +141,18 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
         if result.outcome is not PlanOutcome.SOLVED:
             break
     return TaskPlan(moves=moves, lift_rad=lift, clock=settings.clock)
+
+
+def plan_of(spec: TrialSpec) -> TaskPlan:
+    """The plan of a trial.
+
+    Args:
+        spec: The trial.
+
+    Raises:
+        MotionError: The planner is not there.
+    """
+    return plan_task(cell_of(spec), spec.planner, seed=spec.seed, settings=spec.settings.planning)
 
 
 @lru_cache(maxsize=4)

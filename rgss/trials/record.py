@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 from rgss.evidence import (
@@ -19,7 +20,7 @@ from rgss.trials.grasp_record import GREATEST, LEAST, worst_of
 from rgss.trials.metrics import AT_GRASP
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import PlannedMove, TaskPlan
-from rgss.trials.spec import TrialSpec
+from rgss.trials.trial_spec import TrialSpec
 
 _PLANNING_FAILURES = {
     PlanOutcome.BUDGET_SPENT: Failure.PLANNING_LIMIT,
@@ -135,7 +136,7 @@ def _limit_detail(planned: PlannedMove, spec: TrialSpec) -> str:
 
 def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], *, success: bool) -> dict[str, Metric]:
     durations = [phase.duration_s for phase in phases if phase.duration_s is not None]
-    motion_s = sum(durations)
+    motion_s = math.fsum(durations)
     times = [record.time_s for record in planning if record.time_s is not None]
     by_phase = {record.phase: record for record in phases}
     closing = by_phase[Phase.GRASP]
@@ -156,7 +157,7 @@ def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], 
         ),
         "path_length_m": tuple(record.path_length_m for record in planning),
         "motion_time_s": motion_s,
-        "task_time_s": motion_s + sum(times) if success else None,
+        "task_time_s": motion_s + math.fsum(times) if success else None,
         "grasp_cycle_time_s": cycle_s,
         "grip_margin_min": min(margins, default=None),
         "arm_scene_contacts": sum(touches) if touches else None,
@@ -180,7 +181,7 @@ def _joint_load(phases: Sequence[PhaseRecord]) -> dict[str, Metric]:
     most_loaded = max(ratios, key=lambda pair: pair[0])[1] if ratios else None
     return {
         "peak_joint_torque_n_m": tuple(map(max, zip(*peaks, strict=True))) if peaks else None,
-        "joint_saturated_s": tuple(map(sum, zip(*saturated, strict=True))) if saturated else None,
+        "joint_saturated_s": tuple(map(math.fsum, zip(*saturated, strict=True))) if saturated else None,
         "most_loaded_joint": most_loaded,
     }
 

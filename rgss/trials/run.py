@@ -9,16 +9,16 @@ from rgss.errors import DefinitionError
 from rgss.evidence import TrialRecord
 from rgss.trials.bench import PayloadResult, run_bench
 from rgss.trials.bench_spec import BenchSpec
-from rgss.trials.executing import execute
+from rgss.trials.executing import execute, execution_of
 from rgss.trials.observer import StepObserver
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plan import TaskPlan, plan_task
+from rgss.trials.plan import TaskPlan, plan_of
 from rgss.trials.record import assemble_record
-from rgss.trials.spec import TrialDigests, bench_of, digests_of
-from rgss.trials.timing import TaskTiming, time_task
+from rgss.trials.spec import TrialDigests, digests_of
+from rgss.trials.timing import TaskTiming, timing_of
+from rgss.trials.trial_bench import bench_of
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.versions import versions
-from rgss.trials.workcell import Workcell, workcell_of
 
 __all__ = ["Pieces", "execute", "require_search", "run_trial"]
 
@@ -99,8 +99,7 @@ class Pieces:
     def prepare(self, spec: TrialSpec) -> None:
         """Make the plan and the timing of a trial, so that its record only waits for the execution."""
         digests = digests_of(spec, self._versions)
-        cell, plan = self._plan(spec, digests)
-        self._timing(spec, digests, cell, plan)
+        self._timing(spec, digests, self._plan(spec, digests))
 
     def record(self, spec: TrialSpec) -> TrialRecord:
         """The record of a trial, making what pieces are missing.
@@ -111,31 +110,25 @@ class Pieces:
         """
         require_search(spec)
         digests = digests_of(spec, self._versions)
-        cell, plan = self._plan(spec, digests)
-        timing = self._timing(spec, digests, cell, plan)
-        execution = self._execution(spec, digests, cell, timing)
+        plan = self._plan(spec, digests)
+        timing = self._timing(spec, digests, plan)
+        execution = self._execution(spec, digests, timing)
         return assemble_record(spec, plan, timing.failures, execution, bench_payload_kg=self._payload_kg(spec, digests))
 
-    def _plan(self, spec: TrialSpec, digests: TrialDigests) -> tuple[Workcell, TaskPlan]:
-        planning = spec.settings.planning
-        cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
+    def _plan(self, spec: TrialSpec, digests: TrialDigests) -> TaskPlan:
         if digests.plan not in self._plans:
-            self._plans[digests.plan] = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
-        return cell, self._plans[digests.plan]
+            self._plans[digests.plan] = plan_of(spec)
+        return self._plans[digests.plan]
 
-    def _timing(self, spec: TrialSpec, digests: TrialDigests, cell: Workcell, plan: TaskPlan) -> TaskTiming:
+    def _timing(self, spec: TrialSpec, digests: TrialDigests, plan: TaskPlan) -> TaskTiming:
         if digests.timing not in self._timings:
-            self._timings[digests.timing] = time_task(
-                cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=spec.settings.planning
-            )
+            self._timings[digests.timing] = timing_of(spec, plan)
         return self._timings[digests.timing]
 
-    def _execution(
-        self, spec: TrialSpec, digests: TrialDigests, cell: Workcell, timing: TaskTiming
-    ) -> tuple[PhaseResult, ...]:
+    def _execution(self, spec: TrialSpec, digests: TrialDigests, timing: TaskTiming) -> tuple[PhaseResult, ...]:
         if digests.execution not in self._executions:
-            self._executions[digests.execution] = execute(
-                spec, cell, timing, observer=self._observer, checkpoint=self._checkpoint
+            self._executions[digests.execution] = execution_of(
+                spec, timing, observer=self._observer, checkpoint=self._checkpoint
             )
         return self._executions[digests.execution]
 

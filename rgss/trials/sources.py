@@ -2,10 +2,14 @@
 
 The digest of a piece covers the code that makes it, no less and no more: another colour of a
 picture or another way to store records must not make a plan stale. What counts is found by
-following the imports of a module. A package that only hands on what its modules define (its
-``__init__`` holds nothing but imports and ``__all__``) is followed name by name, so that a module
-beside the one that is wanted does not count, although Python loads it too; modules of this package
-do nothing when they are loaded, so that loading alone changes no result.
+following the imports of a module, or those that one function of it uses. A package that only hands
+on what its modules define (its ``__init__`` holds nothing but imports and ``__all__``) is followed
+name by name, so that a module beside the one that is wanted does not count, although Python loads
+it too; modules of this package do nothing when they are loaded, so that loading alone changes no
+result.
+
+What is digested of a module is its syntax in canonical form, and of an import what it leads to and
+not by which path: a module that is renamed or moved keeps its digest, and so does all that uses it.
 """
 
 from __future__ import annotations
@@ -18,6 +22,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
+from rgss.trials.syntax import canonical_form, is_for_type_checkers
+
 _PACKAGE = Path(__file__).resolve().parent.parent
 _BLOCKS = ("body", "orelse", "handlers", "finalbody", "cases")
 
@@ -29,7 +35,8 @@ class SourceClosure:
     Attributes:
         modules: Names of the modules of the package, sorted.
         foreign: Top-level names of what is imported from elsewhere, the standard library left out, sorted.
-        digest: SHA-256 of the modules' names and texts; line ends do not count.
+        digest: SHA-256 of the canonical forms of the modules and of what their imports lead to; the names of
+            modules, comments, docstrings and layout do not count.
     """
 
     modules: tuple[str, ...]
@@ -59,40 +66,59 @@ class SourceTree:
         self._texts: dict[str, bytes] = {}
         self._trees: dict[str, ast.Module] = {}
         self._imports: dict[str, tuple[_Import, ...]] = {}
+        self._digests: dict[str, str] = {}
 
     def closure_of(self, entries: Sequence[str]) -> SourceClosure:
-        """Follow the imports of modules, wherever in them they stand.
+        """Follow imports, wherever in a module they stand.
 
         Args:
-            entries: Names of modules of the package.
+            entries: Modules of the package, such as ``rgss.trials.plan``, all of whose imports are followed;
+                functions, such as ``rgss.trials.making:make_plan``, whose module counts as a whole, but of whose
+                imports only those are followed that the function uses, itself or through others of its module;
+                and modules with a colon and nothing behind it, which count without their imports.
 
         Raises:
-            ModuleNotFoundError: One of them is not there.
+            ModuleNotFoundError: A module is not there.
+            LookupError: A function is not.
         """
+        followed: set[str] = set()
         modules: set[str] = set()
         foreign: set[str] = set()
-        waiting = list(entries)
-        while waiting:
-            module = waiting.pop()
-            if module in modules:
-                continue
+        links: set[tuple[str, str, str, str]] = set()
+        waiting: list[str] = []
+
+        def follow(module: str, imports: Iterable[_Import]) -> None:
             modules.add(module)
-            for imported in self._imports_of(module):
+            for imported in imports:
                 if self._is_ours(imported.module):
-                    waiting.append(self._definer(imported.module, imported.name))
+                    definer = self._definer(imported.module, imported.name)
+                    waiting.append(definer)
+                    leads_to = self.module_digest(definer)
+                    links.add((self.module_digest(module), imported.alias, imported.name, leads_to))
                 else:
                     foreign.add(imported.module.partition(".")[0])
-        content = hashlib.sha256()
-        for module in sorted(modules):
-            content.update(module.encode() + b"\0" + self._text(module) + b"\0")
+
+        for entry in entries:
+            module, colon, function = entry.partition(":")
+            if colon:
+                follow(module, self._imports_used_by(module, function) if function else ())
+            else:
+                waiting.append(module)
+        while waiting:
+            module = waiting.pop()
+            if module not in followed:
+                followed.add(module)
+                follow(module, self._imports_of(module))
+        forms = sorted(self.module_digest(module) for module in modules)
+        content = repr((forms, sorted(links))).encode()
         return SourceClosure(
             modules=tuple(sorted(modules)),
             foreign=tuple(sorted(foreign - sys.stdlib_module_names)),
-            digest=content.hexdigest(),
+            digest=hashlib.sha256(content).hexdigest(),
         )
 
     def module_digest(self, module: str) -> str:
-        """The SHA-256 of the text of a module.
+        """The SHA-256 of the canonical form of a module, without its imports of this package.
 
         Args:
             module: Its name.
@@ -100,7 +126,47 @@ class SourceTree:
         Raises:
             ModuleNotFoundError: It is not there.
         """
-        return hashlib.sha256(self._text(module)).hexdigest()
+        if module not in self._digests:
+            tree = self._tree(module)
+            ours = frozenset(node for node in _import_statements(tree.body) if self._imports_ours(node))
+            form = canonical_form(tree, leave_out=ours)
+            self._digests[module] = hashlib.sha256(form.encode("utf-8", "surrogatepass")).hexdigest()
+        return self._digests[module]
+
+    def _imports_ours(self, node: ast.Import | ast.ImportFrom) -> bool:
+        if isinstance(node, ast.ImportFrom):
+            return bool(node.level) or self._is_ours(node.module or "")
+        return all(self._is_ours(alias.name) for alias in node.names)
+
+    def _imports_used_by(self, module: str, function: str) -> tuple[_Import, ...]:
+        """The imports that a function of a module uses, itself or through what else the module defines."""
+        tree = self._tree(module)
+        defined: dict[str, ast.stmt] = {}
+        for node in tree.body:
+            if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+                defined[node.name] = node
+            elif isinstance(node, (ast.Assign, ast.AnnAssign)):
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                defined.update(
+                    {part.id: node for one in targets for part in ast.walk(one) if isinstance(part, ast.Name)}
+                )
+        if function not in defined:
+            raise LookupError(f"{module} defines no {function}")
+        names: set[str] = set()
+        waiting = [function]
+        package = self._package_of(module)
+        found = list[_Import]()
+        while waiting:
+            name = waiting.pop()
+            if name in names:
+                continue
+            names.add(name)
+            definition = defined.get(name)
+            if definition is not None:
+                found += _imports_below([definition], package)
+                waiting += [part.id for part in ast.walk(definition) if isinstance(part, ast.Name)]
+        top = _imports_below((node for node in tree.body if node not in defined.values()), package)
+        return (*found, *(one for one in top if one.alias.partition(".")[0] in names))
 
     def _is_ours(self, module: str) -> bool:
         return module.partition(".")[0] == self._package
@@ -133,8 +199,7 @@ class SourceTree:
 
     def _imports_of(self, module: str) -> tuple[_Import, ...]:
         if module not in self._imports:
-            package = module if self._is_package(module) else module.rpartition(".")[0]
-            self._imports[module] = tuple(_imports_below(self._tree(module).body, package))
+            self._imports[module] = tuple(_imports_below(self._tree(module).body, self._package_of(module)))
         return self._imports[module]
 
     def _tree(self, module: str) -> ast.Module:
@@ -149,6 +214,9 @@ class SourceTree:
                 raise ModuleNotFoundError(f"there is no module {module}", name=module)
             self._texts[module] = file.read_bytes().replace(b"\r\n", b"\n")
         return self._texts[module]
+
+    def _package_of(self, module: str) -> str:
+        return module if self._is_package(module) else module.rpartition(".")[0]
 
     def _is_package(self, module: str) -> bool:
         file = self._file(module)
@@ -181,7 +249,7 @@ def _imports_below(statements: Iterable[ast.AST], package: str) -> Iterator[_Imp
             source = _absolute(node, package)
             for alias in node.names:
                 yield _Import(module=source, name=alias.name, alias=alias.asname or alias.name)
-        elif isinstance(node, ast.If) and _is_for_types(node.test):
+        elif isinstance(node, ast.If) and is_for_type_checkers(node.test):
             yield from _imports_below(node.orelse, package)
         else:
             for name in _BLOCKS:
@@ -197,8 +265,11 @@ def _absolute(node: ast.ImportFrom, package: str) -> str:
     return ".".join([*above, *([node.module] if node.module else [])])
 
 
-def _is_for_types(test: ast.expr) -> bool:
-    """Tell whether a condition holds for type checkers alone."""
-    return (isinstance(test, ast.Name) and test.id == "TYPE_CHECKING") or (
-        isinstance(test, ast.Attribute) and test.attr == "TYPE_CHECKING"
-    )
+def _import_statements(statements: Iterable[ast.AST]) -> Iterator[ast.Import | ast.ImportFrom]:
+    """Every import statement among statements and within them."""
+    for node in statements:
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            yield node
+        else:
+            for name in _BLOCKS:
+                yield from _import_statements(getattr(node, name, ()))

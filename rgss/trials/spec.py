@@ -15,11 +15,10 @@ from functools import lru_cache
 from typing import Any
 
 from rgss.documents.digests import digest
-from rgss.evidence import Fidelity
 from rgss.scenes import Robot, Scene, Shape
-from rgss.trials.bench_range import outside
-from rgss.trials.bench_spec import BenchSpec, bench_spec
+from rgss.trials.bench_spec import BenchSpec
 from rgss.trials.plain import plain
+from rgss.trials.trial_bench import bench_of
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.versions import ENTRIES, versions_of
 
@@ -88,30 +87,6 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     lifted = "" if bench is None else _bench_digest(bench, used["bench"])
     trial = digest([execution, lifted, spec.planning_limit_s, used["record"]])
     return TrialDigests(plan=plan, timing=timing, execution=execution, bench=lifted, trial=trial)
-
-
-def bench_of(spec: TrialSpec) -> BenchSpec | None:
-    """The payload bench of a trial's gripper; None where only contact physics would know, or outside its range."""
-    if spec.fidelity is not Fidelity.CONTACT:
-        return None
-    bench = payload_bench(spec)
-    return None if outside(bench) else bench
-
-
-def payload_bench(spec: TrialSpec) -> BenchSpec:
-    """The payload bench of a trial's gripper, object and physics, validated or not.
-
-    Args:
-        spec: The trial.
-    """
-    robot = spec.scene.robot
-    return bench_spec(
-        spec.scene,
-        spec.gripper,
-        acceleration_m_s2=robot.tool_acceleration_m_s2,
-        rated_kg=robot.payload_kg,
-        physics=spec.settings.physics,
-    )
 
 
 def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:

@@ -10,7 +10,8 @@ from rgss.motion import JointPath, MotionLimits, TimingOutcome, Trajectory, time
 from rgss.trials.plan import TaskPlan
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
-from rgss.trials.workcell import Workcell
+from rgss.trials.trial_spec import TrialSpec
+from rgss.trials.workcell import Workcell, cell_of
 
 _FAILURES = {
     TimingOutcome.IN_COLLISION: (
@@ -75,6 +76,16 @@ def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings
         else:
             trajectories[phase] = result.trajectory
     return TaskTiming(trajectories=trajectories, failures=failures)
+
+
+def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:
+    """The timing of a trial.
+
+    Args:
+        spec: The trial.
+        plan: Its plan.
+    """
+    return time_task(cell_of(spec), plan, tool_speed_m_s=spec.tool_speed_m_s, settings=spec.settings.planning)
 
 
 def _too_slow(trajectory: Trajectory, limits: MotionLimits) -> str:

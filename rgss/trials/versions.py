@@ -26,14 +26,18 @@ ENGINES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "plan": ("rgss.trials.plan", "rgss.trials.plan_text"),
-        "timing": ("rgss.trials.timing", "rgss.trials.timing_text"),
-        "execution": ("rgss.trials.executing", "rgss.trials.execution_text"),
-        "bench": ("rgss.trials.bench", "rgss.trials.bench_text"),
-        "record": ("rgss.trials.record",),
+        "plan": ("rgss.trials.making:make_plan",),
+        "timing": ("rgss.trials.making:make_timing",),
+        "execution": ("rgss.trials.making:make_execution",),
+        "bench": ("rgss.trials.making:make_bench",),
+        # A trial that shares nothing is put together by the second, from what the others make.
+        "record": ("rgss.trials.making:record_of", "rgss.trials.run:"),
     }
 )
-"""The modules that make each piece and write it down, and those that put the record together."""
+"""The function that a worker calls to make each piece, and those that put the record together."""
+
+_EVERYWHERE = ("rgss.trials.numeric_environment",)
+"""What decides a result without being called for it: the kernels that a worker is started with."""
 
 _CODE = "rgss-"
 
@@ -72,7 +76,7 @@ def source_of(piece: str) -> SourceClosure:
     Args:
         piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
     """
-    return own_sources().closure_of(ENTRIES[piece])
+    return own_sources().closure_of((*ENTRIES[piece], *_EVERYWHERE))
 
 
 def code_of_trials() -> dict[str, str]:

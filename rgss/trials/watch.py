@@ -177,7 +177,7 @@ class Watch:
 
     def _watch_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:
         window = self._forces_n
-        window.append(sum(forces_n))
+        window.append(math.fsum(forces_n))
         if len(window) == self._window:
             margin = self._friction * math.fsum(window) / self._window / (self._mass_kg * load_m_s2)
             self.grip_margin = margin

@@ -9,6 +9,7 @@ from functools import lru_cache
 from rgss.evidence import Phase
 from rgss.kinematics import Arm, CollisionModel, Situation
 from rgss.scenes import GripperGeometry, Scene
+from rgss.trials.trial_spec import TrialSpec
 
 _SHARE_KEPT = 0.25
 
@@ -53,6 +54,15 @@ def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float) -> 
         clearance_m: Distance that planned paths keep from everything.
     """
     return Workcell(scene, geometry, clearance_m=clearance_m)
+
+
+def cell_of(spec: TrialSpec) -> Workcell:
+    """The workcell of a trial.
+
+    Args:
+        spec: The trial.
+    """
+    return workcell_of(spec.scene, spec.gripper.geometry, spec.settings.planning.clearance_m)
 
 
 def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, Situation]:

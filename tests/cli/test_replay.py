@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from rgss.evidence import EvidenceStore, Provenance
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, load_project
 from rgss.studies.sweep import key_of
+from rgss.trials.numerics import fixed_numerics
 from rgss.trials.run import run_trial
 from rgss.trials.spec import digests_of
 from rgss.trials.versions import versions
@@ -92,6 +94,9 @@ def test_a_key_names_the_trial_and_json_is_one_document(capsys, folder, key):
         "variant",
         "seed",
         "same",
+        "agreement",
+        "numerics_then",
+        "numerics_now",
         "digest_then",
         "digest_now",
         "versions",
@@ -125,7 +130,8 @@ def test_another_result_as_json(capsys, folder):
     assert found["digest_then"] != found["digest_now"]
     assert found["changed_inputs"] == ["execution", "trial"]
     assert len(found["differences"]) == 6
-    assert all(set(change) == {"name", "then", "now"} for change in found["differences"])
+    assert all(set(change) == {"name", "then", "now", "deviation"} for change in found["differences"])
+    assert found["agreement"] == "different"
 
 
 @pytest.mark.engine
@@ -200,3 +206,74 @@ def test_the_trial_must_be_named(capsys, folder):
         replay(folder)
     assert caught.value.code == 2
     assert "the following arguments are required: TRIAL" in capsys.readouterr().err
+
+
+@pytest.fixture
+def computed_elsewhere(folder):
+    """Stores the trial anew as if it had been computed with other numerics, its path lengths moved by some amount."""
+
+    def store(by_m, *, numerics=None, **changes):
+        project = load_project(folder)
+        (spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[2])
+        record = run_trial(spec)
+        lengths = tuple(None if one is None else one + by_m for one in record.metrics["path_length_m"])
+        record = replace(record, metrics={**record.metrics, "path_length_m": lengths}, **changes)
+        elsewhere = {**fixed_numerics(), "libm": "another library 0123456789ab"} if numerics is None else numerics
+        provenance = Provenance(
+            inputs=digests_of(spec, versions()).as_mapping(), versions=versions(), numerics=elsewhere
+        )
+        project.evidence.unlink()
+        with EvidenceStore.open(project.evidence) as store:
+            store.put(key_of(spec), record, provenance)
+
+    return store
+
+
+@pytest.mark.engine
+def test_other_numerics_explain_a_small_deviation_which_has_a_status_of_its_own(capsys, folder, computed_elsewhere):
+    computed_elsewhere(1e-6)
+    assert replay(folder, TRIAL) == 4
+    lines = capsys.readouterr().out.splitlines()
+    here = fixed_numerics()["libm"]
+    assert lines[1] == f"Computed with other numerics: libm: another library 0123456789ab then, {here} now"
+    assert lines[2].startswith("The same within the tolerance of other numerics, not bit for bit: ")
+    assert lines[3].split() == ["value", "then", "now", "deviation"]
+    assert lines[5].split()[0] == "metrics.path_length_m[0]"
+    assert float(lines[5].split()[3]) == pytest.approx(1e-6)
+    assert replay(folder, TRIAL, "--json") == 4
+    found = json.loads(capsys.readouterr().out)
+    assert (found["same"], found["agreement"]) == (False, "within tolerance")
+    assert found["numerics_then"]["libm"] == "another library 0123456789ab"
+    assert found["numerics_now"] == fixed_numerics()
+
+
+@pytest.mark.engine
+@pytest.mark.parametrize("case", ["too far", "same numerics", "numerics not recorded", "another outcome"])
+def test_nothing_else_is_explained_by_numerics(capsys, folder, computed_elsewhere, case):
+    numerics = {"same numerics": fixed_numerics(), "numerics not recorded": {}}.get(case)
+    changes = {"failure_detail": "it was dropped"} if case == "another outcome" else {}
+    computed_elsewhere(1e-2 if case == "too far" else 1e-6, numerics=numerics, **changes)
+    assert replay(folder, TRIAL) == 1
+    assert ("beyond the tolerance" in capsys.readouterr().out) == (case in ("too far", "another outcome"))
+
+
+@pytest.mark.engine
+def test_a_changed_input_is_no_matter_of_numerics(folder, computed_elsewhere):
+    computed_elsewhere(1e-6)
+    edit(folder, "designs/grasping_system.yaml", "d9: 6 s", "d9: 5.9 s")
+    assert replay(folder, TRIAL) == 1
+
+
+@pytest.mark.engine
+def test_verify_tells_with_which_numerics_trials_were_computed(capsys, folder, computed_elsewhere):
+    def lines(**numerics):
+        computed_elsewhere(1e-6, **numerics)
+        assert main(["evidence", "verify", "--project", str(folder)]) == 0
+        return [line for line in capsys.readouterr().out.splitlines() if "replay" in line]
+
+    (line,) = lines(numerics=fixed_numerics())
+    assert line.startswith("1 trial: computed as on this machine, so 'rgss replay' must agree bit for bit (blas: ")
+    (line,) = lines()
+    assert line.startswith("1 trial: computed with other numerics, so 'rgss replay' compares within a tolerance here (")
+    # That of an earlier rgss, which its code has made stale, says nothing of it.
+    assert lines(numerics={}) == []

@@ -17,7 +17,7 @@ from rgss.errors import DefinitionError, SimulationError
 from rgss.evidence import EvidenceStore, RunFailureKind
 from rgss.studies import dask_cluster as dask_cluster_module
 from rgss.studies.dask_cluster import dask_cluster, difference
-from rgss.studies.dask_tasks import Differs, Engines, Order, environment
+from rgss.studies.dask_tasks import Differs, Engines, Order, are_alike, environment
 from rgss.studies.dask_workers import DaskWorkers
 from rgss.studies.expansion import trial_specs
 from rgss.studies.sweep import sweep, trials_of
@@ -332,6 +332,25 @@ def test_engine_processes_that_nobody_asks_end(doubles):
     assert is_running(pid)
     engines.close()
     assert not is_running(pid)
+
+
+def test_a_worker_whose_mathematics_computes_otherwise_is_refused(local, monkeypatch):
+    here = {**environment(), "numerics of libm": "glibc 2.17 0123456789ab"}
+    monkeypatch.setattr(dask_cluster_module, "environment", lambda: here)
+    with pytest.raises(DefinitionError) as caught, dask_cluster(local.scheduler_address, **LIMITS):
+        pytest.fail("it was accepted")
+
+    there = environment()["numerics of libm"]
+    expected = f" would make other records: it has numerics of libm {there} instead of glibc 2.17 0123456789ab ("
+    assert expected in str(caught.value)
+
+
+def test_what_computes_the_same_under_another_name_is_alike():
+    here = environment()
+    digest = here["numerics of libm"].split()[-1]
+    assert are_alike(here, {**here, "numerics of libm": f"another library {digest}"})
+    assert not are_alike(here, {**here, "numerics of libm": "another library 0123456789ab"})
+    assert not are_alike(here, {**here, "ompl": "1.6.0"})
 
 
 def test_a_difference_is_told_in_one_line():

@@ -152,3 +152,27 @@ def test_measures_are_traced_to_where_they_stand(shipped):
     for trace in shipped.measure_traces:
         assert trace.file == "requirements/measures.yaml"
         assert lines[trace.line - 1][trace.column - 1 :].startswith(trace.id)
+
+
+@pytest.mark.parametrize(
+    ("file", "named_in", "expected"),
+    [
+        ("scenes/restaurant.yaml", "studies/pick_place.yaml", "'scenes/restaurant.yaml' lies outside the project"),
+        ("scenes/robots/ur10.yaml", "scenes/restaurant.yaml", "'robots/ur10.yaml' leads out of the project"),
+        ("scenes/robots/ur10.urdf", "scenes/robots/ur10.yaml", "'ur10.urdf' leads out of the project"),
+        ("scenes/grippers/kg-2.yaml", "designs/catalogue.yaml", "geometry 'scenes/grippers/kg-2.yaml' leads out of"),
+    ],
+)
+def test_a_link_that_leads_out_of_the_project_is_found_where_it_is_named(
+    folder, problems, tmp_path, file, named_in, expected
+):
+    (folder / file).rename(tmp_path / "away")
+    (folder / file).symlink_to(tmp_path / "away")
+    found = [finding for finding in problems() if expected in finding]
+    assert found
+    assert all(finding.startswith(f"{named_in}:") for finding in found)
+
+
+def test_a_project_that_is_itself_reached_by_a_link_is_sound(folder, tmp_path):
+    (tmp_path / "link").symlink_to(folder)
+    assert load_project(tmp_path / "link").scene.id == "restaurant"

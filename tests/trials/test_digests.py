@@ -14,6 +14,7 @@ import pytest
 from rgss.evidence import Fidelity, PieceKind
 from rgss.motion import ClockKind, PlanningClock
 from rgss.scenes import Pose
+from rgss.scenes.robot import RobotFile
 from rgss.studies.expansion import trial_specs
 from rgss.trials.control import ControlSettings
 from rgss.trials.spec import digests_of
@@ -178,6 +179,14 @@ def perturbed(value, path="scene"):
         yield path, value + "x"
     else:
         yield path, value + 0.001
+
+
+def test_a_mesh_of_the_robot_is_an_input_of_everything_that_is_planned(spec_of):
+    def with_file(content):
+        file = RobotFile(name="meshes/part.stl", sha256=content * 64)
+        return with_scene(spec_of(1), robot=replace(spec_of(1).scene.robot, files=(file,)))
+
+    assert changed(spec_of(1), with_file("a")) == changed(with_file("a"), with_file("b")) == PLANNED
 
 
 def test_72_variants_and_a_seed_need_6_plans_12_timings_24_executions_and_4_benches(project):

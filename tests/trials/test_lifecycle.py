@@ -46,7 +46,7 @@ def plan_once(monkeypatch, plans):
             plans[key] = plan_task(cell, planner, seed=seed, settings=settings)
         return plans[key]
 
-    monkeypatch.setattr("rgss.trials.run.plan_task", cached)
+    monkeypatch.setattr("rgss.trials.plan.plan_task", cached)
 
 
 @pytest.fixture
@@ -348,7 +348,7 @@ def test_a_trial_that_cannot_run_ends_the_simulation(trial):
 def test_what_fails_to_initialise_is_not_ready(trial, monkeypatch):
     simulation = Simulation(trial())
     with monkeypatch.context() as patch:
-        patch.setattr("rgss.trials.run.plan_task", lambda *_, **__: (_ for _ in ()).throw(RuntimeError("no plan")))
+        patch.setattr("rgss.trials.plan.plan_task", lambda *_, **__: (_ for _ in ()).throw(RuntimeError("no plan")))
         with pytest.raises(RuntimeError, match="no plan"):
             simulation.initialise()
     assert simulation.state is SimulationState.CREATED
@@ -358,6 +358,6 @@ def test_what_fails_to_initialise_is_not_ready(trial, monkeypatch):
 
 def test_shut_down_while_it_initialises_stays(trial, monkeypatch):
     simulation = Simulation(trial())
-    monkeypatch.setattr("rgss.trials.run.time_task", lambda *_, **__: simulation.shut_down())
+    monkeypatch.setattr("rgss.trials.timing.time_task", lambda *_, **__: simulation.shut_down())
     simulation.initialise()
     assert simulation.state is SimulationState.SHUT_DOWN

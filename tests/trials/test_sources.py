@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import subprocess
 import sys
@@ -15,31 +16,45 @@ from rgss.trials.versions import ENGINES, ENTRIES, code_of_trials, source_of
 REPOSITORY = Path(__file__).parents[2]
 
 MAKE_AND_WATCH = """
-import json, sys
+import json, os, sys
 from pathlib import Path
+from rgss.evidence import PieceKind
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.trials.making import make_piece, record_of, tasks_of
+from rgss.trials.making import TrialTask, make, record_of, tasks_of
 from rgss.trials.spec import digests_of
 from rgss.trials.versions import versions
 
-project = load_project(Path(sys.argv[1]))
-(spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[1])
-tasks = tasks_of(spec, digests_of(spec, versions()))
-ran, made = {}, {}
+ran, made, opened, watching = {}, {}, set(), []
+
+def audit(event, arguments):
+    if event == "open" and watching and isinstance(arguments[0], (str, bytes, os.PathLike)):
+        opened.add(os.fsdecode(arguments[0]))
+
+sys.addaudithook(audit)
 
 def watched(name, function, *arguments):
     files = ran.setdefault(name, set())
-    sys.settrace(lambda frame, event, _: files.add(frame.f_code.co_filename))
+    # A frame begins to run; the body of a module, which is only defined by it, is called <module>.
+    note = lambda frame, event, _: files.add(frame.f_code.co_filename) if frame.f_code.co_name != "<module>" else None
+    watching.append(name)
+    sys.settrace(note)
     try:
         return function(*arguments)
     finally:
         sys.settrace(None)
+        watching.clear()
 
-for task in tasks:
-    made[task.digest] = watched(task.kind.value, make_piece, task, made)
-watched("record", record_of, spec, {piece.kind: piece for piece in made.values()})
-print(json.dumps({name: sorted(files) for name, files in ran.items()}))
+for fidelity in ("kinematic", "dynamic", "contact"):
+    project = load_project(Path(sys.argv[1])).with_fidelity(fidelity)
+    (spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[1])
+    pieces = {}
+    for task in tasks_of(spec, digests_of(spec, versions())):
+        made[task.digest] = pieces[task.kind] = watched(f"{task.kind.value} of {fidelity}", make, task, made)
+    watched(f"record of {fidelity}", record_of, spec, pieces)
+    alone = TrialTask(digest="0" * 64, spec=spec)
+    watched(f"trial of {fidelity}", make, alone, {})
+print(json.dumps({"ran": {name: sorted(files) for name, files in ran.items()}, "opened": sorted(opened)}))
 """
 
 
@@ -164,13 +179,18 @@ def test_a_module_that_is_not_there_is_an_error(package):
 
 
 @pytest.fixture(scope="module")
-def ran(project):
-    """The modules of this package whose functions ran while each piece was made, in a process of its own."""
+def watched(project):
+    """What ran and was opened while each piece was made, in a process of its own."""
     done = subprocess.run(
         [sys.executable, "-c", MAKE_AND_WATCH, str(project.folder)], capture_output=True, text=True, check=True
     )
-    found = json.loads(done.stdout.splitlines()[-1])
-    return {piece: {name for file in files if (name := module_of(file))} for piece, files in found.items()}
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+@pytest.fixture(scope="module")
+def ran(watched):
+    """The modules of this package whose functions ran while each piece was made at each fidelity."""
+    return {name: {found for file in files if (found := module_of(file))} for name, files in watched["ran"].items()}
 
 
 def module_of(file: str) -> str | None:
@@ -180,23 +200,100 @@ def module_of(file: str) -> str | None:
     return ".".join(path.relative_to(REPOSITORY).with_suffix("").parts)
 
 
-# What hands a task to its makers, and says what a bench is run with, which is digested itself.
-AROUND = {"rgss.trials.making", "rgss.trials.spec"}
+# What works out by which digest a trial that shares nothing keeps its pieces, while it is run: each value is one.
+DIGESTING = {
+    "rgss.documents.digests",
+    "rgss.trials.plain",
+    "rgss.trials.sources",
+    "rgss.trials.spec",
+    "rgss.trials.syntax",
+    "rgss.trials.versions",
+}
+BEFORE = {"timing": ["plan"], "execution": ["plan", "timing"], "record": ["plan", "timing", "execution"]}
+
+
+def covered_by(piece: str) -> set[str]:
+    """The modules in the digest of a piece, which covers those that it is made from."""
+    return {module for name in (piece, *BEFORE.get(piece, ())) for module in source_of(name).modules}
 
 
 @pytest.mark.engine
+@pytest.mark.parametrize("fidelity", ["kinematic", "dynamic", "contact"])
 @pytest.mark.parametrize("piece", ENTRIES)
-def test_whatever_runs_while_a_piece_is_made_is_in_its_digest(ran, piece):
-    readers = {"rgss.trials.plan_text", "rgss.trials.timing_text", "rgss.trials.execution_text"}
-    before = {
-        "timing": {"plan"},
-        "execution": {"plan", "timing"},
-        "record": {"plan", "timing", "execution", "bench"},
-    }.get(piece, set())
-    covered = {module for name in (piece, *before) for module in source_of(name).modules}
+def test_whatever_runs_while_a_piece_is_made_is_in_its_digest(ran, piece, fidelity):
+    if (piece, fidelity) in {("bench", "kinematic"), ("bench", "dynamic")}:
+        assert f"{piece} of {fidelity}" not in ran
+        return
+    name = f"{piece} of {fidelity}"
+    assert "rgss.trials.making" in ran[name]
+    assert ran[name] - covered_by(piece) == set()
 
-    assert ran[piece] & {*source_of(piece).modules} - readers
-    assert ran[piece] - AROUND <= covered
+
+@pytest.mark.engine
+@pytest.mark.parametrize("fidelity", ["kinematic", "dynamic", "contact"])
+def test_whatever_runs_in_a_trial_that_shares_nothing_is_in_its_key(ran, fidelity):
+    pieces = [*ENTRIES] if fidelity == "contact" else [name for name in ENTRIES if name != "bench"]
+    covered = {module for piece in pieces for module in covered_by(piece)}
+
+    assert {"rgss.trials.making", "rgss.trials.run"} <= ran[f"trial of {fidelity}"] & covered
+    assert ran[f"trial of {fidelity}"] - covered - DIGESTING == set()
+
+
+@pytest.mark.engine
+def test_no_data_file_of_the_package_is_read_while_a_piece_is_made(watched):
+    package = REPOSITORY / "rgss"
+    read = {Path(file) for file in watched["opened"] if Path(file).is_relative_to(package)}
+
+    # Modules may be imported late. Whatever else is read must become an input of the piece's digest.
+    assert {file for file in read if file.suffix not in {".py", ".pyc"} and not file.is_dir()} == set()
+
+
+@pytest.mark.parametrize("module", sorted(code_of_trials()))
+def test_no_code_of_a_trial_looks_at_docstrings_or_at_annotations_that_do_not_count(module):
+    file = REPOSITORY.joinpath(*module.split("."))
+    text = next(one for one in (file.with_suffix(".py"), file / "__init__.py") if one.exists()).read_text("utf-8")
+    looked_at = {"__doc__", "getdoc", "__annotations__", "get_annotations", "get_type_hints", "getsource", "signature"}
+    names = {
+        getattr(node, "attr", None) or getattr(node, "id", None) or getattr(node, "name", None)
+        for node in ast.walk(ast.parse(text))
+    }
+
+    # Readers of evidence look at the annotations of classes, which do count.
+    allowed = {"get_type_hints"} if module.startswith("rgss.evidence.") else set()
+    assert names & looked_at <= allowed
+
+
+@pytest.mark.parametrize("module", sorted(code_of_trials()))
+def test_no_code_of_a_trial_adds_numbers_by_a_function_that_another_python_rounds_otherwise(module):
+    """The built-in ``sum`` of floats is another one from Python 3.12 on; ``math.fsum`` is exact on all."""
+    file = REPOSITORY.joinpath(*module.split("."))
+    text = next(one for one in (file.with_suffix(".py"), file / "__init__.py") if one.exists()).read_text("utf-8")
+    tree = ast.parse(text)
+    counts = {ast.unparse(node) for node in ast.walk(tree) if isinstance(node, ast.Call) and counts_only(node)}
+    used = {ast.unparse(node) for node in ast.walk(tree) if isinstance(node, ast.Call) and called(node) == "sum"}
+
+    assert used <= counts
+    # Nor is it handed on, as to map.
+    assert sum(isinstance(node, ast.Name) and node.id == "sum" for node in ast.walk(tree)) == sum(
+        isinstance(node, ast.Call) and called(node) == "sum" for node in ast.walk(tree)
+    )
+
+
+def called(node: ast.Call) -> str:
+    return node.func.id if isinstance(node.func, ast.Name) else ""
+
+
+def counts_only(node: ast.Call) -> bool:
+    """A sum of truth values, of ones, or of what was found to be whole numbers."""
+    (argument,) = node.args[:1] or [None]
+    if isinstance(argument, ast.GeneratorExp):
+        whole = any(
+            "isinstance" in ast.unparse(test) and "int" in ast.unparse(test)
+            for one in argument.generators
+            for test in one.ifs
+        )
+        return whole or isinstance(argument.elt, (ast.Compare, ast.Constant))
+    return ast.unparse(argument) == "touches" if argument is not None else False
 
 
 @pytest.mark.parametrize("piece", ENTRIES)

@@ -1,0 +1,53 @@
+"""What ``rgss evidence verify`` prints of the numerics that trials were computed with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+
+def computed_with(path: Path, label: str) -> list[dict[str, Any]]:
+    """The numerics of a store's trials, with their number and whether this machine computes so.
+
+    Args:
+        path: The store, which is sound.
+        label: Its name in messages.
+
+    Raises:
+        EvidenceError: It cannot be read.
+        SimulationError: No process can be started to look at this machine's numerics.
+    """
+    from rgss.evidence import EvidenceStore
+    from rgss.evidence.numerics import numerics_difference
+    from rgss.evidence.numerics_census import numerics_census
+    from rgss.trials.numerics import fixed_numerics
+
+    with EvidenceStore.open(path, create=False, label=label) as evidence:
+        census = numerics_census(evidence.database)
+    here = fixed_numerics() if any(numerics for numerics, _ in census) else {}
+    return [
+        {
+            "trials": count,
+            "numerics": dict(numerics),
+            "as_here": not numerics_difference(numerics, here) if numerics else None,
+        }
+        for numerics, count in census
+    ]
+
+
+def numerics_line(computed: Mapping[str, Any]) -> str:
+    """One line about the trials of one numerics.
+
+    Args:
+        computed: An entry of `computed_with`.
+    """
+    from rgss.evidence.numerics import numerics_text
+    from rgss.findings import printable
+
+    number = computed["trials"]
+    who = f"{number} {'trial' if number == 1 else 'trials'}"
+    how = printable(numerics_text(computed["numerics"]))
+    if computed["as_here"]:
+        return f"{who}: computed as on this machine, so 'rgss replay' must agree bit for bit ({how})."
+    return f"{who}: computed with other numerics, so 'rgss replay' compares within a tolerance here ({how})."

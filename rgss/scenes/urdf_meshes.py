@@ -1,0 +1,178 @@
+"""Files that a URDF names: meshes and textures, found inside the project and digested by their content.
+
+A mesh of a collision shape is refused until contact and collision checks with meshes are validated.
+A mesh that is only looked at is an input of every trial by its content, and takes part in no simulation.
+"""
+
+from __future__ import annotations
+
+import copy
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from xml.parsers import expat
+
+from rgss.documents.project_files import FilePlace, content_digest, place_of
+from rgss.findings import Finding, Severity, shown
+from rgss.scenes.robot import RobotFile
+
+LARGEST_MESH_BYTES = 256 * 1024 * 1024
+
+_PACKAGE = "package://"
+_NAMING = ("mesh", "texture")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Named:
+    """An element that names a file.
+
+    Attributes:
+        tag: ``mesh`` or ``texture``.
+        name: The file's name as the URDF has it; None if the element has none.
+        collides: Whether it is within a collision shape.
+        line: Line of the element, from 1.
+        column: Column of the element, from 1.
+    """
+
+    tag: str
+    name: str | None
+    collides: bool
+    line: int
+    column: int
+
+
+def files_of(text: str, path: Path, *, project: Path, label: str) -> tuple[tuple[RobotFile, ...], tuple[Finding, ...]]:
+    """Find and digest the files that a URDF names.
+
+    Args:
+        text: The URDF, which is well-formed.
+        path: Its file, relative to whose folder names are.
+        project: The folder that no name may lead out of.
+        label: The URDF's name in messages.
+
+    Returns:
+        The files in the order of their names, and what is wrong.
+    """
+    found: dict[str, RobotFile] = {}
+    findings: list[Finding] = []
+    for named in _named_files(text):
+
+        def report(problem: str, hint: str, place: _Named = named) -> None:
+            findings.append(
+                Finding(
+                    file=label,
+                    line=place.line,
+                    column=place.column,
+                    rule="scene.mesh",
+                    severity=Severity.ERROR,
+                    message=problem,
+                    hint=hint,
+                )
+            )
+
+        if not named.name:
+            report(f"<{named.tag}> names no file", 'write filename="..."')
+            continue
+        what = f"the {named.tag} {shown(named.name)}"
+        target, problem, hint = _target(named.name, path, project)
+        if target is None:
+            report(f"{what} {problem}", hint)
+            continue
+        if named.collides:
+            report(
+                f"{what} is a collision shape, and collisions with meshes are not simulated",
+                "replace it with boxes, cylinders or spheres; a mesh may stay in <visual>",
+            )
+            continue
+        try:
+            digest = content_digest(target, largest_bytes=LARGEST_MESH_BYTES)
+        except OSError as error:
+            report(f"{what} cannot be read: {error.strerror}", "")
+            continue
+        if digest is None:
+            report(f"{what} is larger than {LARGEST_MESH_BYTES // 1024**2} MiB", "simplify it")
+            continue
+        found[named.name] = RobotFile(name=named.name, sha256=digest)
+    return tuple(found[name] for name in sorted(found)), tuple(findings)
+
+
+def without_meshes(text: str) -> str:
+    """A URDF as the engines are given it: each link that is seen as a mesh is seen as its collision shapes.
+
+    Args:
+        text: The URDF; returned as it is if no visual shape is a mesh.
+    """
+    root = ET.fromstring(text)  # noqa: S314 - entities and document types were refused on reading
+    changed = False
+    for link in root.findall("link"):
+        meshes = [visual for visual in link.findall("visual") if visual.find("geometry/mesh") is not None]
+        for visual in meshes:
+            link.remove(visual)
+            changed = True
+        if meshes and link.find("visual") is None:
+            for collision in link.findall("collision"):
+                seen = copy.deepcopy(collision)
+                seen.tag = "visual"
+                link.append(seen)
+    return ET.tostring(root, encoding="unicode") if changed else text
+
+
+def _named_files(text: str) -> Iterable[_Named]:
+    """The elements of a URDF that name a file, with their positions, which ElementTree does not keep."""
+    found: list[_Named] = []
+    open_elements: list[str] = []
+    parser = expat.ParserCreate()
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        if tag in _NAMING:
+            found.append(
+                _Named(
+                    tag=tag,
+                    name=attributes.get("filename"),
+                    collides="collision" in open_elements,
+                    line=parser.CurrentLineNumber,
+                    column=parser.CurrentColumnNumber + 1,
+                )
+            )
+        open_elements.append(tag)
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda _: open_elements.pop()
+    parser.Parse(text.encode("utf-8"))
+    return found
+
+
+def _target(name: str, path: Path, project: Path) -> tuple[Path | None, str, str]:
+    """The file of a name; None with what is wrong and how to mend it."""
+    hint = "name it relative to the URDF, or as package://FOLDER/FILE with a folder of the project"
+    scheme, separator, _ = name.partition("://")
+    if separator and scheme != "package":
+        return None, f"is named by {shown(scheme + '://')}, which is no path inside the project", hint
+    rest = name.removeprefix(_PACKAGE)
+    if not separator and (PurePosixPath(rest).is_absolute() or "\\" in rest or rest[1:2] == ":"):
+        return None, "is no relative path", hint
+    missing = False
+    for candidate in _package_candidates(rest, path, project) if separator else (path.parent / rest,):
+        place = place_of(candidate, project)
+        if place is FilePlace.INSIDE:
+            return candidate, "", ""
+        if place is FilePlace.OUTSIDE:
+            return None, "leads out of the project", "copy it into the project; links that lead out do not count"
+        missing = True
+    return None, "is not there" if missing else "is no path inside the project", hint
+
+
+def _package_candidates(rest: str, path: Path, project: Path) -> Iterator[Path]:
+    """Where a ``package://`` name may be, nearest first: the folders from the URDF's up to the project's."""
+    package, _, below = rest.partition("/")
+    if not package or not below or package in (".", ".."):
+        return
+    top = project.resolve()
+    folder = path.parent.resolve()
+    for candidate in (folder, *folder.parents):
+        if candidate.name == package:
+            yield candidate / below
+        yield candidate / package / below
+        if candidate == top:
+            return

@@ -1,0 +1,138 @@
+"""The numeric environment of a process that makes trials: one set of kernels on every x86-64 processor.
+
+OpenBLAS, NumPy and the C library's mathematics choose their kernels by the processor when a process starts, and
+kernels differ in last bits, which contact amplifies. Environment variables that are read at that time choose
+instead what every processor has: the kernels without AVX and fused multiply-add. It cannot be chosen later, so
+trials are made in processes that are started with it.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import sys
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from types import MappingProxyType
+
+KERNEL = "Nehalem"
+"""OpenBLAS's kernels: the newest that need no more than SSE 4.2, which NumPy needs too."""
+
+WITHOUT = ("FMA", "FMA4", "FMA_Usable", "FMA4_Usable")
+"""Features that the C library's mathematics may not use, by their names before and since glibc 2.33."""
+
+ONE_THREAD: Mapping[str, str] = MappingProxyType(
+    dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+)
+"""A sum that is divided among threads is rounded by their number."""
+
+_CORE, _TUNABLES = "OPENBLAS_CORETYPE", "GLIBC_TUNABLES"
+_DISABLED, _ENABLED = "NPY_DISABLE_CPU_FEATURES", "NPY_ENABLE_CPU_FEATURES"
+_CAPABILITIES = "glibc.cpu.hwcaps"
+_STARTING = threading.Lock()
+
+
+def numeric_environment(inherited: Mapping[str, str]) -> dict[str, str]:
+    """The environment variables of a process that makes trials.
+
+    Args:
+        inherited: The variables that it has otherwise; what they say of kernels and threads is overruled.
+    """
+    chosen = {**inherited, **ONE_THREAD}
+    if _is_x86_64():
+        chosen[_CORE] = KERNEL
+        chosen[_TUNABLES] = _tunables(inherited.get(_TUNABLES, ""))
+    # NumPy refuses to be given both.
+    chosen.pop(_ENABLED, None)
+    chosen[_DISABLED] = " ".join(sorted({*_dispatched(), *_words(inherited.get(_DISABLED, ""))}))
+    return chosen
+
+
+def is_in_force() -> bool:
+    """Tell whether this process was started with the numeric environment."""
+    return problem_here() == ""
+
+
+def problem_here() -> str:
+    """What of the environment that this process was started with is not as it should be; empty if nothing."""
+    return problem_in(_started_with())
+
+
+def problem_in(environment: Mapping[str, str]) -> str:
+    """What of the environment that a process was started with is not as it should be, in a few words; empty if nothing.
+
+    Args:
+        environment: The variables with which the process was started.
+    """
+    wanted: dict[str, str] = dict(ONE_THREAD)
+    if _is_x86_64():
+        wanted[_CORE] = KERNEL
+    for name, value in wanted.items():
+        if environment.get(name) != value:
+            return f"{name} is {environment.get(name, 'not set')} instead of {value}"
+    if _is_x86_64() and not {f"-{name}" for name in WITHOUT} <= {*_capabilities(environment.get(_TUNABLES, ""))}:
+        return f"{_TUNABLES} leaves the C library its choice"
+    return f"{_DISABLED} is not set" if _DISABLED not in environment else ""
+
+
+@contextmanager
+def numeric_environment_of_children() -> Iterator[None]:
+    """Let the processes that are started in the block have the numeric environment; this process keeps its own."""
+    with _STARTING:
+        before = dict(os.environ)
+        chosen = numeric_environment(before)
+        changed = {name for name in {*before, *chosen} if before.get(name) != chosen.get(name)}
+        _set({name: chosen.get(name) for name in changed})
+        try:
+            yield
+        finally:
+            _set({name: before.get(name) for name in changed})
+
+
+def _set(values: Mapping[str, str | None]) -> None:
+    for name, value in values.items():
+        if value is None:
+            os.environ.pop(name, None)
+        else:
+            os.environ[name] = value
+
+
+def _started_with() -> Mapping[str, str]:
+    """The environment that this process was started with; as it is now, where the system does not keep that."""
+    try:
+        entries = Path("/proc/self/environ").read_bytes().split(b"\0")
+    except OSError:
+        return os.environ
+    pairs = (os.fsdecode(entry).partition("=") for entry in entries if entry)
+    return {name: value for name, _, value in pairs}
+
+
+def _tunables(inherited: str) -> str:
+    """The C library's tunables with ours added to the user's."""
+    others = [one for one in inherited.split(":") if one and one.partition("=")[0] != _CAPABILITIES]
+    ours = [f"-{name}" for name in WITHOUT]
+    kept = [one for one in _capabilities(inherited) if one.lstrip("-") not in WITHOUT]
+    return ":".join([*others, f"{_CAPABILITIES}={','.join([*kept, *ours])}"])
+
+
+def _capabilities(tunables: str) -> list[str]:
+    found = [one.partition("=")[2] for one in tunables.split(":") if one.partition("=")[0] == _CAPABILITIES]
+    return [name for one in found for name in one.split(",") if name]
+
+
+def _dispatched() -> list[str]:
+    """The features that NumPy would choose kernels by on this processor."""
+    import numpy as np
+
+    found = np.show_config(mode="dicts").get("SIMD Extensions", {}).get("found", [])
+    return [str(name) for name in found]
+
+
+def _words(text: str) -> list[str]:
+    return text.replace(",", " ").split()
+
+
+def _is_x86_64() -> bool:
+    return platform.machine().lower() in ("x86_64", "amd64") and sys.maxsize > 2**32

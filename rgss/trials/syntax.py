@@ -1,0 +1,125 @@
+"""Canonical form of Python source: what a module does, without how it is written down.
+
+Two texts have one form if they differ in layout, comments, docstrings, the annotations of functions and of
+variables in them, or imports for type checkers. Annotations in the body of a class and of a module count, for
+dataclasses and readers of records look at them. The form is the same on every Python that can parse the text,
+for it holds no field that a later grammar has added and that is not used, and joins what one grammar splits.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+
+_FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
+_NOT_COUNTED = frozenset({"ctx", "kind", "type_comment", "returns", "type_ignores"})
+
+
+def canonical_form(tree: ast.Module, *, leave_out: frozenset[ast.stmt] = frozenset()) -> str:
+    """Write a syntax tree as the one text of its canonical form.
+
+    Args:
+        tree: The tree.
+        leave_out: Statements that do not count, such as imports that are told otherwise.
+    """
+    parts: list[str] = []
+    _write_block(tree.body, parts, leave_out, in_function=False)
+    return "".join(parts)
+
+
+def is_for_type_checkers(test: ast.expr) -> bool:
+    """Tell whether a condition holds for type checkers alone.
+
+    Args:
+        test: The condition.
+    """
+    return (isinstance(test, ast.Name) and test.id == "TYPE_CHECKING") or (
+        isinstance(test, ast.Attribute) and test.attr == "TYPE_CHECKING"
+    )
+
+
+def _write_block(
+    statements: Iterable[ast.stmt], parts: list[str], leave_out: frozenset[ast.stmt], *, in_function: bool
+) -> None:
+    parts.append("[")
+    for statement in _effective(statements):
+        if statement not in leave_out:
+            _write(statement, parts, leave_out, in_function)
+    parts.append("]")
+
+
+def _effective(statements: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
+    """Statements that do anything; a text by itself and ``pass`` do nothing."""
+    for statement in statements:
+        if isinstance(statement, ast.Pass) or (
+            isinstance(statement, ast.Expr)
+            and isinstance(statement.value, ast.Constant)
+            and isinstance(statement.value.value, str)
+        ):
+            continue
+        if isinstance(statement, ast.If) and is_for_type_checkers(statement.test):
+            yield from _effective(statement.orelse)
+            continue
+        yield statement
+
+
+def _write(node: ast.AST, parts: list[str], leave_out: frozenset[ast.stmt], in_function: bool) -> None:  # noqa: FBT001
+    kind = type(node)
+    if kind is ast.Constant:
+        parts.append(f"{type(node.value).__name__}:{node.value!r};")  # type: ignore[attr-defined]
+        return
+    if kind is ast.Name:
+        parts.append(f"${node.id};")  # type: ignore[attr-defined]
+        return
+    if isinstance(node, ast.AnnAssign) and in_function:
+        if node.value is not None:
+            _write(ast.Assign(targets=[node.target], value=node.value), parts, leave_out, in_function)
+        return
+    parts.append(kind.__name__)
+    parts.append("(")
+    inside = in_function or kind in _FUNCTIONS
+    inside = inside and kind is not ast.ClassDef
+    for name in node._fields:
+        if name in _NOT_COUNTED or (name == "annotation" and kind is ast.arg):
+            continue
+        value = getattr(node, name, None)
+        # What is not used may not be a field of an earlier grammar.
+        if value is None or (value == [] and type(value) is list):
+            continue
+        parts.append(name)
+        parts.append("=")
+        if isinstance(value, list):
+            if value and isinstance(value[0], ast.stmt):
+                _write_block(value, parts, leave_out, in_function=inside)
+                continue
+            if kind is ast.JoinedStr:
+                value = _joined(value)
+            parts.append("[")
+            for item in value:
+                if isinstance(item, ast.AST):
+                    _write(item, parts, leave_out, inside)
+                else:
+                    parts.append(f"{item!r};")
+            parts.append("]")
+        elif isinstance(value, ast.AST):
+            _write(value, parts, leave_out, inside)
+        else:
+            parts.append(f"{value!r};")
+    parts.append(")")
+
+
+def _joined(values: list[ast.expr]) -> list[ast.expr]:
+    """The parts of a formatted string with neighbouring texts as one, and none that is empty."""
+    found: list[ast.expr] = []
+    for value in values:
+        text = _text_of(value)
+        before = _text_of(found[-1]) if found else None
+        if text is not None and before is not None:
+            found[-1] = ast.Constant(value=before + text)
+        elif text != "":
+            found.append(value)
+    return found
+
+
+def _text_of(value: ast.expr) -> str | None:
+    return value.value if isinstance(value, ast.Constant) and isinstance(value.value, str) else None

@@ -1,0 +1,85 @@
+"""The process beside a script that makes its trials: results, errors and ends as if it were this one."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from rgss.errors import SimulationError
+from rgss.studies import engine_process
+from rgss.studies.engine_process import EngineProcess, compute
+from rgss.trials.numeric_environment import problem_here
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def process():
+    engine = EngineProcess()
+    yield engine
+    engine.close()
+
+
+def test_it_computes_with_the_numeric_environment_and_stays(process):
+    assert process.call(problem_here, ()) == ""
+    first = process.call(os.getpid, ())
+    assert first == process.call(os.getpid, ()) != os.getpid()
+
+
+def test_a_process_that_computes_so_itself_needs_no_other():
+    assert compute(os.getpid) == os.getpid()
+
+
+def test_another_process_is_used_where_this_one_does_not(monkeypatch, process):
+    monkeypatch.setattr(engine_process, "is_in_force", lambda: False)
+    monkeypatch.setattr(engine_process, "_engine_process", lambda: process)
+    assert compute(os.getpid) != os.getpid()
+
+
+def test_an_error_comes_back_as_it_was_raised(process):
+    # What the process can import by its name: tests are no module to it.
+    with pytest.raises(SimulationError, match="no world") as caught:
+        process.call(exec, ("from rgss.errors import SimulationError\nraise SimulationError('no world', hint='h')",))
+    assert caught.value.hint == "h"
+    with pytest.raises(SimulationError, match=r"^the trial could not be run: ZeroDivisionError: .* by zero$"):
+        process.call(divmod, (1, 0))
+    assert process.call(divmod, (7, 2)) == (3, 1)
+
+
+def test_a_crash_is_told_and_the_next_call_has_a_process_again(process):
+    with pytest.raises(SimulationError, match=r"^the process that ran the trial was killed by SIGKILL$"):
+        process.call(exec, ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)",))
+    with pytest.raises(SimulationError, match=r"ended with status 3: so it goes$"):
+        process.call(exec, ("import os; os.write(2, b'so it goes\\n'); os._exit(3)",))
+    assert process.call(divmod, (7, 2)) == (3, 1)
+
+
+def test_it_prints_nothing(process, capfd):
+    process.call(print, ("engines print",))
+    assert capfd.readouterr() == ("", "")
+
+
+SCRIPT = """
+import os, sys
+from rgss.studies.engine_process import EngineProcess
+process = EngineProcess()
+print(process.call(os.getpid, ()), flush=True)
+sys.stdin.read()
+"""
+
+
+def test_it_ends_with_the_process_that_started_it_even_if_that_is_killed():
+    with subprocess.Popen(
+        [sys.executable, "-c", SCRIPT], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=REPOSITORY
+    ) as script:
+        child = int(script.stdout.readline())
+        os.kill(script.pid, signal.SIGKILL)
+        script.wait()
+        while Path(f"/proc/{child}/stat").exists() and " Z " not in Path(f"/proc/{child}/stat").read_text("utf-8"):
+            time.sleep(0.01)
