@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--time-limit",
         metavar="TIME",
-        help='how long to prove a fleet best, such as "60 s" (default: a count of operations, about 10 s, which '
+        help='how long to prove a fleet best, such as "60 s" (default: a count of operations, some 20 s, which '
         "gives the same answer on every machine)",
     )
     parser.add_argument("--brief", action="store_true", help="only the decision and why")

@@ -243,9 +243,16 @@ def _by_size(
     answers: list[SizeAnswer] = []
     cut: Cut | None = None
     rows: tuple[int, ...] = ()
+    left = most_work
     for size in sizes:
-        deadline = None if time_limit is None else began + time_limit * size / len(sizes)
-        work = Work(most_work // len(sizes) if time_limit is None else None, deadline)
+        # Half is kept for the last size, which is decided; of the other half each may take a quarter of what is left.
+        last = size == sizes[-1]
+        if time_limit is None:
+            work = Work(left if last else max(0, left - most_work // 2) // 4)
+        else:
+            now = time.monotonic()
+            end = began + time_limit if last else now + max(0.0, began + time_limit / 2.0 - now) / 4.0
+            work = Work(None, end)
         if problem.aim is FleetAim.MEAN:
             answer = best_mean(profits, size, rows, TIE_TOLERANCE, work)
         else:
@@ -257,6 +264,7 @@ def _by_size(
         answers.append(answer)
         rows = answer.rows
         cut = cut or work.cut
+        left -= work.done
     # More members never serve worse, so what bounds many bounds fewer as well.
     for at in range(len(answers) - 2, -1, -1):
         answers[at] = replace(answers[at], bound=min(answers[at].bound, answers[at + 1].bound))

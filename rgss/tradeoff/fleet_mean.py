@@ -109,7 +109,7 @@ def _bounded(profits: Values, size: int, node: _Node, known: float, steps: int, 
         served = (over[rows] > 0.0).sum(axis=0) + (fixed > 0.0).sum(axis=0)
         slope = 1.0 - served
         length = float((slope**2).sum())
-        if length == 0.0 or scale < 1e-4 or bound <= known:
+        if length == 0.0 or scale < 1e-4 or bound <= known or work.spent:
             break
         here = here - scale * max(value - known, 1e-6) / length * slope
     selected = tuple(int(one) for one in node.open[chosen])

@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 from enum import Enum
 
-MOST_WORK = 1_000_000_000
-"""So many entries of members in tasks are looked at by default to prove a portfolio best: about ten seconds."""
+MOST_WORK = 2_000_000_000
+"""So many entries of members in tasks are looked at by default to prove a portfolio best: some 20 seconds."""
 
 
 class Cut(str, Enum):
@@ -17,34 +17,38 @@ class Cut(str, Enum):
 
 
 class Work:
-    """What is left of a work limit.
+    """Counter of operations with a limit.
 
     Args:
         most: So many operations; None for any number.
         deadline: The reading of the monotonic clock at which the work ends; None for no such limit.
 
     Attributes:
-        cut: The limit that ended the search; None while none has.
+        cut: The limit that is reached; None while none is.
+        done: The operations that were counted.
     """
 
     def __init__(self, most: int | None, deadline: float | None = None) -> None:
         self._most = most
-        self._left = most
         self._deadline = deadline
+        self.done = 0
         self.cut: Cut | None = None
 
     def spend(self, count: int) -> None:
         """Count operations."""
-        if self._left is not None:
-            self._left -= count
-            if self._left <= 0:
-                self.cut = self.cut or Cut.WORK
+        self.done += count
+        if self._most is not None and self.done >= self._most:
+            self.cut = self.cut or Cut.WORK
         if self._deadline is not None and time.monotonic() >= self._deadline:
             self.cut = self.cut or Cut.TIME
 
     def part(self, parts: int) -> Work:
-        """A part of the whole work, which is spent of it as well."""
-        return _Part(self, parts)
+        """A counter with one of so many parts of the limit, whose operations count here as well."""
+        deadline = self._deadline
+        if deadline is not None:
+            now = time.monotonic()
+            deadline = now + max(0.0, deadline - now) / parts
+        return _Part(self, None if self._most is None else self._most // parts, deadline)
 
     @property
     def spent(self) -> bool:
@@ -53,14 +57,10 @@ class Work:
 
 
 class _Part(Work):
-    """A part of a work limit: one of so many parts of the operations or of the seconds that are left."""
+    """Counter whose operations count for another one as well."""
 
-    def __init__(self, whole: Work, parts: int) -> None:
-        deadline = whole._deadline  # noqa: SLF001 - the same concept
-        if deadline is not None:
-            now = time.monotonic()
-            deadline = now + max(0.0, deadline - now) / parts
-        super().__init__(None if whole._most is None else whole._most // parts, deadline)  # noqa: SLF001
+    def __init__(self, whole: Work, most: int | None, deadline: float | None) -> None:
+        super().__init__(most, deadline)
         self._whole = whole
 
     def spend(self, count: int) -> None:

@@ -40,26 +40,30 @@ def best_worst(values: Values, size: int, start: Rows, tolerance: float, work: W
     best, known = start, worst_of(values, start)
     levels = np.unique(values[(values >= 0.0) & (values <= ideal)])
     low, high = int(np.searchsorted(levels, known, side="right")), len(levels)
-    # Levels from `high` on are proven not to be reached, those below `low` are reached.
-    open_from = high
-    while low < open_from:
-        middle = (low + open_from) // 2
-        found = _cover(values, float(levels[middle]), size, work.part(PARTS))
-        if isinstance(found, tuple):
-            best, known = found, worst_of(values, found)
-            low = max(middle + 1, int(np.searchsorted(levels, known, side="right")))
-        elif found is _Cover.NONE:
-            open_from = high = middle
-        else:
-            # Not decided: look further below for a portfolio; the bound is looked for above.
-            open_from = middle
-    below = max(low, open_from)
-    while below < high:
-        middle = (below + high) // 2
-        if _cover(values, float(levels[middle]), size, work.part(PARTS)) is _Cover.NONE:
-            high = middle
-        else:
-            below = middle + 1
+    # Levels from `high` on are proven not to be reached, those below `low` are reached. Each cover is looked for
+    # with a part of the work first, then with all that is left.
+    for parts in (PARTS, 1):
+        open_from = high
+        while low < open_from:
+            middle = (low + open_from) // 2
+            found = _cover(values, float(levels[middle]), size, work.part(parts))
+            if isinstance(found, tuple):
+                best, known = found, worst_of(values, found)
+                low = max(middle + 1, int(np.searchsorted(levels, known, side="right")))
+            elif found is _Cover.NONE:
+                open_from = high = middle
+            else:
+                # Not decided: look further below for a portfolio; the bound is looked for above.
+                open_from = middle
+        below = max(low, open_from)
+        while below < high:
+            middle = (below + high) // 2
+            if _cover(values, float(levels[middle]), size, work.part(parts)) is _Cover.NONE:
+                high = middle
+            else:
+                below = middle + 1
+        if low >= high or work.spent:
+            break
     bound = known if high <= low else float(levels[high - 1])
     if bound <= known + tolerance:
         bound = known

@@ -155,6 +155,13 @@ def test_a_wrong_bound_is_seen_by_the_solver(fleet, monkeypatch):
     assert set(enumerated.members) == {"2", "3"}
 
 
+@pytest.fixture
+def by_proofs_alone(monkeypatch):
+    """Neither the solver nor enumeration of all portfolios."""
+    monkeypatch.setattr(rgss.tradeoff.fleet, "LARGEST_SOLVED", 0)
+    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", 0)
+
+
 def random_table(seed, members, tasks):
     values = np.random.default_rng(seed).random((members, tasks))
     return {row + 1: tuple(values[row].tolist()) for row in range(members)}
@@ -172,9 +179,10 @@ def test_a_thousand_designs_for_twenty_tasks_by_twenty_members(fleet, aim):
 
 
 @pytest.mark.parametrize("aim", list(FleetAim))
+@pytest.mark.usefixtures("by_proofs_alone")
 def test_an_answer_that_the_work_limit_cuts_has_a_gap_that_holds(fleet, aim):
     """Every size has a portfolio and a bound, and more work changes neither for the worse."""
-    problem = fleet(random_table(3, 60, 30), at_most=6, aim=aim)
+    problem = fleet(random_table(3, 40, 20), at_most=4, aim=aim)
     cut, whole = decide_fleet(problem, most_work=60_000), decide_fleet(problem)
     assert (cut.status, cut.cut) == (DecisionStatus.BEST_FOUND, Cut.WORK)
     assert whole.status is DecisionStatus.OPTIMAL
@@ -187,8 +195,9 @@ def test_an_answer_that_the_work_limit_cuts_has_a_gap_that_holds(fleet, aim):
 
 
 @pytest.mark.parametrize("aim", list(FleetAim))
+@pytest.mark.usefixtures("by_proofs_alone")
 def test_an_answer_that_the_time_limit_cuts_says_so(fleet, aim):
-    decision = decide_fleet(fleet(random_table(3, 60, 30), at_most=6, aim=aim), time_limit=1e-9)
+    decision = decide_fleet(fleet(random_table(3, 40, 20), at_most=4, aim=aim), time_limit=1e-9)
     assert (decision.status, decision.cut) == (DecisionStatus.BEST_FOUND, Cut.TIME)
     assert decision.gap > 0.0
     with pytest.raises(TradeoffError, match="the time limit must be positive, got -1 s"):
@@ -196,12 +205,11 @@ def test_an_answer_that_the_time_limit_cuts_says_so(fleet, aim):
 
 
 @pytest.mark.parametrize("aim", list(FleetAim))
-def test_a_search_that_a_limit_ends_before_it_finds_anything_is_undecided(fleet, monkeypatch, aim):
-    monkeypatch.setattr(rgss.tradeoff.fleet, "LARGEST_SOLVED", 0)
-    monkeypatch.setattr(rgss.tradeoff.fleet_checks, "MOST_ENTRIES", 0)
+@pytest.mark.usefixtures("by_proofs_alone")
+def test_a_search_that_a_limit_ends_before_it_finds_anything_is_undecided(fleet, aim):
     values = np.random.default_rng(1).random((40, 24))
-    # No four members serve all tasks, which takes some work to prove.
-    values[np.random.default_rng(2).random((40, 24)) < 0.6] = -1.0
+    # No three members serve all tasks, which takes some work to prove.
+    values[np.random.default_rng(2).random((40, 24)) < 0.8] = -1.0
     table = {row + 1: tuple(values[row].tolist()) for row in range(40)}
     decision = decide_fleet(fleet(table, at_most=3, aim=aim), most_work=30)
     assert (decision.status, decision.members, decision.objective) == (DecisionStatus.UNDECIDED, (), None)
