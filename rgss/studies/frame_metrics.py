@@ -65,7 +65,7 @@ _OF_PHASES_ALONE: Mapping[str, tuple[MetricKind, str]] = MappingProxyType(
     {
         "commanded_tool_speed_m_s": (MetricKind("m/s"), "greatest speed of the grasp centre that was asked for"),
         "commanded_tool_acceleration_m_s2": (MetricKind("m/s**2"), "greatest acceleration that was asked for"),
-        "workpiece_displacement_m": (MetricKind("m"), "how far the object was pushed before the grasp"),
+        "workpiece_displacement_m": (MetricKind("m"), "how far the object moved before the grasp"),
         "workpiece_position_m": (MetricKind("m", 3), "position of the object in the world at the end: x, y, z"),
         "workpiece_tilt_rad": (MetricKind("rad"), "angle by which the object leans at the end"),
         "finger_force_n": (MetricKind("N", 0), "normal force at the end of the grasp, of each finger"),
