@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rgss.findings import Finding
     from rgss.studies.project import Project
 
-HELP = "check the project's files, wording and traceability, without a simulation"
+HELP = "check the project's files, wording, traceability and scene, without a simulation"
 EXAMPLE = "rgss check --explain wording.R7"
 MORE_EXAMPLES = (
     ("rgss check", "files, wording and traceability of the project"),
@@ -61,28 +61,35 @@ def _check(options: argparse.Namespace) -> int:
     from rgss.studies.bench_findings import bench_findings
     from rgss.studies.project import find_project, load_project
     from rgss.studies.regressing_designs import guard_findings
+    from rgss.studies.scene_findings import check_scene
     from rgss.studies.source_text import invisible_findings
     from rgss.studies.unread_files import unread_findings
 
+    skipped = ""
     folder = find_project(options.project)
     of_files = (*unread_findings(folder), *invisible_findings(folder))
     project: Project | None = None
     try:
         project = load_project(folder, options.study)
+        scene = check_scene(project)
+        skipped = scene.skipped
         findings: Sequence[Finding] = (
             *of_files,
             *guard_findings(project),
             *bench_findings(project),
+            *scene.findings,
             *_findings(project, options),
         )
     except DocumentError as error:
         findings = (*error.findings, *of_files)
     grave = [finding for finding in findings if finding.severity is not Severity.INFO]
     if options.json:
-        print_json({"findings": [_as_json(finding) for finding in findings]})
+        print_json({"findings": [_as_json(finding) for finding in findings], "skipped": [skipped] if skipped else []})
     else:
         for finding in findings if options.all else grave:
             print(finding)
+        if skipped:
+            print(f"Skipped: {skipped}.")
         if project is not None:
             notes = 0 if options.all else len(findings) - len(grave)
             print(_summary(project, len(grave), notes))

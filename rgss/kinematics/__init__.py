@@ -6,6 +6,7 @@ from rgss.kinematics.cartesian import straight_line
 from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.kinematics.inverse import InverseKinematics
+from rgss.kinematics.overlaps import Overlap, Solid, overlaps
 from rgss.kinematics.situation import Situation
 
 __all__ = [
@@ -15,9 +16,12 @@ __all__ = [
     "InverseKinematics",
     "Load",
     "NearestPair",
+    "Overlap",
     "Situation",
+    "Solid",
     "choose_branches",
     "gripper_loads",
+    "overlaps",
     "straight_line",
     "workpiece_load",
 ]

@@ -53,10 +53,10 @@ def collision_parts(model: Any, scene: Scene, gripper: GripperGeometry, situatio
     parts = _arm_parts(model, scene)
 
     def held(name: str, placement: Any, shape: Shape) -> Part:
-        return Part(name=name, chain=joint, joint=joint, placement=to_joint * placement, shape=_solid(shape))
+        return Part(name=name, chain=joint, joint=joint, placement=to_joint * placement, shape=solid_of(shape))
 
     def fixed(name: str, placement: Any, shape: Shape) -> Part:
-        return Part(name=name, chain=None, joint=0, placement=placement, shape=_solid(shape))
+        return Part(name=name, chain=None, joint=0, placement=placement, shape=solid_of(shape))
 
     parts.append(held(GRIPPER_BASE_LINK, transform(gripper.base_pose), gripper.base))
     for finger in range(gripper.fingers):
@@ -93,7 +93,8 @@ def _arm_parts(model: Any, scene: Scene) -> list[Part]:
     ]
 
 
-def _solid(shape: Shape) -> Any:
+def solid_of(shape: Shape) -> Any:
+    """The collision engine's solid of a shape."""
     import coal
 
     if isinstance(shape, Box):

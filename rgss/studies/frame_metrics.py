@@ -70,7 +70,7 @@ _OF_PHASES_ALONE: Mapping[str, tuple[MetricKind, str]] = MappingProxyType(
         "commanded_tool_acceleration_m_s2": (MetricKind("m/s**2"), "greatest acceleration that was asked for"),
         "workpiece_displacement_m": (
             MetricKind("m"),
-            "how far the object was moved before the grasp or after its release",
+            "how far the object moved before the grasp or after its release",
         ),
         "workpiece_position_m": (MetricKind("m", 3), "position of the object in the world at the end: x, y, z"),
         "workpiece_tilt_rad": (MetricKind("rad"), "angle by which the object leans at the end"),

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.measures import MeasureKind
+from rgss.measures import Measure, MeasureKind
 from rgss.studies.measuring import VariantMeasures
 from rgss.studies.project import Project
 from rgss.studies.replicates import replicates_of
@@ -98,17 +98,14 @@ def study_effects(project: Project, measured: Sequence[VariantMeasures], resampl
     if project.designs.sample is not None:
         return _of_sample(project, measured)
     design = _Design.of(project, measured)
-    replicates = [replicates_of(project.measures, entry) for entry in measured] if resamples is not None else []
+    replicates = {} if resamples is None else _replicate_columns(project, measured)
     found = []
     blocks: dict[bytes, tuple[tuple[int, ...], ...] | None] = {}
-    for measure in project.measures.measures:
-        if measure.kind is MeasureKind.SUPPLEMENTARY and measure.better.value == "none":
-            continue
+    for measure in _analysed(project):
         estimates = design.arranged([_number(entry.estimates[measure.id].value) for entry in measured])
         resampled = None
         if resamples is not None and measure.from_trials:
-            rows = np.array([row[measure.id] for row in replicates], dtype=np.float64)
-            resampled = resamples.means(rows)
+            resampled = resamples.means(replicates.pop(measure.id))
         known = np.isfinite(estimates)
         if known.tobytes() not in blocks:
             blocks[known.tobytes()] = largest_complete_block(known) if design.factors else None
@@ -123,6 +120,29 @@ def study_effects(project: Project, measured: Sequence[VariantMeasures], resampl
         ),
         measures=tuple(found),
     )
+
+
+def _analysed(project: Project) -> Iterator[Measure]:
+    """The measures whose effects are of interest."""
+    for measure in project.measures.measures:
+        if measure.kind is not MeasureKind.SUPPLEMENTARY or measure.better.value != "none":
+            yield measure
+
+
+def _replicate_columns(project: Project, measured: Sequence[VariantMeasures]) -> dict[str, NDArray[np.float64]]:
+    """What each replicate of each variant showed, shape (n, r), by measure that is observed in trials.
+
+    Filled row by row: as objects, the replicates of many variants take four times the memory.
+    """
+    names = [measure.id for measure in _analysed(project) if measure.from_trials]
+    columns: dict[str, NDArray[np.float64]] = {}
+    for place, entry in enumerate(measured):
+        row = replicates_of(project.measures, entry)
+        for name in names:
+            if name not in columns:
+                columns[name] = np.full((len(measured), len(row[name])), np.nan)
+            columns[name][place] = np.array(row[name], dtype=np.float64)
+    return columns
 
 
 def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEffects:
@@ -141,9 +161,7 @@ def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEf
     )
     classes = np.stack([_classes(factor, rows) for factor in factors], axis=1) if factors else np.zeros((0, 0))
     found = []
-    for measure in project.measures.measures:
-        if measure.kind is MeasureKind.SUPPLEMENTARY and measure.better.value == "none":
-            continue
+    for measure in _analysed(project):
         values = np.array([_number(entry.estimates[measure.id].value) for entry in rows])
         known = np.isfinite(values)
         enough = known.sum() >= 2 * FEWEST_PER_CLASS and bool(factors)

@@ -138,7 +138,7 @@ class Execution:
         if touched:
             return Failure.OBJECT_COLLISION, f"the object was pushed {told}"
         pose, start = self._world.workpiece_pose(), self._world.scene.workpiece.pose
-        tilt_rad = math.acos(min(1.0, max(-1.0, pose.rotate((0.0, 0.0, 1.0))[2])))
+        tilt_rad = pose.tilt_rad
         if tilt_rad > self._world.scene.place.largest_tilt_rad:
             return (
                 Failure.NOT_UPRIGHT,

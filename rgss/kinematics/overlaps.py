@@ -1,0 +1,63 @@
+"""Distances between the solids of a scene that stand still."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rgss.kinematics.description import transform
+from rgss.kinematics.geometry import solid_of
+from rgss.scenes import Pose, Shape
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solid:
+    """A named solid in the world.
+
+    Attributes:
+        name: The body that it is.
+        shape: Its shape.
+        pose: Transform of the shape's frame to the world.
+    """
+
+    name: str
+    shape: Shape
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Overlap:
+    """Two solids that share space.
+
+    Attributes:
+        first: Name of the one.
+        second: Name of the other.
+        depth_m: How far one has to move before they only touch.
+    """
+
+    first: str
+    second: str
+    depth_m: float
+
+
+def overlaps(solids: Sequence[Solid], *, deeper_than_m: float) -> tuple[Overlap, ...]:
+    """The pairs of solids that overlap, in the order of the solids.
+
+    Args:
+        solids: The solids.
+        deeper_than_m: Pairs that overlap by less are left out; those that touch overlap by nothing.
+    """
+    import coal
+
+    placed = []
+    for one in solids:
+        placement = transform(one.pose)
+        placed.append((one.name, solid_of(one.shape), coal.Transform3s(placement.rotation, placement.translation)))
+    found = []
+    for (first, shape, place), (second, other, there) in itertools.combinations(placed, 2):
+        result = coal.DistanceResult()
+        depth = -float(coal.distance(shape, place, other, there, coal.DistanceRequest(), result))
+        if depth > deeper_than_m:
+            found.append(Overlap(first=first, second=second, depth_m=depth))
+    return tuple(found)

@@ -1,0 +1,139 @@
+"""What is wrong with a project's scene, at its places in the scene file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rgss.documents import Document, read_document
+from rgss.errors import DefinitionError
+from rgss.findings import Finding, Severity
+from rgss.scenes import Waypoint
+from rgss.studies.project import Project
+from rgss.studies.task_parameters import GRIPPER
+
+if TYPE_CHECKING:
+    from rgss.trials.scene_check import SceneProblem
+
+_AT_GRASP = (Waypoint.GRASP_APPROACH, Waypoint.GRASP, Waypoint.LIFT, Waypoint.GRASP_DEPARTURE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SceneCheck:
+    """What a check of the scene found.
+
+    Attributes:
+        findings: What is wrong, by place.
+        skipped: Why the scene was not checked; empty where it was.
+    """
+
+    findings: tuple[Finding, ...]
+    skipped: str = ""
+
+
+def check_scene(project: Project) -> SceneCheck:
+    """Check the bodies of the scene, and the arm with every gripper shape of the designs, before anything is run.
+
+    Args:
+        project: The project.
+    """
+    try:
+        from rgss.trials.scene_check import reach_problems, scene_problems
+
+        of_bodies = scene_problems(project.scene)
+        of_reach: dict[SceneProblem, list[str]] = {}
+        for file in _gripper_files(project):
+            for problem in reach_problems(
+                project.scene, project.grippers[file], clearance_m=project.study.planning.clearance_m
+            ):
+                of_reach.setdefault(problem, []).append(file)
+    except ImportError as error:
+        return SceneCheck(findings=(), skipped=f"the scene is not checked: {error.name or error} is not installed")
+    except DefinitionError as error:
+        return SceneCheck(findings=(), skipped=f"the scene is not checked: {error}")
+    label = project.study.scene
+    document = read_document(project.folder / label, label=label)
+    places = _Places(project, document)
+    found = [places.finding(problem, ()) for problem in of_bodies]
+    every = len(_gripper_files(project))
+    found += [places.finding(problem, files if len(files) < every else ()) for problem, files in of_reach.items()]
+    return SceneCheck(findings=tuple(sorted(found)))
+
+
+def _gripper_files(project: Project) -> tuple[str, ...]:
+    """The geometry file of every gripper that a design has."""
+    used = {variant.components[GRIPPER].geometry for variant in project.designs.expand()}
+    return tuple(file for file in project.grippers if file in used)
+
+
+class _Places:
+    """Positions of the bodies in the scene file."""
+
+    def __init__(self, project: Project, document: Document) -> None:
+        self.document = document
+        self.at: dict[str, tuple[str | int, ...]] = {
+            body.id: ("bodies", index, "foot") for index, body in enumerate(project.scene.bodies)
+        }
+        self.at[project.scene.workpiece.id] = ("workpiece", "at")
+
+    def finding(self, problem: SceneProblem, grippers: Sequence[str]) -> Finding:
+        """A problem at the place of its first body, with the place of the other in the message."""
+        from rgss.trials.scene_check import SceneProblemKind
+
+        first, second = problem.first, self._named(problem.second)
+        millimetres = f"{problem.distance_m * 1e3:.3g} mm"
+        location: tuple[str | int, ...] = self.at.get(first, ("robot", "base"))
+        severity = Severity.ERROR
+        if problem.kind is SceneProblemKind.UNSERVED and problem.waypoint is not None:
+            location = ("workpiece", "at") if problem.waypoint in _AT_GRASP else ("place_region", "at")
+            pair = () if problem.reason is None or problem.reason.pair is None else problem.reason.pair
+            named = [self._named(body) for body in pair if body in self.at]
+            other = f" [{', '.join(named)}]" if named else ""
+            of = f" with {', '.join(grippers)}" if grippers else ""
+            message = f"no configuration of the arm{of} serves {problem.waypoint.value}: {problem.reason}{other}"
+            hint = _remedy(problem)
+        elif problem.kind is SceneProblemKind.HOME_COLLISION:
+            message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"
+            hint = "change 'home' in the robot's file, or move the body or the robot's base"
+        elif problem.kind in (SceneProblemKind.OVERLAP, SceneProblemKind.INSIDE):
+            severity = Severity.WARNING
+            inside = problem.kind is SceneProblemKind.INSIDE
+            message = f"{first} is inside {second}" if inside else f"{first} and {second} overlap, {millimetres} deep"
+            message += f", {millimetres} deep, and has no effect" if inside else ""
+            hint = f"move {first} by {millimetres}, or take it out"
+        elif problem.kind in (SceneProblemKind.OBJECT_UNSUPPORTED, SceneProblemKind.PLACE_UNSUPPORTED):
+            at_place = problem.kind is SceneProblemKind.PLACE_UNSUPPORTED
+            location = ("place_region", "at") if at_place else ("workpiece", "at")
+            where = "in its place" if at_place else "at the start"
+            message = f"{where}, {first} does not rest on {second}: its centre is {millimetres} beyond the edge"
+            hint = "move 'at' over the body, or name another in 'stands_on'"
+        else:
+            at_place = problem.kind is SceneProblemKind.PLACE_OVERLAP
+            location = ("place_region", "at") if at_place else ("workpiece", "at")
+            where = "in its place" if at_place else "at the start"
+            message = f"{where}, {first} overlaps {second}, {millimetres} deep"
+            hint = f"move 'at', or move {problem.second}"
+        rule = f"scene.{problem.kind.value.replace('_', '-')}"
+        return self.document.finding(rule, message, location, hint=hint, severity=severity)
+
+    def _named(self, body: str) -> str:
+        """A body with its place in the file, where it has one."""
+        if body not in self.at:
+            return body
+        found = self.document.finding("", "", self.at[body])
+        return f"{body} ({found.file}:{found.line}:{found.column})"
+
+
+def _remedy(problem: SceneProblem) -> str:
+    from rgss.trials.goal_reasons import Obstacle
+
+    if problem.reason is None or problem.reason.obstacle in (Obstacle.OUT_OF_REACH, Obstacle.ORIENTATION):
+        return "move it nearer to the robot, or lower the task's heights"
+    if problem.reason.obstacle is Obstacle.JOINT_RANGE:
+        return "widen the joint's range in the robot's file, or turn the grasp or the place about the vertical"
+    if problem.reason.obstacle is Obstacle.TILT:
+        return "allow more tilt with 'largest_carry_tilt'"
+    if problem.reason.obstacle is Obstacle.CLEARANCE:
+        return "move one of them, or lower the study's clearance"
+    return "move one of them, or turn the grasp or the place about the vertical"

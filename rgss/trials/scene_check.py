@@ -1,0 +1,178 @@
+"""What of a scene no trial can do: bodies in each other, an object that falls, waypoints out of reach."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.kinematics import Overlap, Solid, overlaps
+from rgss.scenes import Box, GripperGeometry, Pose, Scene, Shape, Waypoint
+from rgss.trials.goal_reasons import GoalReason
+from rgss.trials.plan import unserved_waypoints
+from rgss.trials.workcell import Workcell
+
+TOUCHING_M = 1e-3
+"""Bodies that overlap by no more are meant to touch: what a file states is rounded to millimetres."""
+
+OBJECT_TOUCHING_M = 1e-4
+"""The object is held to less, for the physics would throw it out of what it overlaps."""
+
+DEEP = 0.5
+"""Furniture may be built into other furniture, up to this share of the thinner body; more is a mistake."""
+
+_RIM = 16
+
+
+class SceneProblemKind(str, Enum):
+    """What is wrong with a scene."""
+
+    OVERLAP = "overlap"
+    INSIDE = "inside"
+    OBJECT_OVERLAP = "object_overlap"
+    PLACE_OVERLAP = "place_overlap"
+    OBJECT_UNSUPPORTED = "object_unsupported"
+    PLACE_UNSUPPORTED = "place_unsupported"
+    HOME_COLLISION = "home_collision"
+    UNSERVED = "unserved"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SceneProblem:
+    """One thing that is wrong with a scene.
+
+    Attributes:
+        kind: What.
+        first: The body that it is about, or the robot's link.
+        second: The other body; empty where there is none.
+        distance_m: The depth of an overlap, or how far the object stands beyond its support's edge; NaN
+            where neither.
+        waypoint: The waypoint that has no configuration; None for other problems.
+        reason: Why it has none; None for other problems.
+    """
+
+    kind: SceneProblemKind
+    first: str
+    second: str = ""
+    distance_m: float = math.nan
+    waypoint: Waypoint | None = None
+    reason: GoalReason | None = None
+
+
+def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
+    """What is wrong with the bodies of a scene, whatever the gripper.
+
+    Args:
+        scene: The scene.
+    """
+    return (*_furniture(scene), *_object(scene))
+
+
+def reach_problems(scene: Scene, geometry: GripperGeometry, *, clearance_m: float) -> tuple[SceneProblem, ...]:
+    """What the arm cannot do with a gripper: stand at its home, or serve a waypoint.
+
+    Args:
+        scene: The scene.
+        geometry: The gripper's shape.
+        clearance_m: Distance that planned paths keep from everything.
+
+    Raises:
+        DefinitionError: The robot is ill defined.
+    """
+    cell = Workcell(scene, geometry, clearance_m=clearance_m)
+    found = []
+    model = next(iter(cell.planning.values()))
+    pair = model.nearest_pair(scene.robot.home_rad)
+    if pair is not None and pair.distance_m < 0.0:
+        found.append(
+            SceneProblem(
+                kind=SceneProblemKind.HOME_COLLISION, first=pair.first, second=pair.second, distance_m=-pair.distance_m
+            )
+        )
+    found += [
+        SceneProblem(kind=SceneProblemKind.UNSERVED, first=scene.workpiece.id, waypoint=waypoint, reason=reason)
+        for waypoint, reason in unserved_waypoints(cell).items()
+    ]
+    return tuple(found)
+
+
+def _furniture(scene: Scene) -> Iterator[SceneProblem]:
+    solids = {body.id: Solid(name=body.id, shape=body.shape, pose=body.pose) for body in scene.bodies}
+    for one in overlaps(tuple(solids.values()), deeper_than_m=TOUCHING_M):
+        first, second = solids[one.first], solids[one.second]
+        if _holds(second, first):
+            yield _of(SceneProblemKind.INSIDE, one)
+        elif _holds(first, second):
+            yield SceneProblem(kind=SceneProblemKind.INSIDE, first=one.second, second=one.first, distance_m=one.depth_m)
+        else:
+            thinner = min(_least_extent(first.shape), _least_extent(second.shape))
+            if one.depth_m > DEEP * thinner:
+                yield _of(SceneProblemKind.OVERLAP, one)
+
+
+def _object(scene: Scene) -> Iterator[SceneProblem]:
+    workpiece = scene.workpiece
+    bodies = [Solid(name=body.id, shape=body.shape, pose=body.pose) for body in scene.bodies]
+    x, y, z = scene.place.centre_m
+    ends = (
+        (workpiece.pose, scene.support, SceneProblemKind.OBJECT_OVERLAP, SceneProblemKind.OBJECT_UNSUPPORTED),
+        (
+            Pose(position_m=(x, y, z + workpiece.shape.half_height_m)),
+            scene.place_support,
+            SceneProblemKind.PLACE_OVERLAP,
+            SceneProblemKind.PLACE_UNSUPPORTED,
+        ),
+    )
+    for pose, support, overlap, unsupported in ends:
+        solid = Solid(name=workpiece.id, shape=workpiece.shape, pose=pose)
+        for body in bodies:
+            for one in overlaps((solid, body), deeper_than_m=OBJECT_TOUCHING_M):
+                yield _of(overlap, one)
+        bearing = next(body for body in bodies if body.name == support)
+        beyond = _beyond_edge(bearing, pose)
+        if beyond > 0.0:
+            yield SceneProblem(kind=unsupported, first=workpiece.id, second=support, distance_m=beyond)
+
+
+def _of(kind: SceneProblemKind, one: Overlap) -> SceneProblem:
+    return SceneProblem(kind=kind, first=one.first, second=one.second, distance_m=one.depth_m)
+
+
+def _beyond_edge(support: Solid, pose: Pose) -> float:
+    """How far the centre of an object lies outside the top face of what bears it; 0 where it is above the face."""
+    x, y, _ = (support.pose.inverse() @ pose).position_m
+    if isinstance(support.shape, Box):
+        beyond = (abs(x) - support.shape.size_m[0] / 2, abs(y) - support.shape.size_m[1] / 2)
+        return math.hypot(max(0.0, beyond[0]), max(0.0, beyond[1]))
+    return max(0.0, math.hypot(x, y) - support.shape.radius_m)
+
+
+def _least_extent(shape: Shape) -> float:
+    return min(shape.size_m) if isinstance(shape, Box) else min(2.0 * shape.radius_m, shape.height_m)
+
+
+def _holds(outer: Solid, inner: Solid) -> bool:
+    """Whether a solid lies wholly in another, which is convex: then all of its extreme points do."""
+    to_outer = outer.pose.inverse() @ inner.pose
+    for point in _extreme_points(inner.shape):
+        x, y, z = (to_outer @ Pose(position_m=point)).position_m
+        if isinstance(outer.shape, Box):
+            half = [size / 2 + TOUCHING_M for size in outer.shape.size_m]
+            inside = abs(x) <= half[0] and abs(y) <= half[1] and abs(z) <= half[2]
+        else:
+            inside = math.hypot(x, y) <= outer.shape.radius_m + TOUCHING_M
+            inside = inside and abs(z) <= outer.shape.half_height_m + TOUCHING_M
+        if not inside:
+            return False
+    return True
+
+
+def _extreme_points(shape: Shape) -> list[tuple[float, float, float]]:
+    """The corners of a box; of a cylinder, points of its rims."""
+    if isinstance(shape, Box):
+        x, y, z = (size / 2 for size in shape.size_m)
+        return [(a * x, b * y, c * z) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
+    turns = [2.0 * math.pi * place / _RIM for place in range(_RIM)]
+    radius, half = shape.radius_m, shape.half_height_m
+    return [(radius * math.cos(t), radius * math.sin(t), z) for t in turns for z in (-half, half)]

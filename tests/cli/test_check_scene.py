@@ -1,0 +1,134 @@
+"""``rgss check`` finds what no trial could do in a scene: the pair, the distance, both places, and the remedy."""
+
+from __future__ import annotations
+
+import re
+import sys
+
+import pytest
+
+SCENE = "scenes/restaurant.yaml"
+
+
+@pytest.fixture
+def check_with(rgss, folder):
+    """Checks a project whose scene is edited."""
+
+    def check(*edits):
+        path = folder / SCENE
+        text = path.read_text(encoding="utf-8")
+        for old, new in edits:
+            assert text.count(old) == 1, old
+            text = text.replace(old, new)
+        path.write_text(text, encoding="utf-8")
+        told = rgss("check", "--json", "--project", folder)
+        return told.status, [one for one in told.document["findings"] if one["rule"].startswith("scene.")], text
+
+    return check
+
+
+def line_of(text, what):
+    return text[: text.index(what)].count("\n") + 1
+
+
+def test_the_shipped_scene_is_sound(rgss, untouched):
+    told = rgss("check", "--json", "--project", untouched)
+
+    assert told.status == 0
+    assert told.document["skipped"] == []
+    assert [one for one in told.document["findings"] if one["rule"].startswith("scene.")] == []
+
+
+def test_furniture_in_furniture(check_with):
+    status, findings, text = check_with(("foot: [-0.72 m, -1.15 m, 0 m]", "foot: [-1.30 m, -0.90 m, 0 m]  # moved"))
+
+    (one,) = findings
+    table = line_of(text, "foot: [-1.30 m, -0.90 m, 0 m]\n")
+    assert (status, one["rule"], one["severity"]) == (1, "scene.overlap", "warning")
+    assert re.fullmatch(rf"table_near and chair_left \({SCENE}:\d+:\d+\) overlap, 560 mm deep", one["message"])
+    assert (one["file"], one["line"]) == (SCENE, table)
+    assert str(line_of(text, "# moved")) in one["message"]
+    assert "560 mm" in one["hint"]
+
+
+def test_furniture_that_is_built_in_is_no_mistake(check_with):
+    """A shelf that enters the column by a centimetre."""
+    status, findings, _ = check_with(("foot: [0.42 m, 0.42 m, 0 m]", "foot: [0.43 m, 0.43 m, 0 m]"))
+
+    assert (status, findings) == (0, [])
+
+
+def test_a_body_inside_another(check_with):
+    status, findings, _ = check_with(("foot: [0.72 m, -0.06 m, 0.90 m]", "foot: [0.70 m, 0.66 m, 0.92 m]"))
+
+    (one,) = findings
+    assert (status, one["rule"]) == (1, "scene.inside")
+    assert re.match(rf"glass_rack is inside coffee_machine \({SCENE}:\d+:\d+\), \d+ mm deep", one["message"])
+
+
+def test_a_cup_in_another_body(check_with):
+    status, findings, text = check_with(("at: [0.70 m, -0.30 m]", "at: [0.72 m, -0.06 m]"))
+
+    overlap = next(one for one in findings if one["rule"] == "scene.object-overlap")
+    unserved = [one for one in findings if one["rule"] == "scene.unserved"]
+    assert status == 1
+    assert re.fullmatch(rf"at the start, cup overlaps glass_rack \({SCENE}:\d+:\d+\), 100 mm deep", overlap["message"])
+    assert (overlap["line"], overlap["severity"]) == (line_of(text, "at: [0.72 m, -0.06 m]"), "error")
+    assert any(
+        re.search(r"serves grasp: collision of \S+ with \S+, [\d.]+ mm deep", one["message"]) for one in unserved
+    )
+
+
+def test_a_cup_that_does_not_rest_on_its_support(check_with):
+    _, findings, _ = check_with(("at: [0.70 m, -0.30 m]", "at: [1.20 m, -0.30 m]"))
+
+    one = next(one for one in findings if one["rule"] == "scene.object-unsupported")
+    assert "at the start, cup does not rest on counter_pick" in one["message"]
+    assert one["message"].endswith("its centre is 150 mm beyond the edge")
+    assert "stands_on" in one["hint"]
+
+
+def test_a_place_that_is_taken(check_with):
+    _, findings, text = check_with(("at: [-0.25 m, 0.70 m]", "at: [-0.03 m, 0.68 m]"))
+
+    one = next(one for one in findings if one["rule"] == "scene.place-overlap")
+    assert "in its place, cup overlaps menu_stand" in one["message"]
+    assert one["line"] == line_of(text, "at: [-0.03 m, 0.68 m]")
+    unserved = next(one for one in findings if one["rule"] == "scene.unserved" and " serves place: " in one["message"])
+    assert "menu_stand" in unserved["message"]
+    assert unserved["line"] == one["line"]
+
+
+def test_a_waypoint_out_of_reach(check_with):
+    status, findings, _ = check_with(("approach_height: 150 mm", "approach_height: 2 m"))
+
+    assert status == 1
+    (one,) = findings
+    assert re.fullmatch(
+        r"no configuration of the arm serves grasp_approach: out of reach: 2\.\d\d m from the first axis of the arm, "
+        r"reach 1\.\d\d m with the gripper",
+        one["message"],
+    )
+    assert "nearer to the robot" in one["hint"]
+
+
+def test_a_robot_in_collision_at_its_home(check_with):
+    status, findings, _ = check_with(("base: [0 m, 0 m, 0.85 m]", "base: [0.42 m, 0.30 m, 0.85 m]"))
+
+    one = next(one for one in findings if one["rule"] == "scene.home-collision")
+    assert status == 1
+    assert re.match(r"at its home the robot is in collision: \S+ with \S+ .*mm deep", one["message"])
+    assert "'home'" in one["hint"]
+
+
+def test_without_engines_the_rest_is_checked(monkeypatch, rgss, untouched):
+    monkeypatch.setitem(sys.modules, "coal", None)
+    told = rgss("check", "--project", untouched)
+    document = rgss("check", "--json", "--project", untouched).document
+
+    assert (told.status, told.errors) == (0, "")
+    assert [line for line in told.output.splitlines() if line.startswith("Skipped: ")] == [
+        "Skipped: the scene is not checked: coal is not installed."
+    ]
+    assert "72 variants: 0 findings" in told.output
+    assert document["skipped"] == ["the scene is not checked: coal is not installed"]
