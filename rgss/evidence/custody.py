@@ -6,6 +6,7 @@ succeed and are gone in the end. A file that is cut is noticed by SQLite only wh
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 _LOGS = {"-wal": "write-ahead log", "-shm": "index of its log"}
@@ -47,6 +48,20 @@ class Custody:
         self._size = size
         self._note_logs()
         return ""
+
+    def discard_orphaned_logs(self) -> None:
+        """Remove the logs of a file that has no longer this name: SQLite would apply them to the next that gets it."""
+        try:
+            if _looked_up(self.path)[0] == self._identity:
+                return
+        except OSError:
+            # It was removed.
+            pass
+        for ending, before in self._logs.items():
+            place = self._beside(ending)
+            if _identity_or_none(place) == before:
+                with suppress(OSError):
+                    place.unlink()
 
     def _note_logs(self) -> None:
         """Take note of the logs as soon as they are there: SQLite keeps them until the last connection ends."""

@@ -24,10 +24,12 @@ class Rescue:
     Attributes:
         text: How much, and where.
         hint: What to do with it.
+        rows: How many rows.
     """
 
     text: str
     hint: str
+    rows: int = 0
 
 
 def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[Table[Any], Row]]) -> Rescue:
@@ -56,6 +58,7 @@ def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[
     return Rescue(
         text=f"{rows} rows, with all that could be read, are saved in {target.name} beside it",
         hint=f"remove what is left of {path.name}, rename {target.name} to {path.name} and run the sweep again",
+        rows=rows,
     )
 
 

@@ -150,6 +150,8 @@ class EvidenceWriter:
     def _loss(self, problem: str, pending: Rows = ()) -> StorageError:
         """The error that the store was lost, after what can be saved was saved."""
         saved = rescued(self._database.connection, self._custody.path, pending)
+        if saved.rows:
+            self._custody.discard_orphaned_logs()
         self._lost = StorageError(
             f"the evidence store {self._database.name} {problem} while it was in use; {saved.text}", hint=saved.hint
         )

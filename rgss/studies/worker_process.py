@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from multiprocessing import connection, parent_process, resource_tracker
 from typing import Any
 
+from rgss.studies.worker_cache import share_plot_cache
 from rgss.studies.worker_wire import LONGEST_ANSWER, BlockingChannel
 from rgss.trials.numeric_environment import ONE_THREAD, problem_here
 
@@ -82,6 +83,7 @@ def serve(
     """
     settle()
     _leave_the_tracker()
+    share_plot_cache()
     _redirect_output(output)
     _limit_memory(memory_limit_bytes)
     _limit_output()

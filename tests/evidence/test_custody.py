@@ -64,6 +64,9 @@ def test_a_store_that_is_lost_is_saved_as_a_whole(place, put, loss, noticed_by):
         put(store, 6)
     assert again.value is caught.value
     store.close()
+    # Of a file that has gone, or has another name, no log is left that would be applied to the next of this name.
+    if "log" not in loss and "index" not in loss and loss != "replaced":
+        assert [file.name for file in place.parent.glob("evidence.sqlite*")] == ["evidence.sqlite.rescued"]
 
     rescued = place.with_name("evidence.sqlite.rescued")
     assert verify(rescued, label="it").damages == ()
@@ -120,6 +123,23 @@ def test_a_row_that_another_has_deleted_is_noticed_in_the_end(place, put, change
     with pytest.raises(StorageError, match="does not have 1 of 4 rows that were written"):
         store.confirm()
     store.close()
+
+
+def test_the_log_of_a_lost_file_is_not_applied_to_the_one_that_took_its_place(place, put, tmp_path):
+    other = tmp_path / "other.sqlite"
+    with EvidenceStore.open(other) as store:
+        for number in range(100, 110):
+            put(store, number)
+    store = EvidenceStore.open(place, label="it")
+    for number in range(30):
+        put(store, number)
+    other.rename(place)
+    with pytest.raises(StorageError, match="was replaced by another file"):
+        store.confirm()
+    store.close()
+    assert verify(place, label="it").damages == ()
+    with EvidenceStore.open(place) as store:
+        assert {trial.record.variant for trial in store.all()} == set(range(100, 110))
 
 
 def test_what_was_saved_before_is_not_written_over(place, put):

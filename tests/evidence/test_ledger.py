@@ -217,3 +217,13 @@ def test_a_store_of_the_schema_before_gets_a_ledger(stocked):
     with EvidenceStore.open(stocked) as store:
         assert len(store.all()) == 6
     assert not is_found(stocked)
+
+
+def test_a_sound_row_in_the_place_of_another_is_found_by_the_checksum_alone(stocked, foreign):
+    with closing(sqlite3.connect(stocked, isolation_level=None)) as connection:
+        connection.execute("ATTACH ? AS other", [str(foreign)])
+        connection.execute("DELETE FROM failures WHERE rowid = 2")
+        connection.execute("INSERT INTO failures SELECT * FROM other.failures LIMIT 1")
+    assert [str(damage) for damage in verify(stocked, label="it").damages] == [
+        "ledger failures: the 6 rows are not those that were put"
+    ]

@@ -190,8 +190,8 @@ def test_what_has_been_made_has_not_failed(store, record, provenance, key):
 def test_a_failure_is_one_line_of_bounded_length(store):
     store.put_failure(failure("a" * 64, detail="MemoryError:\n  at line 3\t" + "x" * 1000, what="\ud800"))
     (kept,) = store.failures(["a" * 64]).values()
-    assert kept.detail == ("MemoryError: at line 3 " + "x" * 1000)[:500]
-    assert kept.what == "?"
+    assert kept.detail == ("MemoryError: at line 3 " + "x" * 1000)[:499] + "…"
+    assert kept.what == "�"
 
 
 @pytest.mark.parametrize(

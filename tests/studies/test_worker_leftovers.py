@@ -71,6 +71,26 @@ def test_a_pool_that_is_killed_leaves_nothing(start):
     assert [*start.temporary.iterdir()] == []
 
 
+def test_without_a_home_the_workers_share_one_folder_of_plots(start, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", "/proc/none")
+    for name in ("MPLCONFIGDIR", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    for _ in range(2):
+        process = start("plot_and_hang")
+        worker = int(process.stdout.readline())
+        watched = os.pidfd_open(worker)
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+        assert select.select([watched], [], [], 60.0)[0]
+        os.close(watched)
+        for mark in (tmp_path / "marks").iterdir():
+            mark.unlink()
+        # The same one for both, and for nobody else.
+        (folder,) = start.temporary.iterdir()
+        assert folder.name == f"rgss-matplotlib-{os.geteuid()}"
+        assert folder.stat().st_mode & 0o777 == 0o700
+
+
 def test_a_pool_needs_no_temporary_folder(start, tmp_path):
     process = start("who", folder=tmp_path / "nowhere")
     output, errors = process.communicate(timeout=120)

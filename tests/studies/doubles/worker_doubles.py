@@ -115,6 +115,15 @@ def allocate_without_end() -> None:
         taken.append(bytearray(64 * MIB))
 
 
+def plot_and_hang() -> None:
+    """Load the library of plots, as an engine does, and never come back."""
+    import matplotlib as mpl
+
+    mpl.get_configdir()
+    mpl.get_cachedir()
+    hang()
+
+
 def refuse() -> None:
     """Raise an error of ours, which another attempt would raise again."""
     raise SimulationError("the workpiece cannot have the mass 0", hint="give it some")
@@ -156,6 +165,7 @@ def act(name: str) -> object:
     return {
         "who": who,
         "hang": hang,
+        "plot_and_hang": plot_and_hang,
         "fail": fail,
         "refuse": refuse,
         "allocate": allocate_without_end,
