@@ -310,6 +310,9 @@ class ScriptedWorld:
     def hold_open(self):
         pass
 
+    def bend(self, arc_m):
+        pass
+
     def step(self):
         pass
 
