@@ -92,7 +92,7 @@ class Gate(threading.Event):
         return super().wait(timeout)
 
     def wait_until_held(self):
-        """Return once the simulation stands between two steps; it makes none before `set`."""
+        """Return once the simulation waits between two steps; it makes none before `set`."""
         assert self.held.wait(PATIENCE_S)
         self.held.clear()
 
