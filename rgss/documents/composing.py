@@ -144,7 +144,7 @@ class Composer:
         except (ValueError, OverflowError):
             # PyYAML's own parser makes a character of every number that is escaped.
             raise yaml.MarkedYAMLError(
-                problem="found an escaped number that is no character", problem_mark=loader.get_mark()
+                problem="found an escaped number beyond the last character", problem_mark=loader.get_mark()
             ) from None
         finally:
             loader.dispose()

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
 from rgss.regression.baseline import Baseline, BaselineOrigin
+
+_DIGEST = re.compile(r"[0-9a-f]{8,64}")
 
 ABSENT = "–"
 """The value of an input that is not there."""
@@ -80,7 +83,13 @@ def origin_changes(then: BaselineOrigin, now: BaselineOrigin, *, with_values: bo
         with_values: Whether the baseline has the values of inputs and the digests of modules; otherwise the
             code is compared piece by piece.
     """
-    yield from _differing(InputKind.ENGINE, then.engines, now.engines)
+    engines = now.engines
+    if not with_values:
+        # What an earlier rgss did not record cannot have changed.
+        engines = {name: version for name, version in engines.items() if name in then.engines}
+    yield from (
+        one for one in _differing(InputKind.ENGINE, then.engines, engines) if _compared(one.then) != _compared(one.now)
+    )
     if with_values:
         yield from _differing(InputKind.CONSTANT, then.constants, now.constants)
         code = sorted(
@@ -97,6 +106,15 @@ def origin_changes(then: BaselineOrigin, now: BaselineOrigin, *, with_values: bo
         yield InputChange(
             kind=InputKind.MACHINE, name="machine", then=then.machine or ABSENT, now=now.machine or ABSENT
         )
+
+
+def _compared(text: str) -> tuple[str, ...]:
+    """What counts of a version: where its names end with a digest of what it computes, that digest alone."""
+    found = set()
+    for part in text.split(" | "):
+        names, _, last = part.rpartition(" ")
+        found.add(last if names and _DIGEST.fullmatch(last) else part)
+    return tuple(sorted(found))
 
 
 def _differing(kind: InputKind, then: Mapping[str, str], now: Mapping[str, str]) -> Iterator[InputChange]:

@@ -303,7 +303,7 @@ class _Comparing:
                 records = self._records.of(trials, count)
                 changed += changed_trials(trials.run.id, before, fingerprints_of(records), trials.seeds(count))
                 compared += sum(len(set(row) & set(before.seeds)) for row in records.values())
-        # A file may have changed in what no trial reads; of a baseline without values no one can tell.
+        # A file may have changed where no trial reads it. A baseline without values cannot show that.
         harmless = {InputKind.MACHINE, *((InputKind.FILE,) if self._baseline.has_values else ())}
         machines = [f"{one.then} → {one.now}" for one in inputs if one.kind is InputKind.MACHINE]
         only_machine = bool(machines) and all(one.kind in harmless for one in inputs)

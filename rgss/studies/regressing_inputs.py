@@ -69,7 +69,7 @@ def origin_of_trials(project: Project, provenances: Sequence[Provenance]) -> Bas
         machine=_joined(one.machine for one in provenances) or machine(),
         engines={**engines, **_engines_of(provenances)},
         code={name.removeprefix(_CODE): version for name, version in installed.items() if name.startswith(_CODE)},
-        # A baseline is no input of the trials, and none could name its own digest.
+        # A baseline is not an input of the trials, and cannot contain its own digest.
         inputs={name: value for name, value in inputs.items() if not name.endswith(BASELINE_SUFFIX)},
         modules=modules,
         constants=constants_of(modules),

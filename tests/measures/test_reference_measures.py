@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -313,9 +313,22 @@ def test_every_unit_is_known(reference: MeasureSet) -> None:
         dimension(symbol.unit)
 
 
-def test_a_sweep_is_evaluated_in_well_under_a_second(reference: MeasureSet) -> None:
+def test_the_work_of_an_evaluation_does_not_grow_with_the_variants_before_it(reference: MeasureSet) -> None:
+    """Counted in calls of functions, which no other process makes more."""
     trials = [{**TRIAL, "task_time_s": 15.0 + replicate} for replicate in range(3)]
-    start = time.perf_counter()
-    for variant in range(72):
-        evaluate(reference, fixed=fixed(1), trials=trials, seed=1, variant=variant)
-    assert time.perf_counter() - start < 2.0
+    calls = []
+    for variant in range(12):
+        counted = 0
+
+        def count(_frame: object, event: str, _argument: object) -> None:
+            nonlocal counted
+            counted += event == "call"
+
+        sys.setprofile(count)
+        try:
+            evaluate(reference, fixed=fixed(1), trials=trials, seed=1, variant=variant)
+        finally:
+            sys.setprofile(None)
+        calls.append(counted)
+    assert max(calls[1:]) <= calls[1] * 1.1
+    assert calls[1] < 20_000

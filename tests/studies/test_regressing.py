@@ -12,6 +12,7 @@ from rgss.errors import DefinitionError, DocumentError, EvidenceError
 from rgss.evidence import PieceKind, Provenance
 from rgss.regression.baseline import baseline_to_text
 from rgss.regression.comparing import Outcome
+from rgss.regression.input_changes import InputKind, origin_changes
 from rgss.regression.report import Trouble
 from rgss.studies.project import load_project
 from rgss.studies.regressing import baseline_name, compare_with_baseline, make_baseline
@@ -161,6 +162,33 @@ def test_another_version_of_an_engine_needs_a_reason(compared):
     assert (report.verdict, report.fails, report.is_unexplained) == ("changed", False, True)
     accepted = compared(baseline_of=other, accepted="Bug fixes in OMPL.")
     assert (accepted.verdict, accepted.is_unexplained) == ("same", False)
+
+
+@pytest.mark.parametrize(
+    ("then", "now", "changed"),
+    [
+        ("openblas Haswell 0123abcd", "openblas Zen 0123abcd", False),
+        ("openblas Haswell 0123abcd", "openblas Haswell 0123abce", True),
+        ("a 0123abcd | b 0123abcd", "c 0123abcd", False),
+        ("a 0123abcd | b 4567abcd", "c 0123abcd", True),
+        ("1.2.3", "1.2.4", True),
+        ("12345678", "12345679", True),
+    ],
+)
+def test_of_numerics_the_results_count_and_not_their_names(project_of, then, now, changed):
+    origin = origin_of_trials(project_of(), [])
+    before, after = (replace(origin, engines={"numerics.blas": text}) for text in (then, now))
+    found = [one for one in origin_changes(before, after, with_values=True) if one.kind is InputKind.ENGINE]
+    assert bool(found) == changed
+
+
+def test_what_an_earlier_baseline_did_not_record_cannot_have_changed(project_of):
+    origin = origin_of_trials(project_of(), [])
+    later = replace(origin, engines={**origin.engines, "numerics.blas": "x 0123abcd"})
+    assert list(origin_changes(origin, later, with_values=False)) == []
+    assert [str(one) for one in origin_changes(origin, later, with_values=True)] == [
+        "engine changed: numerics.blas – → x 0123abcd"
+    ]
 
 
 def test_whatever_a_provenance_names_is_compared(project_of):

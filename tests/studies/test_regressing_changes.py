@@ -140,7 +140,7 @@ def test_a_reason_lets_a_change_pass_once(compared):
 
 
 def test_another_version_of_an_engine(compared, monkeypatch):
-    """Its trials are run again and are the same bit by bit; that of others no one knows."""
+    """Its trials are run again and are the same bit by bit; all others are unknown under it."""
     found = dict(versions_module._found())
     monkeypatch.setattr(versions_module, "_found", lambda: {**found, "toppra": "99.0"})
     report = compared()

@@ -18,7 +18,8 @@ from rgss.trials.run import run_trial
 
 pytestmark = pytest.mark.engine
 
-PATIENCE_S = 30.0
+PATIENCE_S = 600.0
+"""After so long something hangs, however busy the machine is."""
 
 
 def open_clients() -> int:
@@ -72,6 +73,30 @@ class Bystander:
                 self.action()
 
 
+class Gate(threading.Event):
+    """The event that a simulation waits for between two steps; it says when that is being waited for."""
+
+    def __init__(self):
+        super().__init__()
+        self.set()
+        self.held = threading.Event()
+
+    @classmethod
+    def of(cls, simulation):
+        gate = simulation._may_run = cls()
+        return gate
+
+    def wait(self, timeout=None):
+        if not self.is_set():
+            self.held.set()
+        return super().wait(timeout)
+
+    def wait_until_held(self):
+        """Return once the simulation waits between two steps; it makes none before `set`."""
+        assert self.held.wait(PATIENCE_S)
+        self.held.clear()
+
+
 class Runner(threading.Thread):
     """Executes a simulation in another thread and keeps what comes of it."""
 
@@ -82,7 +107,7 @@ class Runner(threading.Thread):
         self.error = None
         self.start()
         end = time.monotonic() + PATIENCE_S
-        while not simulation._executing:
+        while not simulation._executing and self.is_alive():
             assert time.monotonic() < end
             time.sleep(0.001)
 
@@ -96,13 +121,6 @@ class Runner(threading.Thread):
         self.join(PATIENCE_S)
         assert not self.is_alive()
         return self
-
-
-def wait_for(simulation, state):
-    end = time.monotonic() + PATIENCE_S
-    while simulation.state is not state:
-        assert time.monotonic() < end, simulation.state
-        time.sleep(0.001)
 
 
 def refusal(action):
@@ -202,22 +220,27 @@ def test_a_running_simulation_refuses_to_start_again(trial):
 @pytest.mark.verifies("SYS-039")
 def test_a_pause_holds_between_two_steps_and_leaves_no_trace(trial):
     spec = trial(Fidelity.CONTACT)
-    bystander = Bystander(100)
+    bystander, may_go_on = Bystander(100), threading.Event()
+
+    def stay_in_the_step():
+        may_go_on.wait(PATIENCE_S)
+        may_go_on.clear()
+        bystander.at += 100
+
+    bystander.action = stay_in_the_step
     with Simulation(spec, observer=bystander) as simulation:
-        runner = Runner(simulation)
-        assert bystander.reached.wait(PATIENCE_S)
-        for _ in range(3):
+        gate, runner = Gate.of(simulation), Runner(simulation)
+        for steps in (100, 200, 300):
+            assert bystander.reached.wait(PATIENCE_S)
+            bystander.reached.clear()
             simulation.pause()
-            time.sleep(0.02)  # the step that was under way ends
-            before = bystander.steps
-            time.sleep(0.05)
-            assert (bystander.steps, simulation.state) == (before, SimulationState.PAUSED)
+            may_go_on.set()
+            gate.wait_until_held()
+            assert (bystander.steps, simulation.state) == (steps, SimulationState.PAUSED)
             assert runner.is_alive()
             simulation.resume()
-            end = time.monotonic() + PATIENCE_S
-            while bystander.steps == before:
-                assert time.monotonic() < end
-                time.sleep(0.001)
+        bystander.action = None
+        may_go_on.set()
         record = runner.done().record
         assert simulation.state is SimulationState.FINISHED
     alone = run_trial(spec)
@@ -229,10 +252,9 @@ def test_an_observer_may_pause(trial):
     bystander = Bystander(50)
     with Simulation(trial(Fidelity.CONTACT), observer=bystander) as simulation:
         bystander.action = simulation.pause
-        runner = Runner(simulation)
-        wait_for(simulation, SimulationState.PAUSED)
-        time.sleep(0.05)
-        assert bystander.steps == 50
+        gate, runner = Gate.of(simulation), Runner(simulation)
+        gate.wait_until_held()
+        assert (bystander.steps, simulation.state) == (50, SimulationState.PAUSED)
         simulation.resume()
         assert runner.done().record.success
 
@@ -241,9 +263,10 @@ def test_an_observer_may_pause(trial):
 def test_what_is_paused_before_it_runs_waits_to_be_resumed(trial, fidelity):
     spec = trial(fidelity)
     with Simulation(spec) as simulation:
+        gate = Gate.of(simulation)
         simulation.pause()
         runner = Runner(simulation)
-        time.sleep(0.05)
+        gate.wait_until_held()
         assert runner.is_alive()
         assert simulation.state is SimulationState.PAUSED
         text = "a simulation that is paused cannot become running (it must be ready)"
@@ -273,10 +296,9 @@ def test_a_dynamic_simulation_pauses_between_two_steps(trial, monkeypatch):
 
     with monkeypatch.context() as patch, Simulation(spec) as simulation:
         patch.setattr(TorqueArm, "step", step_and_pause)
-        runner = Runner(simulation)
-        wait_for(simulation, SimulationState.PAUSED)
-        time.sleep(0.05)
-        assert len(steps) == 100
+        gate, runner = Gate.of(simulation), Runner(simulation)
+        gate.wait_until_held()
+        assert (len(steps), simulation.state) == (100, SimulationState.PAUSED)
         assert runner.is_alive()
         simulation.resume()
         record = runner.done().record
