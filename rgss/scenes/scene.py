@@ -45,7 +45,8 @@ class Workpiece:
         shape: Its solid, upright.
         mass_kg: Its mass.
         friction: Its coefficient.
-        force_limit_n: Normal force of a finger, averaged over the window, above which it counts as damaged.
+        force_limit_n: Normal force of a finger or of its landing, averaged over the window, above which it counts as
+            damaged.
         force_window_s: The window. A limit is found by pressing slowly, on a sensor that averages.
         pose: Transform of its shape's frame to the world at the start.
         colour: Colour in pictures.

@@ -27,8 +27,6 @@ class ControlSettings:
         settled_speed_m_s: Mean speed below which a released object counts as standing.
         settled_s: Time over which that is the mean.
         settling_timeout_s: Longest wait for it.
-        impact_window_s: Time over which the force of a landing is averaged, as a force sensor's filter
-            does: of a blow it is the impulse over this time, at any step rate.
         displaced_m: Displacement before the grasp beyond which the object was knocked.
         observation_rate_hz: Rate at which the pose of a held object is observed; contacts, torques and
             the tool are read at every step.
@@ -51,7 +49,6 @@ class ControlSettings:
     settled_speed_m_s: float = 0.002
     settled_s: float = 0.1
     settling_timeout_s: float = 2.0
-    impact_window_s: float = 0.01
     displaced_m: float = 0.005
     observation_rate_hz: float = 60.0
     acceleration_window_s: float = 0.02

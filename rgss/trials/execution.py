@@ -199,7 +199,7 @@ class Execution:
     def place(self) -> PhaseResult:
         """Open to the initial position and wait until the object stands."""
         world, gripper, control = self._world, self._world.gripper, self._control
-        watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world, control)
+        watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world)
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
         steps = 0

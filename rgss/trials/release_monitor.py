@@ -8,8 +8,7 @@ from rgss.evidence import Failure, Metric
 from rgss.grasping import configuration_distance_m
 from rgss.physics import Contacts, World
 from rgss.scenes import Cylinder, Pose
-from rgss.trials.control import ControlSettings
-from rgss.trials.force_window import ForceWindow
+from rgss.trials.force_sensor import ForceSensor
 
 Violation = tuple[Failure, str]
 
@@ -21,27 +20,25 @@ class LandingMonitor:
     every step rate; it is compared with the force that the object bears.
     """
 
-    def __init__(self, world: World, control: ControlSettings) -> None:
+    def __init__(self, world: World) -> None:
         """Begin when the hand still holds the object.
 
         Args:
             world: The world that is stepped.
-            control: Length of the window.
         """
         scene = world.scene
         self._world = world
         self._place = scene.place
         self._support = scene.place_support
         self._limit_n = scene.workpiece.force_limit_n
-        self._window_s = control.impact_window_s
-        self._window = ForceWindow(control.impact_window_s, world.settings.step_s)
-        self._force_n = 0.0
+        self._window_s = scene.workpiece.force_window_s
+        self._sensor = ForceSensor(self._window_s, world.settings.rate_hz)
         self._height_m = lowest_point_m(world.workpiece_pose(), scene.workpiece.shape) - scene.place.centre_m[2]
 
     def after_step(self) -> Violation | None:
         """Observe the world after a step; returns what goes wrong."""
-        force_n = self._window.add(self._world.support_force_n())
-        self._force_n = max(self._force_n, force_n)
+        self._sensor.note((self._world.support_force_n(),))
+        force_n = self._sensor.peak_n
         if force_n <= self._limit_n:
             return None
         return Failure.OBJECT_DAMAGED, (
@@ -60,7 +57,7 @@ class LandingMonitor:
 
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit."""
-        return {"release_height_m": self._height_m, "landing_force_n": self._force_n}
+        return {"release_height_m": self._height_m, "landing_force_n": self._sensor.peak_n}
 
 
 class PlacedObjectMonitor:

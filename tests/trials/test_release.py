@@ -11,10 +11,9 @@ import pytest
 from rgss.evidence import Failure, Phase
 from rgss.kinematics import Arm, InverseKinematics
 from rgss.physics import Contacts, PhysicsSettings, World
-from rgss.scenes import Pose
+from rgss.scenes import FORCE_WINDOW_S, Pose
 from rgss.trials.control import ControlSettings
 from rgss.trials.execution import Execution
-from rgss.trials.force_window import ForceWindow
 from rgss.trials.plan import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.release_monitor import PlacedObjectMonitor, lowest_point_m
@@ -22,27 +21,6 @@ from rgss.trials.timing import time_task
 from rgss.trials.workcell import workcell_of
 
 CONTROL = ControlSettings()
-
-
-@pytest.mark.parametrize("rate_hz", [120.0, 240.0, 333.0, 1000.0, 4000.0])
-@pytest.mark.parametrize("steps", [1, 2])
-def test_the_mean_of_a_blow_is_its_impulse_over_the_window_at_any_rate(rate_hz, steps):
-    window_s, impulse_n_s, step_s = 0.02, 0.35, 1.0 / rate_hz
-    window = ForceWindow(window_s, step_s)
-    blow_n = impulse_n_s / (steps * step_s)
-    means = [window.add(blow_n if 10 <= step < 10 + steps else 0.0) for step in range(400)]
-    assert max(means) == pytest.approx(impulse_n_s / window_s, rel=1e-9)
-    assert means[-1] == 0.0
-
-
-def test_a_lasting_force_is_its_own_mean():
-    window = ForceWindow(0.01, 1 / 240)
-    assert [window.add(5.0) for _ in range(10)][-1] == pytest.approx(5.0)
-
-
-def test_a_window_shorter_than_a_step_is_a_step():
-    window = ForceWindow(0.001, 1 / 240)
-    assert [window.add(force) for force in (3.0, 1.0)] == [3.0, 1.0]
 
 
 def test_the_lowest_point_is_that_of_the_lower_rim(spec_of):
@@ -80,7 +58,7 @@ def landed(spec_of):
 @pytest.mark.engine
 @pytest.mark.parametrize("height_m", [0.003, 0.01, 0.03, 0.1])
 def test_the_landing_force_is_the_momentum_over_the_window_and_the_weight_at_any_step_rate(landed, height_m):
-    mass_kg, window_s = 0.25, CONTROL.impact_window_s
+    mass_kg, window_s = 0.25, FORCE_WINDOW_S
     blow_n = mass_kg * math.sqrt(2 * 9.81 * height_m) / window_s
     for rate_hz in (240.0, 500.0, 1000.0, 2000.0):
         result = landed(height_m, rate_hz=rate_hz, force_limit_n=1e6)
