@@ -80,9 +80,9 @@ def small_case(seed: int, counts: tuple[int, ...], program: str) -> LevelCase:
 def level_case(seed: int) -> LevelCase:
     """A random level problem: rules, unknown entries, coarse tables with ties, tight and impossible demands."""
     rng = np.random.default_rng([seed, 7])
-    largest = 10.0 ** rng.choice([4.2, 4.2, 4.2, 4.6, 5.0, 6.0])
+    largest = 10.0 ** rng.choice([4.4, 4.4, 4.4, 4.6, 5.0, 6.0])
     counts: list[int] = []
-    while math.prod(counts) * 2 < 10_000 or (rng.random() < 0.7 and math.prod(counts) * 6 <= largest):
+    while math.prod(counts) < 10_000 or (rng.random() < 0.7 and math.prod(counts) * 6 <= largest):
         counts.append(int(rng.integers(2, 8)))
         if math.prod(counts) > largest:
             counts.pop()

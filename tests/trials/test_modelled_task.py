@@ -259,9 +259,12 @@ class ScriptedWorld:
             return Pose(position_m=(x + 0.2, y, z))
         if self.wrong == "the object hangs in the air":
             return Pose(position_m=(x, y, z + 0.2))
-        if self.wrong == "the object leans":
+        if self.wrong in ("the object leans", "the object has toppled"):
+            if self.wrong == "the object has toppled":
+                x += 0.05
             half = math.radians(40.0) / 2
-            return replace(self._object, quaternion_xyzw=(math.sin(half), 0.0, 0.0, math.cos(half)))
+            toppled = (math.sin(half), 0.0, 0.0, math.cos(half))
+            return replace(self._object, position_m=(x, y, z), quaternion_xyzw=toppled)
         return self._object
 
     def hand_view(self):
@@ -330,6 +333,7 @@ WRONG = (
     "the object is somewhere else",
     "the object hangs in the air",
     "the object leans",
+    "the object has toppled",
     "the object lands hard",
     "the tool is off its path",
     "the fingers are stuck",
