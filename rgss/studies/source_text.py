@@ -12,6 +12,7 @@ from rgss.documents import read_document
 from rgss.documents.output_files import DATA_FOLDERS
 from rgss.documents.reader import LARGEST_FILE_BYTES
 from rgss.documents.refusals import cut_short
+from rgss.documents.regular_file import chunks_of
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity
 from rgss.invisible_characters import code_point, invisible_places
@@ -42,9 +43,7 @@ def invisible_findings(project: Path) -> tuple[Finding, ...]:
 def _of_file(path: Path, project: Path) -> Iterator[Finding]:
     label = path.relative_to(project).as_posix()
     try:
-        if path.stat().st_size > LARGEST_FILE_BYTES:
-            return
-        text = path.read_bytes().decode("utf-8-sig")
+        text = b"".join(chunks_of(path, largest=LARGEST_FILE_BYTES)).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError):
         return  # whoever needs the file says so
     found = [(place, text[place]) for place in invisible_places(text)]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 
 from rgss.studies.scaffolding import write_scaffold
@@ -119,3 +121,14 @@ def test_invisible_characters_of_a_robot(project):
     (project / "scenes" / "a.urdf").write_text('<robot name="a&#x202E;b">\n<!-- \u200f --></robot>')
 
     assert [(each.line, each.column) for each in invisible_findings(project)] == [(1, 15), (2, 6)]
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device"])
+def test_what_is_no_regular_file_is_not_waited_for(project, kind):
+    path = project / "scenes" / "endless.yaml"
+    if kind == "pipe":
+        os.mkfifo(path)
+    else:
+        path.symlink_to("/dev/zero")
+
+    assert invisible_findings(project) == ()
