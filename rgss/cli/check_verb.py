@@ -81,7 +81,9 @@ def _check(options: argparse.Namespace) -> int:
             *_findings(project, options),
         )
     except DocumentError as error:
-        findings = (*error.findings, *of_files)
+        # A file that cannot be read may be one that something names.
+        broken = {finding.file for finding in error.findings}
+        findings = (*error.findings, *(finding for finding in of_files if finding.file not in broken))
     grave = [finding for finding in findings if finding.severity is not Severity.INFO]
     if options.json:
         print_json({"findings": [_as_json(finding) for finding in findings], "skipped": [skipped] if skipped else []})

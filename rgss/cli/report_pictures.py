@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rgss.evidence.trial_trace import TrialTrace
     from rgss.reports.report_page import TrialPictures
-    from rgss.studies.engine_process import compute
     from rgss.studies.project import Project
     from rgss.studies.report_trials import NotableTrial
     from rgss.trials.spec import TrialSpec
@@ -104,6 +103,7 @@ def trial_pictures(
 def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLook) -> TrialPictures:
     from rgss.evidence import record_digest
     from rgss.reports.report_page import TrialPictures
+    from rgss.studies.engine_process import compute
     from rgss.studies.project import DEFAULT_STUDY
     from rgss.trace.verdict_evidence import KEY_DIGITS
     from rgss.trials.tracing import run_traced_trial

@@ -154,7 +154,8 @@ def embedded_json(document: Any) -> str:
     """A document as JSON that may stand in a script element, whatever texts it has.
 
     Nothing in it can end the element or a line: what is not ASCII and the signs ``<``, ``>`` and
-    ``&`` are written as escapes, which JSON reads back as they were.
+    ``&`` are written as escapes, which JSON reads back as they were. Invisible characters are shown by
+    their code points, since the page shows the texts to people.
 
     Args:
         document: Dictionaries, lists, texts, finite numbers.

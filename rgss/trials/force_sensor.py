@@ -6,6 +6,7 @@ step as much as to the impact. The impulse over a stated window does not: as the
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Sequence
 
@@ -44,7 +45,7 @@ class ForceSensor:
         if self._rising:
             self._rising -= 1
             for forces in zip(*self._kept, strict=True):
-                mean = sum([weight * force for weight, force in zip(self._weights, forces, strict=False)])
+                mean = math.fsum([weight * force for weight, force in zip(self._weights, forces, strict=False)])
                 if mean > self.peak_n:
                     self.peak_n = mean
 

@@ -9,6 +9,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
+from rgss.invisible_characters import visible
 from rgss.reports.report_page import parted, study_report_to_html
 
 pytestmark = pytest.mark.browser
@@ -173,8 +174,8 @@ def test_texts_are_shown_as_texts(reader, study, tmp_path):
     assert reader.script("return document.querySelectorAll('img, main b').length") == 0
     assert reader.requests() == []
     assert reader.complaints() == []
-    assert reader.text(".reasons li") == HOSTILE
-    assert HOSTILE in reader.text("#variant-evidence")
+    assert reader.text(".reasons li") == visible(HOSTILE)
+    assert visible(HOSTILE) in reader.text("#variant-evidence")
     assert "<b>bold</b>" in reader.text("#planning-plot")
 
 
@@ -258,7 +259,7 @@ def test_conflicts_are_shown_at_every_width(reader, study, tmp_path):
         reader.open(file, width=width)
         assert reader.script("return document.documentElement.scrollWidth") <= width
         assert reader.complaints() == []
-    assert reader.rows(".repairs")[0] == ["SYS-004 and SYS-012", HOSTILE + HOSTILE, "22 %"]
+    assert reader.rows(".repairs")[0] == ["SYS-004 and SYS-012", visible(HOSTILE) * 2, "22 %"]
     assert "evidence is missing" in reader.text(".repairs")
     assert reader.script("return document.querySelector('.repairs b') === null")
 

@@ -53,7 +53,8 @@ def test_check_finds_a_requirement_that_nobody_asked_for(rgss, folder):
 def test_check_as_json(rgss, untouched):
     document = rgss("check", "--json", "--project", untouched).document
 
-    assert set(document) == {"findings"}
+    assert set(document) == {"findings", "skipped"}
+    assert document["skipped"] == []
     for finding in document["findings"]:
         assert {"rule", "severity", "message", "file", "line", "column"} <= set(finding)
         assert finding["severity"] == "info"

@@ -58,7 +58,7 @@ BEHAVIOURS = {
       nodes:
         - {id: start, kind: initial}
         - {id: close, kind: action, text: Close., does: ACT-2}
-        - {id: firm, kind: decision, text: Is it firm?}
+        - {id: firm, kind: decision, text: "Is it firm?"}
         - {id: again, kind: merge}
         - {id: both, kind: fork}
         - {id: lift, kind: action, text: Lift.}

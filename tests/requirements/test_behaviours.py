@@ -134,7 +134,7 @@ BROKEN_FLOWS = [
     ("kind: merge", "kind: initial", NODES, "a flow has 1 initial node, this one has 2"),
     ("kind: final", "kind: merge", NODES, "a flow has a final node, this one has none"),
     (", text: Lift.", "", (*NODES, 5), "action 'lift' has no text"),
-    (", text: Is it firm?", "", (*NODES, 2), "decision 'firm' has no text"),
+    (', text: "Is it firm?"', "", (*NODES, 2), "decision 'firm' has no text"),
     ("kind: merge", "kind: merge, does: ACT-1", (*NODES, 3, "does"), "merge 'again' does nothing; only an action does"),
     (LAST_EDGE, "{source: done, target: start}", (*NODES, 0), "initial 'start' is reached by an edge"),
     (LAST_EDGE, "{source: end, target: done}", (*NODES, 8), "final 'end' is left by an edge"),

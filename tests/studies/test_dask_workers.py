@@ -18,10 +18,9 @@ from rgss.evidence import EvidenceStore, RunFailureKind
 from rgss.studies import dask_cluster as dask_cluster_module
 from rgss.studies.dask_cluster import dask_cluster, difference
 from rgss.studies.dask_tasks import Differs, Engines, Order, are_alike, environment
-from rgss.studies.dask_workers import DaskWorkers
 from rgss.studies.expansion import trial_specs
 from rgss.studies.sweep import sweep, trials_of
-from rgss.studies.workers import Ended, Trouble
+from rgss.studies.workers import Trouble
 
 DOUBLES = Path(__file__).parent / "doubles"
 GIB = 1024**3
@@ -364,45 +363,3 @@ def test_a_difference_is_told_in_one_line():
     assert difference(missing, here) == (
         "the Dask worker tcp://x:1 cannot run trials: No package metadata was found for ompl"
     )
-
-
-class AnsweringClient:
-    """A client of a cluster that gives each task the same answer at once."""
-
-    def __init__(self, answer):
-        self.answer = answer
-
-    def nthreads(self):
-        return {"tcp://x:1": 1}
-
-    def submit(self, *_, **__):
-        return self
-
-    def add_done_callback(self, callback):
-        callback(self)
-
-    def result(self):
-        return self.answer
-
-    def release(self):
-        pass
-
-
-@pytest.mark.parametrize(
-    "answer",
-    [
-        None,
-        b"garbage",
-        Ended(key="another", result=1, trouble=None, took_s=0.1),
-        Ended(key="k", result=1, trouble=None, took_s=float("nan")),
-        Ended(key="k", result=1, trouble="trouble", took_s=0.1),
-    ],
-)
-def test_a_wrong_answer_of_a_dask_worker_costs_the_task_and_not_the_sweep(answer):
-    order = Order(name="one", environment={}, **LIMITS)
-    workers = DaskWorkers(AnsweringClient(answer), str, order, address="tcp://x:1", differs=str)
-    workers.begin("k", ())
-    (ended,) = workers.wait(60.0)
-    assert (ended.key, ended.result) == ("k", None)
-    assert ended.trouble.kind is RunFailureKind.WRONG_ANSWER
-    assert ended.trouble.detail == "a Dask worker answered something else than it was asked"

@@ -69,8 +69,8 @@ def test_a_piece_that_another_sweep_has_put_with_other_numerics_is_told_as_such(
 
 
 @pytest.mark.engine
-def test_a_sweep_says_with_what_it_computed_and_goes_on_only_with_the_same(store, specs):
-    def run(which):
+def test_a_sweep_says_with_what_it_computed_and_goes_on_only_with_the_same(store, specs, tmp_path):
+    def run(which, store=store):
         sweep(which, store, jobs=0, on_finished=lambda _: None)
 
     run(specs[:1])
@@ -78,14 +78,14 @@ def test_a_sweep_says_with_what_it_computed_and_goes_on_only_with_the_same(store
     assert stored.provenance.numerics == numerics()
     run(specs)
     assert len(store) == 2
-    for trial in store.all():
-        store.database.change("DELETE FROM trials WHERE key = ?", [trial.key])
-    store.put(stored.key, stored.record, replace(stored.provenance, numerics=OTHERS))
-    # With nothing to make there is nothing that could be mixed.
-    run(specs[:1])
-    with pytest.raises(EvidenceError, match=r"^the stored trial .* \(variant 65, seed 1\) was computed with other"):
-        run(specs)
-    assert len(store) == 1
+    with EvidenceStore.open(tmp_path / "other.sqlite") as other:
+        other.put_inputs(store.inputs(stored.provenance.inputs_digest))
+        other.put(stored.key, stored.record, replace(stored.provenance, numerics=OTHERS))
+        # With nothing to make there is nothing that could be mixed.
+        run(specs[:1], other)
+        with pytest.raises(EvidenceError, match=r"^the stored trial .* \(variant 65, seed 1\) was computed with other"):
+            run(specs, other)
+        assert len(other) == 1
 
 
 def test_a_worker_that_was_started_with_other_kernels_refuses_to_begin(monkeypatch):

@@ -207,6 +207,8 @@ DIGESTING = {
     "rgss.trials.sources",
     "rgss.trials.spec",
     "rgss.trials.syntax",
+    # Whether a trial has a bench, and which, is an input of its digest.
+    "rgss.trials.trial_bench",
     "rgss.trials.versions",
 }
 BEFORE = {"timing": ["plan"], "execution": ["plan", "timing"], "record": ["plan", "timing", "execution"]}
@@ -284,8 +286,10 @@ def called(node: ast.Call) -> str:
 
 
 def counts_only(node: ast.Call) -> bool:
-    """A sum of truth values, of ones, or of what was found to be whole numbers."""
+    """A sum of truth values, of ones, of lengths, or of what was found to be whole numbers."""
     (argument,) = node.args[:1] or [None]
+    if isinstance(argument, ast.Call) and called(argument) == "map":
+        return ast.unparse(argument.args[0]) == "len"
     if isinstance(argument, ast.GeneratorExp):
         whole = any(
             "isinstance" in ast.unparse(test) and "int" in ast.unparse(test)
