@@ -22,7 +22,7 @@ from hypothesis import settings
 from rgss.trials.numeric_environment import is_in_force, numeric_environment
 
 from . import story as story_module
-from .processor_time import ProcessorTimes, name_of, slow_tests
+from .processor_time import ProcessorTimes, file_of, name_of, slow_tests
 
 PROJECT = Path(__file__).parents[1]
 
@@ -60,7 +60,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Note on each marked test which requirements it verifies, and mark those that are known to take long."""
     slow = slow_tests()
     for item in items:
-        if name_of(item.nodeid) in slow:
+        if name_of(item.nodeid) in slow or file_of(item.nodeid) in slow:
             item.add_marker(pytest.mark.slow)
         names = dict.fromkeys(str(name) for mark in item.iter_markers("verifies") for name in mark.args)
         if names:

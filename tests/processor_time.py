@@ -15,16 +15,16 @@ from pathlib import Path
 import pytest
 
 LIST = Path(__file__).parent / "slow_tests.txt"
-LONGEST_S = 0.1
+LONGEST_S, LONGEST_FILE_S = 0.1, 0.4
 _HEAD = f"""\
-# Tests whose mean processor time exceeds {LONGEST_S} s; `make fast` leaves them out.
-# Written by: pytest --measure-slow
+# Tests whose mean processor time exceeds {LONGEST_S} s, and files whose other tests take more than {LONGEST_FILE_S} s
+# together, what they share included; `make fast` leaves them out. Written by: pytest --measure-slow
 """
 _PROPERTY = "processor_s"
 
 
 def slow_tests() -> frozenset[str]:
-    """The names of the tests that take long, without their parameters."""
+    """The names of the tests that take long, without their parameters, and of the files."""
     lines = LIST.read_text(encoding="utf-8").splitlines() if LIST.exists() else []
     return frozenset(line for line in lines if line and not line.startswith("#"))
 
@@ -32,6 +32,11 @@ def slow_tests() -> frozenset[str]:
 def name_of(nodeid: str) -> str:
     """The name of a test without its parameters."""
     return nodeid.partition("[")[0]
+
+
+def file_of(name: str) -> str:
+    """The file of a test."""
+    return name.partition("::")[0]
 
 
 class ProcessorTimes:
@@ -66,13 +71,22 @@ class ProcessorTimes:
             return
         kept = {name for name in slow_tests() if name not in self._spent_s and _exists(name, session.config.rootpath)}
         found = {name for name, times in self._spent_s.items() if times and sum(times) / len(times) > LONGEST_S}
-        LIST.write_text(_HEAD + "".join(f"{name}\n" for name in sorted(kept | found)), encoding="utf-8")
+        others: dict[str, float] = defaultdict(float)
+        for name in self._spent_s.keys() - found:
+            others[file_of(name)] += sum(self._spent_s[name])
+        files = {file for file, spent in others.items() if spent > LONGEST_FILE_S} | {
+            one for one in kept if "::" not in one
+        }
+        tests = {name for name in kept | found if file_of(name) not in files}
+        LIST.write_text(_HEAD + "".join(f"{name}\n" for name in sorted(files | tests)), encoding="utf-8")
 
 
 def _exists(name: str, root: Path) -> bool:
     file, _, function = name.partition("::")
     path = root / file
-    return path.exists() and f"def {function.rpartition('::')[2]}(" in path.read_text(encoding="utf-8")
+    return path.exists() and (
+        not function or f"def {function.rpartition('::')[2]}(" in path.read_text(encoding="utf-8")
+    )
 
 
 def _processor_s() -> float:
