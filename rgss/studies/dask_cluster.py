@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import logging
 import pickle
@@ -106,7 +107,8 @@ def dask_cluster(
                 time_limit_s=time_limit_s,
                 memory_limit_bytes=memory_limit_bytes,
             )
-            with contextlib.suppress(TimeoutError):
+            # To Python 3.10, the time-out of asyncio is none of its own.
+            with contextlib.suppress(TimeoutError, asyncio.TimeoutError):
                 client.wait_for_workers(1, timeout=patience_s)
             try:
                 yield DaskCluster(client, order, address=address, machine=_inspected(client, address, order))
