@@ -175,7 +175,7 @@ def test_infeasible_is_proved_by_each_check(guard_cases, path, name):
     infeasible = next(
         case
         for case in map(guard_cases.level_case, range(0, 5000, 5))
-        if not case.any_feasible and case.problem.space.size < 8000
+        if not case.any_feasible and case.problem.space.size < 15_000
     )
     decision = decide_levels(infeasible.problem)
     assert (decision.status, decision.variant) == (DecisionStatus.INFEASIBLE, None)
