@@ -101,7 +101,7 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, ...]:
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import shown_path
     from rgss.evidence import EvidenceStore
     from rgss.studies.evidence_state import evidence_state, project_marks
     from rgss.studies.recorded_verdicts import read_record
@@ -147,8 +147,7 @@ def _explain(options: argparse.Namespace) -> int:
 
 def _review(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN
-    from rgss.cli.output import print_json
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import print_json, shown_path
     from rgss.errors import DocumentError
     from rgss.requirements import load_requirements
     from rgss.studies.consequences import without_consequences

@@ -79,7 +79,7 @@ def _action(actions: Any, name: str, words: str, text: str) -> argparse.Argument
 
 def run(options: argparse.Namespace) -> int:
     """Do what was asked; a summary if nothing was."""
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import shown_path
     from rgss.studies.project import EVIDENCE, find_project
 
     folder = find_project(options.project)

@@ -89,7 +89,7 @@ def _model(project: Project, format_name: str, path: Path) -> bytes:
 def _write_ompl(project: Project, path: Path) -> dict[str, int]:
     from importlib.metadata import version
 
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import shown_path
     from rgss.evidence import EvidenceStore
     from rgss.exchange.ompl_database import write_ompl_database
     from rgss.studies.planning_runs import planning_runs

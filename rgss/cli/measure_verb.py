@@ -37,9 +37,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Show the measures; what has no evidence is shown as not known."""
-    from rgss.cli.output import print_json
+    from rgss.cli.output import print_json, shown_path
     from rgss.cli.screening_output import screening_lines
-    from rgss.cli.sweep_verb import shown_path
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.studies.recorded_verdicts import read_record

@@ -56,3 +56,11 @@ def number(value: float | None, digits: int = 4) -> str:
     if abs(value) >= 10.0**digits:
         return f"{value:,.0f}"
     return f"{value:.{digits}g}"
+
+
+def shown_path(path: Path) -> str:
+    """A path relative to the current folder where it lies below it."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rgss.cli.output import shown_path
 from rgss.cli.safe_output import own_stream
-from rgss.cli.sweep_verb import shown_path
 from rgss.errors import DefinitionError
 
 if TYPE_CHECKING:

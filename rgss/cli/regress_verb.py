@@ -209,7 +209,7 @@ def _told(look: int, undecided: int) -> None:
 
 
 def _shown(path: Path) -> str:
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import shown_path
 
     return shown_path(path)
 

@@ -26,8 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run it again; 1 if a bit differs, or 4 if that is within what other numerics explain."""
     from rgss.cli.main import CLEAN, FINDINGS
-    from rgss.cli.output import print_json
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import print_json, shown_path
     from rgss.evidence import EvidenceStore, record_digest
     from rgss.studies.agreement import Agreement, deviation
     from rgss.studies.replaying import find_trial, replay

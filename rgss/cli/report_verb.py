@@ -56,8 +56,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Write the page; 1 if no variant meets every requirement, or if a choice is not proven best."""
     from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import shown_path
     from rgss.cli.report_pictures import ordered_look, trial_pictures
-    from rgss.cli.sweep_verb import shown_path
     from rgss.cli.trade_verb import fleet_of, is_settled
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore

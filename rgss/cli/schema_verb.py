@@ -66,8 +66,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _write(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN
-    from rgss.cli.output import print_json
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import print_json, shown_path
     from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind
     from rgss.studies.project import find_project
     from rgss.studies.schema_headers import write_headers, write_schemas

@@ -33,11 +33,10 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
         TradeoffError: The study decides in a way that has no sequential rule.
     """
     from rgss.cli.main import CLEAN, RUN_FAILED
-    from rgss.cli.output import print_json
+    from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep_crew import crew_of
     from rgss.cli.sweep_output import lost_line
     from rgss.cli.sweep_progress import SweepProgress
-    from rgss.cli.sweep_verb import shown_path
     from rgss.errors import DefinitionError, EvidenceError
     from rgss.evidence import EvidenceStore
     from rgss.studies.sweep import sweep

@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
@@ -63,7 +62,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run what is missing; progress and failures of the run go to standard error; 3 if there are any."""
     from rgss.cli.main import CLEAN, RUN_FAILED
-    from rgss.cli.output import print_json
+    from rgss.cli.output import print_json, shown_path
     from rgss.cli.screening_output import screening_as_json, screening_lines
     from rgss.cli.sweep_crew import crew_of, jobs_of
     from rgss.cli.sweep_output import lost_line, result_as_json, result_lines
@@ -157,7 +156,7 @@ def _swept(
 
 def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[DesignVariant]) -> int:
     from rgss.cli.main import CLEAN
-    from rgss.cli.output import print_json
+    from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep_output import dry_run_as_json, dry_run_lines
     from rgss.evidence import EvidenceStore
     from rgss.studies.dry_run import dry_run
@@ -213,11 +212,3 @@ def _positive(option: str, text: str, unit: str, example: str) -> float:
     if value <= 0.0:
         raise DefinitionError(f"{option}: {shown(text)} is no limit", hint=f"write it as '{example}'")
     return value
-
-
-def shown_path(path: Path) -> str:
-    """A path relative to the current folder where it lies below it."""
-    try:
-        return str(path.resolve().relative_to(Path.cwd()))
-    except ValueError:
-        return str(path)

@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _evidence(project: Project, options: argparse.Namespace) -> TraceEvidence:
-    from rgss.cli.sweep_verb import shown_path
+    from rgss.cli.output import shown_path
     from rgss.evidence import EvidenceStore
     from rgss.studies.evidence_state import evidence_state
     from rgss.studies.recorded_verdicts import read_record

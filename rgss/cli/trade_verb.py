@@ -59,8 +59,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement, a choice is not proven best, or a part is not computed."""
     from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import shown_path
     from rgss.cli.screening_output import reopened_lines, screening_lines
-    from rgss.cli.sweep_verb import shown_path
     from rgss.cli.trade_section import decision_section, text_with_place, with_section
     from rgss.documents.output_files import write_output
     from rgss.errors import DefinitionError
