@@ -11,10 +11,10 @@ import subprocess
 from collections.abc import Iterable
 from pathlib import Path
 
-import rgss
 from rgss.documents.regular_file import chunks_of
 from rgss.errors import EvidenceError
 
+_PACKAGE = Path(__file__).resolve().parents[1]
 _PATIENCE_S = 5.0
 
 LARGEST_FILE_BYTES = 4 * 1024**3
@@ -27,7 +27,7 @@ def code_revision() -> str:
     A working copy with changes has ``+changes`` behind its revision. A released package says
     what it was built from if it was installed from version control.
     """
-    package = Path(rgss.__file__).resolve().parent
+    package = _PACKAGE
     if _git(package, "ls-files", "--error-unmatch", "__init__.py") is None:
         # Another project's repository may lie around the folder in which rgss is installed.
         return _installed_from()
