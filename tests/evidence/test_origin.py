@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-import rgss
 from rgss.errors import EvidenceError
 from rgss.evidence import Provenance, origin
 from rgss.evidence.origin import code_revision, file_digests, machine
@@ -39,7 +38,7 @@ def package(tmp_path, monkeypatch):
     folder = tmp_path / "checkout" / "rgss"
     folder.mkdir(parents=True)
     (folder / "__init__.py").write_text("", encoding="utf-8")
-    monkeypatch.setattr(rgss, "__file__", str(folder / "__init__.py"))
+    monkeypatch.setattr(origin, "_PACKAGE", folder)
     git(folder.parent, "init")
     return folder
 
