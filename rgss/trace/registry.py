@@ -19,11 +19,6 @@ from rgss.trace import (
     reviews,
     upkeep,
     verification_evidence,
-    wording_logic,
-    wording_numbers,
-    wording_repetition,
-    wording_structure,
-    wording_words,
 )
 from rgss.trace.evidence_state import EvidenceState
 from rgss.trace.marked_tests import MarkedTest
@@ -32,6 +27,7 @@ from rgss.trace.model import TraceModel, build_trace_model
 from rgss.trace.rule import Breach, EvidenceRule, MarkRule, ModelRule, Rule, SentenceRule
 from rgss.trace.sentences import read_sentence, words_of
 from rgss.trace.terms import TermList
+from rgss.trace.wording_all import WORDING_RULES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,13 +50,7 @@ FAMILIES: tuple[RuleFamily, ...] = (
     RuleFamily(title="Evidence", rules=verification_evidence.RULES),
     RuleFamily(
         title="Wording",
-        rules=(
-            *wording_structure.RULES,
-            *wording_words.RULES,
-            *wording_numbers.RULES,
-            *wording_logic.RULES,
-            *wording_repetition.RULES,
-        ),
+        rules=WORDING_RULES,
     ),
     RuleFamily(title="Reviews", rules=reviews.RULES),
     RuleFamily(title="Settings and exemptions", rules=upkeep.RULES),

@@ -15,17 +15,20 @@ class FrontDoorContract(Contract):
 
     type_name = "front_door"
 
-    def check(self, graph: grimp.ImportGraph, verbose: bool) -> ContractCheck:  # noqa: FBT001 (import-linter's signature)
+    def check(self, graph: grimp.ImportGraph, verbose: bool) -> ContractCheck:
         """Find the imports that pass a front door by."""
         roots = self.session_options["root_packages"]
-        passing_by = []
+        passing_by: list[tuple[str, str]] = []
         for module in sorted(graph.modules):
             package = module.rpartition(".")[0]
             if module.partition(".")[0] not in roots or package in {"", *roots} or graph.find_children(module):
                 continue
-            for importer in sorted(graph.find_modules_that_directly_import(module)):
-                if importer != package and not importer.startswith(f"{package}."):
-                    passing_by.append((importer, module))
+            importers = sorted(graph.find_modules_that_directly_import(module))
+            passing_by += [
+                (importer, module)
+                for importer in importers
+                if importer != package and not importer.startswith(f"{package}.")
+            ]
         return ContractCheck(kept=not passing_by, metadata={"passing_by": passing_by})
 
     def render_broken_contract(self, check: ContractCheck) -> None:
