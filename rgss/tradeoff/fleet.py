@@ -159,7 +159,8 @@ def decide_fleet(
     A member's value in a task is that of its best feasible alternative. A member that another is at
     least as good as in every task is left out before. For each size a portfolio is searched for by
     greedy choice and exchanges, and proven best by branch and bound: with Lagrangian bounds for the
-    mean, over covers for the worst task. Both bounds are computed in NumPy from the values alone.
+    mean, over covers for the worst task. Both bounds are computed in NumPy from the values alone; the weights
+    that bound covers are proposed by a linear program, and hold whatever it answers.
     Where it is small enough, HiGHS solves the mixed-integer program as well, and all portfolios are
     enumerated; what they find better is used.
 

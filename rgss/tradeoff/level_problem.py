@@ -17,6 +17,7 @@ from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.program import AdditiveValue, Program
 from rgss.tradeoff.stage import StageSolution
 from rgss.tradeoff.status import DecisionStatus
+from rgss.tradeoff.sums import is_piecewise
 from rgss.tradeoff.values import ValueFunction
 from rgss.tradeoff.weight_bounds import WeightBounds
 from rgss.tradeoff.weighting import Weighting
@@ -183,6 +184,7 @@ def decide_levels(problem: LevelProblem) -> LevelDecision:
         replicates={},
         alternative_of=problem.alternative,
         levels_of=problem.levels_of,
+        curved=frozenset(one.measure for one in problem.value_functions if not is_piecewise(one)),
     )
     exhaustive = problem.space.size <= LARGEST_ENUMERATED
     grid = LevelGrid.of(problem.space, problem.tables)
