@@ -113,8 +113,7 @@ def measure(project: Project, fingers: int) -> list[Carried]:
             changed = with_physics(spec, rate_hz, iterations)
             # The whole force at once: a looser first grip has a margin below that of the mass.
             control = replace(changed.settings.control, holding_share=1.0)
-            # So heavy an object lands with more than the cup bears; what is asked here is the carry.
-            workpiece = replace(spec.scene.workpiece, mass_kg=share * limit_kg, force_limit_n=1.0e3)
+            workpiece = replace(spec.scene.workpiece, mass_kg=share * limit_kg)
             changed = replace(
                 changed,
                 settings=replace(changed.settings, control=control),
