@@ -121,6 +121,8 @@ def test_the_sensed_force_of_closing_converges_as_the_step_shrinks(carry, finger
     finest = read[-1]
     assert read == pytest.approx([finest] * len(read), rel=within)
     assert read[2:] == pytest.approx([finest] * len(read[2:]), rel=0.07)
+    # With the damping that the implicit step adds on top of the pad's, 1000 Hz reads 6 % low.
+    assert read[3:] == pytest.approx([finest] * len(read[3:]), rel=0.04)
     # Of the impulse, no more than the motor's over the window and the momentum of a finger that rebounds as fast.
     gripper = replace(carry.spec.gripper, **finger)
     window_s = carry.spec.scene.workpiece.force_window_s
