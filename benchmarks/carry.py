@@ -113,8 +113,7 @@ def measure(project: Project, fingers: int) -> list[Carried]:
             changed = with_physics(spec, rate_hz, iterations)
             # The whole force at once: a looser first grip has a margin below that of the mass.
             control = replace(changed.settings.control, holding_share=1.0)
-            # So heavy an object lands with more than the cup bears; what is asked here is the carry.
-            workpiece = replace(spec.scene.workpiece, mass_kg=share * limit_kg, force_limit_n=1.0e3)
+            workpiece = replace(spec.scene.workpiece, mass_kg=share * limit_kg)
             changed = replace(
                 changed,
                 settings=replace(changed.settings, control=control),
@@ -212,7 +211,13 @@ def write_forces(out: Any, project: Project) -> None:
     out.write(f"| finger | {heads} |\n|---|{'---|' * len(FORCE_RATES_HZ)}\n")
     for name, row in off.items():
         out.write(f"| {name} | {' | '.join(f'{percent:.0f} %' for percent in row.values())} |\n")
-    out.write("\nA study with fast heavy fingers near an object's limit uses 1000 Hz.\n\n")
+    out.write(
+        "\nAt 240 Hz the window of 10 ms and the impact are 2.4 steps long, and what is read depends on where in\n"
+    )
+    out.write(
+        "a step the impact begins. From ten steps on it is within 10 %. `rgss check` warns of designs whose impact\n"
+    )
+    out.write("has fewer, if whether it damages the object depends on it.\n\n")
 
 
 def _cell(rows: Sequence[Carried]) -> str:

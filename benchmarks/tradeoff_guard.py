@@ -2,7 +2,7 @@
 
 The brute force shares no code with the package. Each problem is decided twice: with all combinations evaluated
 by the package, and by the solver with its checks alone (every third of those without a complete interval
-branch and bound, so that it depends on runs of the solver). In three of four, fewer tables are merged, so that
+branch and bound, so that it depends on runs of the solver). In one of four, larger tables are merged, so that
 both forms of the program are tried.
 
 Run it from the repository's folder: ``python benchmarks/tradeoff_guard.py [LEVEL_PROBLEMS] [FLEETS] [FIRST_SEED]``.
@@ -31,6 +31,8 @@ from rgss.tradeoff.level_selection import LevelModel, LevelSelection
 from rgss.tradeoff.stage import RUNS, SolverRun, StageSolver
 
 TOLERANCE = 1e-9
+MERGED = 1_000
+"""Tables of up to so many entries are merged where the form with merged tables is tried."""
 
 OLD_RUN = SolverRun(
     name="tolerances of 1e-10, no presolve",
@@ -75,12 +77,14 @@ def main() -> int:
             if outcome not in ("right", "infeasible, right"):
                 sys.stdout.write(f"fleet {first + place // 4}: {outcome}\n")
         if place % 20 == 19 or place == most - 1:
-            _write(counts, time.perf_counter() - start)
+            done = f"level problems {first} to {first + min(place + 1, levels) - 1}" if levels else ""
+            fleets_done = f"fleets {first} to {first + min(place // 4 + 1, fleets) - 1}" if fleets else ""
+            _write(counts, ", ".join(filter(None, (done, fleets_done))), time.perf_counter() - start)
     return int(any(outcome not in ("right", "infeasible, right") for _, outcome in counts))
 
 
-def _write(counts: Mapping[tuple[str, str], int], seconds: float) -> None:
-    sys.stdout.write(f"\nafter {seconds:.0f} s\n\n| problems | outcome | count |\n|---|---|---|\n")
+def _write(counts: Mapping[tuple[str, str], int], done: str, seconds: float) -> None:
+    sys.stdout.write(f"\n{done}: after {seconds:.0f} s\n\n| problems | outcome | count |\n|---|---|---|\n")
     for (kind, outcome), count in sorted(counts.items()):
         sys.stdout.write(f"| {kind} | {outcome.split(':')[0]} | {count} |\n")
     sys.stdout.flush()
@@ -90,8 +94,8 @@ def level_outcome(case: LevelCase, path: str, *, seed: int) -> str:
     """What the decision of a level problem is, compared with brute force."""
     module, bound, tables = rgss.tradeoff.level_problem, rgss.tradeoff.level_guard, rgss.tradeoff.level_selection
     enumerated, interval, merged = module.LARGEST_ENUMERATED, bound.interval_bound, tables.LARGEST_TABLE
-    if seed % 4:
-        tables.LARGEST_TABLE = 500
+    if seed % 4 == 0:
+        tables.LARGEST_TABLE = MERGED
     if path == "solver":
         module.LARGEST_ENUMERATED = 0
         if seed % 3 == 0:

@@ -43,6 +43,9 @@ from rgss.tradeoff import (
 
 PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
 NAMES = "abc"
+SMALLEST, LARGEST = 1e4, 1e6
+"""So many combinations the random level problems have."""
+
 EQUAL = 1e-9
 
 Grid = NDArray[np.float64]
@@ -77,16 +80,25 @@ def small_case(seed: int, counts: tuple[int, ...], program: str) -> LevelCase:
     return _case(np.random.default_rng(seed), counts, program, plain=True)
 
 
-def level_case(seed: int) -> LevelCase:
-    """A random level problem: rules, unknown entries, coarse tables with ties, tight and impossible demands."""
+def level_case(seed: int, *, largest: float = LARGEST) -> LevelCase:
+    """A random level problem: rules, unknown entries, coarse tables with ties, tight and impossible demands.
+
+    The number of combinations is log-uniform from `SMALLEST` to the largest.
+    """
     rng = np.random.default_rng([seed, 7])
-    largest = 10.0 ** rng.choice([4.4, 4.4, 4.4, 4.6, 5.0, 6.0])
-    counts: list[int] = []
-    while math.prod(counts) < 10_000 or (rng.random() < 0.7 and math.prod(counts) * 6 <= largest):
-        counts.append(int(rng.integers(2, 8)))
-        if math.prod(counts) > largest:
-            counts.pop()
-    return _case(rng, tuple(counts), PROGRAMS[seed % len(PROGRAMS)], plain=False)
+    return _case(rng, _counts(rng, largest), PROGRAMS[seed % len(PROGRAMS)], plain=False)
+
+
+def _counts(rng: np.random.Generator, largest: float) -> tuple[int, ...]:
+    """Numbers of levels from 2 to 7 whose product is within a tenth of a number that is log-uniform."""
+    aim = math.exp(rng.uniform(math.log(SMALLEST), math.log(largest)))
+    low, high = max(SMALLEST, 0.9 * aim), min(largest, 1.1 * aim)
+    while True:
+        counts: list[int] = []
+        while math.prod(counts) < low:
+            counts.append(int(rng.integers(2, 8)))
+        if math.prod(counts) <= high:
+            return tuple(counts)
 
 
 def _case(rng: np.random.Generator, counts: tuple[int, ...], program: str, *, plain: bool) -> LevelCase:

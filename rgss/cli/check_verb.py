@@ -59,6 +59,7 @@ def _check(options: argparse.Namespace) -> int:
     from rgss.errors import DocumentError
     from rgss.findings import Severity
     from rgss.studies.bench_findings import bench_findings
+    from rgss.studies.impact_findings import impact_findings
     from rgss.studies.project import find_project, load_project
     from rgss.studies.regressing_designs import guard_findings
     from rgss.studies.scene_findings import check_scene
@@ -77,6 +78,7 @@ def _check(options: argparse.Namespace) -> int:
             *of_files,
             *guard_findings(project),
             *bench_findings(project),
+            *impact_findings(project),
             *scene.findings,
             *_findings(project, options),
         )

@@ -47,7 +47,7 @@ def print_cautions(project: Project, decision: Decision) -> None:
 def print_certificate(decision: Decision, evidence: str) -> None:
     """Show what the decision is proven by, and its evidence."""
     from rgss.cli.output import number
-    from rgss.tradeoff import Agreement
+    from rgss.tradeoff import Agreement, CheckKind
 
     certificate = decision.certificate
     compared = {
@@ -59,7 +59,7 @@ def print_certificate(decision: Decision, evidence: str) -> None:
         f"Certificate: {certificate.status.value} by {certificate.solver}, gap {number(certificate.gap)}; {compared}."
     )
     for check in certificate.checks:
-        if not check.agrees:
+        if not check.agrees or check.kind is CheckKind.INDEPENDENT_SOLVER:
             print(f"Check: {check.text}.")
     print(f"Evidence: {evidence}")
 
@@ -67,7 +67,7 @@ def print_certificate(decision: Decision, evidence: str) -> None:
 def print_fleet(fleet: FleetDecision) -> None:
     """Show a portfolio of designs and who serves which study."""
     from rgss.cli.output import number, print_table
-    from rgss.tradeoff import DecisionStatus
+    from rgss.tradeoff import CheckKind, DecisionStatus
 
     print("\nFleet")
     cut = "" if fleet.cut is None else f" ({fleet.cut.value})"
@@ -89,7 +89,7 @@ def print_fleet(fleet: FleetDecision) -> None:
         proof += f"; of fewer members not every value is{cut}"
     print(f"Certificate: {proof}; enumeration of all fleets: {fleet.enumeration_agrees.value}.")
     for check in fleet.checks:
-        if not check.agrees:
+        if not check.agrees or check.kind is CheckKind.INDEPENDENT_SOLVER:
             print(f"Check: {check.text}.")
 
 

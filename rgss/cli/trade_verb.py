@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from rgss.studies.robustness import Robustness
     from rgss.studies.screening import ScreeningResult
     from rgss.studies.what_if import Scenario
-    from rgss.tradeoff import Decision, FleetDecision
+    from rgss.tradeoff import Decision, FleetDecision, SolverRun
 
 HELP = "decide which variant is best, say why, and what would change that"
 EXAMPLE = 'rgss trade --what-if weight.t_e=0.4 --what-if "SYS-012.threshold=0.9 kg"'
@@ -48,6 +48,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help='how long to prove a fleet best, such as "60 s" (default: a count of operations, some 20 s, which '
         "gives the same answer on every machine)",
     )
+    parser.add_argument(
+        "--solver-check",
+        choices=("scip",),
+        help="solve every program by another solver too; the certificate names the solvers that agree (scip: "
+        "pip install 'rgss[scip]')",
+    )
     parser.add_argument("--brief", action="store_true", help="only the decision and why")
     parser.add_argument("--effects", action="store_true", help="also what each level of each factor does to a measure")
     parser.add_argument("--section", action="store_true", help="print the decision as a section in Markdown")
@@ -68,12 +74,14 @@ def run(options: argparse.Namespace) -> int:
     from rgss.studies.choosing import choose
     from rgss.studies.screening import measure_survivors
     from rgss.studies.what_if import measured_in, suppose
+    from rgss.tradeoff import SolverCheck, independent_run
 
     if options.into is not None and not options.section:
         raise DefinitionError("--into needs --section", hint="the section is what goes into the file")
     if options.section and (options.what_if or options.json):
         raise DefinitionError("--section is of the study as it is", hint="leave --what-if and --json away")
     time_limit = seconds_of(options.time_limit)
+    independent = () if options.solver_check is None else (independent_run(SolverCheck(options.solver_check)),)
     place = None if options.into is None else text_with_place(options.into)
     project = chosen_project(options)
     scenario = suppose(project, options.what_if) if options.what_if else None
@@ -81,12 +89,12 @@ def run(options: argparse.Namespace) -> int:
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store)
         more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
-        fleet = fleet_of(project, store, time_limit=time_limit)
-    before = (project, measured, choose(project, measured))
+        fleet = fleet_of(project, store, time_limit=time_limit, independent=independent)
+    before = (project, measured, choose(project, measured, independent=independent))
     now = before
     if scenario is not None:
         supposed = measured_in(scenario, measured)
-        now = (scenario.project, supposed, choose(scenario.project, supposed))
+        now = (scenario.project, supposed, choose(scenario.project, supposed, independent=independent))
     found = None if options.brief and not options.section else _robustness(now)
     if options.section and found is not None:
         section = decision_section(*now, found)
@@ -154,7 +162,9 @@ def _robustness(side: tuple[Project, Sequence[VariantMeasures], Decision]) -> Ro
     return analyse_robustness(*side)
 
 
-def fleet_of(project: Project, store: Any, *, time_limit: float | None = None) -> FleetDecision | None:
+def fleet_of(
+    project: Project, store: Any, *, time_limit: float | None = None, independent: tuple[SolverRun, ...] = ()
+) -> FleetDecision | None:
     """The portfolio of the study, from the evidence of every study that it serves; None if it has none."""
     if project.study.trade_off.fleet is None:
         return None
@@ -163,7 +173,7 @@ def fleet_of(project: Project, store: Any, *, time_limit: float | None = None) -
 
     projects = fleet_projects(project)
     measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
-    return choose_fleet(project, measured, time_limit=time_limit)
+    return choose_fleet(project, measured, time_limit=time_limit, independent=independent)
 
 
 def _print_page(

@@ -1,6 +1,7 @@
 """Output files: one mechanism by which every verb writes a file.
 
-A regular file is replaced as a whole or not at all, and keeps its permissions; a symbolic link is
+A regular file is replaced as a whole or not at all, and keeps its owner, permissions and extended attributes;
+one with several names (hard links), or whose owner cannot be kept, gets its content in place. A symbolic link is
 followed and stays; a device, a pipe or a socket is written to; a source of a project is refused.
 """
 
@@ -216,13 +217,46 @@ def _swapped(target: _Target) -> Iterator[Path]:
         yield part
         with part.open("rb+") as file:
             os.fsync(file.fileno())
-        if target.status is not None:
-            with suppress(OSError):
-                os.chown(part, target.status.st_uid, target.status.st_gid)
-            part.chmod(stat.S_IMODE(target.status.st_mode))
-        part.replace(target.path)
+        if target.status is None:
+            part.replace(target.path)
+        elif target.status.st_nlink > 1 or not _made_alike(part, target.path, target.status):
+            _overwrite(target.path, part)
+        else:
+            part.replace(target.path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def _made_alike(part: Path, old: Path, status: os.stat_result) -> bool:
+    """Give a file the owner, the permissions and the extended attributes of another; false if it may not have them."""
+    try:
+        os.chown(part, status.st_uid, status.st_gid)
+        # Access control lists are among them.
+        for name in os.listxattr(old) if hasattr(os, "listxattr") else ():
+            os.setxattr(part, name, os.getxattr(old, name))
+        part.chmod(stat.S_IMODE(status.st_mode))
+    except OSError:
+        return False
+    return True
+
+
+def _overwrite(path: Path, part: Path) -> None:
+    """Put the content of a finished file into another, under all of its names.
+
+    The room is reserved first, so that a full disk leaves the old content as it was.
+    """
+    with part.open("rb") as source, path.open("rb+") as sink:
+        old, new = os.fstat(sink.fileno()).st_size, os.fstat(source.fileno()).st_size
+        try:
+            if new > old and hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(sink.fileno(), old, new - old)
+        except OSError:
+            sink.truncate(old)
+            raise
+        shutil.copyfileobj(source, sink)
+        sink.truncate(new)
+        sink.flush()
+        os.fsync(sink.fileno())
 
 
 @contextmanager

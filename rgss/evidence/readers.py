@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 import types
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
@@ -80,7 +81,8 @@ def _mapping_reader(read_item: Reader) -> Reader:
         found = {}
         try:
             for key, item in data.items():
-                found[key] = read_item(item)
+                # Thousands of records have the same keys; interned, they share them.
+                found[sys.intern(key)] = read_item(item)
         except MismatchError as error:
             raise error.within(f".{key}") from None
         return found

@@ -256,7 +256,10 @@ class EvidenceStore:
         Raises:
             EvidenceError: A row is damaged, or the file cannot be read.
         """
-        return {key: trial.record for key, trial in self._those(TRIALS, keys).items()}
+        wanted = list(keys)
+        with self.database.transaction("DEFERRED"):
+            # The rest of each trial is let go at once: of many, it is larger than the records.
+            return {key: trial.record for key in wanted if (trial := self._get(TRIALS, key)) is not None}
 
     def trials_of(self, variant: int, seed: int, fidelity: Fidelity) -> tuple[StoredTrial, ...]:
         """All trials of a variant with a seed, whatever else went into them.

@@ -33,7 +33,8 @@ class PhysicsSettings:
             held, and the arm's motors alone converge sooner.
         pad_stiffness_n_m: Normal stiffness of one finger's pad. A layer of rubber of 2.5 MPa, 2 mm thick, that
             is touched over 80 mm by 1 mm has 100 kN/m: 10 N deflect it by 0.1 mm.
-        pad_retardation_s: Damping of the pad over its stiffness.
+        pad_retardation_s: Damping of the pad over its stiffness. An implicit step damps by itself with a retardation of
+            one step, so a step that is longer than the pad's retardation damps more than the pad.
     """
 
     rate_hz: float = 240.0
@@ -46,6 +47,15 @@ class PhysicsSettings:
     def step_s(self) -> float:
         """Length of one step."""
         return 1.0 / self.rate_hz
+
+    @property
+    def pad_damping_n_s_m(self) -> float:
+        """Damping of one finger's pad that is left to the engine.
+
+        The engine's spring presses with k x + (k dt + c) v of the step's end: the implicit step adds k dt to the
+        damping c.
+        """
+        return self.pad_stiffness_n_m * max(0.0, self.pad_retardation_s - self.step_s)
 
     def lightest_body_kg(self, *, force_n: float, speed_m_s: float, iterations: int | None = None) -> float:
         """Mass of a body, finger or object, through which the solver passes the whole force of a finger.

@@ -380,7 +380,7 @@ class World:
                 lateralFriction=self.gripper.friction,
                 frictionAnchor=1,
                 contactStiffness=stiffness_n_m,
-                contactDamping=self.settings.pad_retardation_s * stiffness_n_m,
+                contactDamping=self.settings.pad_damping_n_s_m / RIBS,
                 physicsClientId=client,
             )
         if len(self._finger_joints) == 2:

@@ -5,13 +5,14 @@ from rgss.scenes.gripper_file import load_gripper
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Joint, Robot
 from rgss.scenes.robot_file import load_robot
-from rgss.scenes.scene import FORCE_WINDOW_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
+from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
 from rgss.scenes.scene_file import load_scene
 from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.waypoints import Waypoint, waypoint_poses
 
 __all__ = [
     "FORCE_WINDOW_S",
+    "LANDING_LIMIT_M_S",
     "Box",
     "Cylinder",
     "Gripper",

@@ -12,6 +12,7 @@ from rgss.documents import (
     Identifier,
     Kilograms,
     Metres,
+    MetresPerSecond,
     MetresPerSecondSquared,
     NewtonMetres,
     Newtons,
@@ -21,7 +22,7 @@ from rgss.documents import (
     Seconds,
     Text,
 )
-from rgss.scenes.scene import FORCE_WINDOW_S, LARGEST_DRAG_M, LARGEST_DROP_M
+from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, LARGEST_DRAG_M, LARGEST_DROP_M
 
 Colour = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}$")]
 Point = tuple[Metres, Metres, Metres]
@@ -64,6 +65,7 @@ class WorkpieceEntry(DocumentModel):
     friction: Dimensionless
     force_limit: Newtons
     force_window: Seconds = FORCE_WINDOW_S
+    landing_limit: MetresPerSecond = LANDING_LIMIT_M_S
     stands_on: Identifier
     at: PointOnTop
     colour: Colour

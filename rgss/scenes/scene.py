@@ -16,6 +16,9 @@ ColourRgba = tuple[float, float, float, float]
 FORCE_WINDOW_S = 0.01
 """Default window of the force that damages a workpiece: the period of a sensor that reports at 100 Hz."""
 
+LANDING_LIMIT_M_S = 1.0
+"""Default velocity change that a workpiece bears as it lands: that of a fall of 51 mm without rebound."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneBody:
@@ -45,9 +48,11 @@ class Workpiece:
         shape: Its solid, upright.
         mass_kg: Its mass.
         friction: Its coefficient.
-        force_limit_n: Normal force of a finger or of its landing, averaged over the window, above which it counts as
-            damaged.
+        force_limit_n: Normal force of a finger, averaged over the window, above which it counts as damaged.
         force_window_s: The window. A limit is found by pressing slowly, on a sensor that averages.
+        landing_limit_m_s: Velocity change on landing above which it counts as damaged: the critical velocity change
+            of ASTM D3332. A blow that is shorter than what it hits can yield damages by its velocity change, and
+            not by its force, which at the same speed grows with the mass.
         pose: Transform of its shape's frame to the world at the start.
         colour: Colour in pictures.
     """
@@ -58,6 +63,7 @@ class Workpiece:
     friction: float
     force_limit_n: float
     force_window_s: float = FORCE_WINDOW_S
+    landing_limit_m_s: float = LANDING_LIMIT_M_S
     pose: Pose
     colour: ColourRgba
 

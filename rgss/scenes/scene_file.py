@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -57,6 +58,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
             friction=workpiece.friction,
             force_limit_n=workpiece.force_limit,
             force_window_s=workpiece.force_window,
+            landing_limit_m_s=workpiece.landing_limit,
             pose=Pose(position_m=centre),
             colour=_colour(workpiece.colour),
         ),
@@ -139,6 +141,15 @@ def _drop_findings(entry: SceneDocument, document: Document) -> Iterable[Finding
             ("task", "place_clearance"),
             hint="release it lower, or let place_region have a larger largest_drop",
         )
+    speed, limit = math.sqrt(2.0 * max(0.0, entry.gravity * clearance)), entry.workpiece.landing_limit
+    if speed > limit > 0.0:
+        yield document.finding(
+            "scene.landing",
+            f"a place_clearance of {clearance * 1e3:g} mm lands the object with {speed:.2f} m/s, "
+            f"it bears {limit:g} m/s",
+            ("task", "place_clearance"),
+            hint="release it lower, or give the workpiece a greater landing_limit",
+        )
 
 
 def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
@@ -156,6 +167,7 @@ def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
     yield ("workpiece", "mass"), work.mass
     yield ("workpiece", "force_limit"), work.force_limit
     yield ("workpiece", "force_window"), work.force_window
+    yield ("workpiece", "landing_limit"), work.landing_limit
     yield ("place_region", "radius"), place.radius
     yield ("place_region", "largest_tilt"), place.largest_tilt
     yield ("place_region", "largest_drag"), place.largest_drag

@@ -33,14 +33,19 @@ def bench_findings(project: Project) -> Iterator[Finding]:
     for sentence, variants in strange.items():
         yield document.finding(
             "study.bench-range",
-            f"the payload bench gives no answer for {_variants(variants)}: {sentence}",
+            f"the payload bench gives no answer for {variants_text(variants)}: {sentence}",
             ("design_space",),
             severity=Severity.WARNING,
             hint="bench_payload_kg is then missing, and with it every measure that depends on it",
         )
 
 
-def _variants(numbers: list[int]) -> str:
+def variants_text(numbers: list[int]) -> str:
+    """The variants that a finding is about, in words.
+
+    Args:
+        numbers: Their ids.
+    """
     if len(numbers) == 1:
         return f"variant {numbers[0]}"
     return f"{len(numbers)} variants, such as {numbers[0]}"

@@ -16,6 +16,7 @@ from rgss.tradeoff import (
     Decision,
     Overlap,
     SharedPart,
+    SolverRun,
     Threshold,
     TradeProblem,
     decide,
@@ -75,13 +76,20 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
     )
 
 
-def choose(project: Project, measured: Sequence[VariantMeasures], *, problem: TradeProblem | None = None) -> Decision:
+def choose(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    *,
+    problem: TradeProblem | None = None,
+    independent: tuple[SolverRun, ...] = (),
+) -> Decision:
     """Decide which variant is best.
 
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
         problem: What `trade_problem` gives for them, where it is there already.
+        independent: Runs of other solvers than HiGHS, as further checks.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -90,7 +98,7 @@ def choose(project: Project, measured: Sequence[VariantMeasures], *, problem: Tr
     """
     margin = project.study.trade_off.practical_margin
     asked = trade_problem(project, measured) if problem is None else problem
-    return decide(asked, margin=margin, seed=project.study.seed)
+    return decide(asked, margin=margin, seed=project.study.seed, independent=independent)
 
 
 def double_counting(project: Project) -> tuple[Overlap, ...]:

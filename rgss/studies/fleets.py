@@ -10,7 +10,7 @@ from rgss.studies.choosing import trade_problem
 from rgss.studies.measuring import VariantMeasures
 from rgss.studies.project import Project, load_project
 from rgss.studies.trade_off import FleetChoice
-from rgss.tradeoff import FleetDecision, FleetProblem, FleetTask, decide_fleet
+from rgss.tradeoff import FleetDecision, FleetProblem, FleetTask, SolverRun, decide_fleet
 
 COMPONENT = "component."
 """Begins the name of a role whose component counts as one member."""
@@ -31,6 +31,7 @@ def choose_fleet(
     measured: Mapping[str, tuple[Project, Sequence[VariantMeasures]]],
     *,
     time_limit: float | None = None,
+    independent: tuple[SolverRun, ...] = (),
 ) -> FleetDecision:
     """Choose the designs that together serve every study best.
 
@@ -38,6 +39,7 @@ def choose_fleet(
         project: The project with the study that asks for the fleet.
         measured: For each of its studies the project with it and every variant with its estimates.
         time_limit: Seconds to prove the fleet best, in place of a count of operations.
+        independent: Runs of other solvers than HiGHS, as further checks.
 
     Raises:
         EvidenceError: Trials of a study have no evidence.
@@ -67,6 +69,7 @@ def choose_fleet(
             aim=choice.aim,
         ),
         time_limit=time_limit,
+        independent=independent,
     )
 
 

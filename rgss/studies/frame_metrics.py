@@ -70,7 +70,7 @@ _OF_PHASES_ALONE: Mapping[str, tuple[MetricKind, str]] = MappingProxyType(
         "commanded_tool_acceleration_m_s2": (MetricKind("m/s**2"), "greatest acceleration that was asked for"),
         "workpiece_displacement_m": (
             MetricKind("m"),
-            "how far the object moved before the grasp or after its release",
+            "how far the object moved before the grasp, or the hand moved it in its release and afterwards",
         ),
         "workpiece_position_m": (MetricKind("m", 3), "position of the object in the world at the end: x, y, z"),
         "workpiece_tilt_rad": (MetricKind("rad"), "angle by which the object leans at the end"),
@@ -80,7 +80,11 @@ _OF_PHASES_ALONE: Mapping[str, tuple[MetricKind, str]] = MappingProxyType(
         "tightenings": (MetricKind("1"), "how often the grip was tightened"),
         "grasp_samples_closed": (MetricKind("1"), "how many of the samples of the grasp were in force closure"),
         "release_height_m": (MetricKind("m"), "height above the surface at which the object was released"),
-        "landing_force_n": (MetricKind("N"), "greatest mean force of the scene on the object over 10 ms as it lands"),
+        "landing_force_n": (
+            MetricKind("N"),
+            "greatest force of the scene on the object as it lands, averaged over the object's force window",
+        ),
+        "landing_speed_m_s": (MetricKind("m/s"), "greatest velocity change of the object by the scene as it lands"),
         "touch_force_n": (MetricKind("N"), "greatest normal force of a finger on the object after its release"),
         "opening_s": (MetricKind("s"), "time of opening"),
         "settling_s": (MetricKind("s"), "time after opening until the object stood still"),

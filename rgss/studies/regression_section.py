@@ -26,6 +26,7 @@ PHASE_METRICS = {
     "settling_s": "s",
     "release_height_m": "m",
     "landing_force_n": "N",
+    "landing_speed_m_s": "m/s",
     "touch_force_n": "N",
     "tightenings": "1",
     "finger_force_needed_n": "N",

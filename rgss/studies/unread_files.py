@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import difflib
+import errno
+import os
 import re
-from collections.abc import Iterator, Mapping
+import stat
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from rgss.documents import read_document
 from rgss.documents.output_files import DATA_FOLDERS
+from rgss.documents.reader import LARGEST_FILE_BYTES
+from rgss.documents.regular_file import open_regular
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity, shown
 from rgss.studies.document_kinds import document_kind
@@ -40,6 +45,13 @@ _FOLDER_OF_KIND: Mapping[str, str] = {
     "robot": "scenes",
     "gripper": "scenes",
 }
+_KINDS: Mapping[Callable[[int], bool], str] = {
+    stat.S_ISDIR: "a folder",
+    stat.S_ISFIFO: "a pipe",
+    stat.S_ISSOCK: "a socket",
+    stat.S_ISCHR: "a device",
+    stat.S_ISBLK: "a device",
+}
 _MESH = re.compile(r"filename\s*=\s*[\"'](?:package://)?([^\"']+)[\"']")
 _LARGEST = 8 * 1024 * 1024
 
@@ -52,7 +64,10 @@ def unread_findings(project: Path) -> tuple[Finding, ...]:
     Args:
         project: The project's folder.
     """
-    findings = [*_of_requirements(project), *_of_other_folders(project), *_beside_folders(project)]
+    unreadable = list(_unreadable(project))
+    known = {finding.file for finding in unreadable}
+    others = (*_of_requirements(project), *_of_other_folders(project), *_beside_folders(project))
+    findings = [*unreadable, *(finding for finding in others if finding.file not in known)]
     return tuple(sorted(findings))
 
 
@@ -111,6 +126,38 @@ def _of_other_folders(project: Path) -> Iterator[Finding]:
                 yield _unread(project, path, f"{home}/{_stem(path.name)}.yaml" if home else "")
 
 
+def _unreadable(project: Path) -> Iterator[Finding]:
+    """What has the name of a document and no content that could be read: a device, a pipe, a link to nothing."""
+    for folder in DATA_FOLDERS:
+        for path in sorted(_named_as_documents(project / folder)):
+            what = _irregularity(path) or _unopened(path)
+            if what:
+                label = path.relative_to(project).as_posix()
+                hint = "put a YAML file in its place, or remove it"
+                yield _finding(label, Severity.WARNING, f"nothing reads this: {what}", hint)
+
+
+def _irregularity(path: Path) -> str:
+    """What a path is instead of a file; empty for a file."""
+    try:
+        mode = path.stat().st_mode
+    except OSError as error:
+        if path.is_symlink() and error.errno in (errno.ENOENT, errno.ELOOP):
+            return "it is a link to what is not there" if error.errno == errno.ENOENT else "it is a circle of links"
+        return f"it cannot be read: {error.strerror}"
+    return next((f"it is {name}, not a file" for kind, name in _KINDS.items() if kind(mode)), "")
+
+
+def _unopened(path: Path) -> str:
+    """Why the content of a file cannot be read; empty if it can."""
+    try:
+        with open_regular(path) as file:
+            too_large = os.fstat(file.fileno()).st_size > LARGEST_FILE_BYTES
+    except OSError as error:
+        return f"it cannot be read: {error.strerror}"
+    return f"it is larger than the {LARGEST_FILE_BYTES // 1024**2} MiB that are read" if too_large else ""
+
+
 def _beside_folders(project: Path) -> Iterator[Finding]:
     """Folders whose names are nearly those of the project's, and documents that lie beside the folders."""
     try:
@@ -129,11 +176,13 @@ def _beside_folders(project: Path) -> Iterator[Finding]:
 
 def _documents(folder: Path) -> Iterator[Path]:
     """What looks like a document: by its ending, in whatever capitals, or with another one behind it."""
-    for path in sorted(folder.rglob("*")):
+    yield from sorted(path for path in _named_as_documents(folder) if path.is_file())
+
+
+def _named_as_documents(folder: Path) -> Iterator[Path]:
+    for path in folder.rglob("*"):
         name = path.name.lower()
-        if name.startswith(".") or not path.is_file():
-            continue
-        if name.endswith((*_ENDINGS, ".yaml.txt", ".yml.txt")):
+        if not name.startswith(".") and name.endswith((*_ENDINGS, ".yaml.txt", ".yml.txt")):
             yield path
 
 

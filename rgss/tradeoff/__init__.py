@@ -27,6 +27,7 @@ from rgss.tradeoff.fleet import Assignment, FleetDecision, FleetProblem, FleetTa
 from rgss.tradeoff.fleet_checks import FleetAim
 from rgss.tradeoff.fleet_work import Cut
 from rgss.tradeoff.hierarchy import CriterionNode, weighting_of, weights_of_criteria
+from rgss.tradeoff.independent_solver import SolverCheck, independent_run
 from rgss.tradeoff.level_problem import LevelDecision, LevelProblem, decide_levels
 from rgss.tradeoff.level_selection import LevelTable, smallest_table
 from rgss.tradeoff.level_space import Incompatibility, LevelFactor, LevelSpace, LevelStructure
@@ -35,6 +36,7 @@ from rgss.tradeoff.minimax_regret import MinimaxRegret, Scenarios
 from rgss.tradeoff.overlap import Overlap, SharedPart, overlapping_measures, shared_parts
 from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.program import AdditiveValue, Program
+from rgss.tradeoff.stage import SolverRun
 from rgss.tradeoff.status import DecisionStatus
 from rgss.tradeoff.tchebycheff import Tchebycheff
 from rgss.tradeoff.values import ExponentialValue, PiecewiseValue, TargetValue, ValueFunction
@@ -96,6 +98,8 @@ __all__ = [
     "Samples",
     "Scenarios",
     "SharedPart",
+    "SolverCheck",
+    "SolverRun",
     "StageCertificate",
     "TailBound",
     "TargetValue",
@@ -113,6 +117,7 @@ __all__ = [
     "decide_levels",
     "decision_to_json",
     "fleet_to_json",
+    "independent_run",
     "overlapping_measures",
     "shared_parts",
     "smallest_table",

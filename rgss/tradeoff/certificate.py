@@ -57,7 +57,7 @@ class Certificate:
 
     Attributes:
         status: What was proved; best found where a stage's optimality was not.
-        solver: Which solver.
+        solver: Which solver; where an independent one was run too, those that came to the answer.
         program: Which program.
         alternatives: How many alternatives the problem has.
         considered: How many of them the program held after exact reduction.
@@ -135,7 +135,7 @@ def certify(
     best_found = last.alternative is not None and any(one.status is DecisionStatus.BEST_FOUND for one in solutions)
     return Certificate(
         status=DecisionStatus.BEST_FOUND if best_found else last.status,
-        solver="HIGHS",
+        solver=" and ".join(agreeing_solvers(solutions)),
         program=preferences.program.name,
         alternatives=len(enumeration.table) if whole else considered,
         considered=considered,
@@ -149,6 +149,12 @@ def certify(
         recomputation_agrees=agrees,
         checks=checks,
     )
+
+
+def agreeing_solvers(solutions: Sequence[StageSolution]) -> tuple[str, ...]:
+    """The solvers that came to the answer of every stage."""
+    every = set.intersection(*(set(solution.solvers) for solution in solutions))
+    return tuple(solver for solver in solutions[-1].solvers if solver in every) or ("no solver",)
 
 
 def _unproven_gap(solutions: Sequence[StageSolution]) -> float | None:

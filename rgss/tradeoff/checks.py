@@ -25,6 +25,7 @@ class CheckKind(str, Enum):
     SECOND_RUN = "second run"
     PRIMAL_SEARCH = "primal search"
     DUAL_BOUND = "dual bound"
+    INDEPENDENT_SOLVER = "independent solver"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

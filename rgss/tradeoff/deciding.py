@@ -14,7 +14,7 @@ from rgss.tradeoff.conflicts import Conflicts, find_conflicts
 from rgss.tradeoff.decision import Counts, Decision
 from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.selection import Selection, VariantSelection
-from rgss.tradeoff.stage import RUNS, StageSolver
+from rgss.tradeoff.stage import RUNS, SolverRun, StageSolver
 from rgss.tradeoff.terms import Exclusion
 
 if TYPE_CHECKING:
@@ -25,7 +25,14 @@ MOST_DRAWN = 20_000_000
 """So many alternatives are looked at in all when replicates are drawn anew to test a conflict."""
 
 
-def decide(problem: TradeProblem, *, margin: float = 0.0, seed: int = 0, resamples: int | None = None) -> Decision:
+def decide(
+    problem: TradeProblem,
+    *,
+    margin: float = 0.0,
+    seed: int = 0,
+    resamples: int | None = None,
+    independent: tuple[SolverRun, ...] = (),
+) -> Decision:
     """Choose the best feasible alternative, prove it, and explain it.
 
     The mixed-integer programs are solved to optimality and the answer is held against enumeration.
@@ -38,6 +45,7 @@ def decide(problem: TradeProblem, *, margin: float = 0.0, seed: int = 0, resampl
             the tolerance of their last measure instead.
         seed: Seed of the draws that test a conflict against the noise of the replicates.
         resamples: How many draws; 0 for none, 1,000 by default, fewer where alternatives are many.
+        independent: Runs of other solvers than HiGHS; each solves the whole program as a further check.
 
     Returns:
         The decision. That nothing is feasible is a decision too, with the status infeasible.
@@ -61,7 +69,7 @@ def decide(problem: TradeProblem, *, margin: float = 0.0, seed: int = 0, resampl
     if not (math.isfinite(margin) and margin >= 0.0):
         raise TradeoffError(f"the practical margin is {margin:g}", hint="give a value from 0 on, such as 0.01")
     enumeration = enumerate_alternatives(problem)
-    certificate = _certified(problem, enumeration, ())
+    certificate = _certified(problem, enumeration, (), independent)
     ties = tuple(int(variant) for variant in enumeration.variants[enumeration.tied])
     ranking = rank(enumeration)
     chosen = ties[0] if ties else None
@@ -122,7 +130,12 @@ def best_alternatives(problem: TradeProblem, count: int) -> tuple[Certificate, .
     return tuple(found)
 
 
-def _certified(problem: TradeProblem, enumeration: Enumeration, excluded: tuple[Alternative, ...]) -> Certificate:
+def _certified(
+    problem: TradeProblem,
+    enumeration: Enumeration,
+    excluded: tuple[Alternative, ...],
+    independent: tuple[SolverRun, ...] = (),
+) -> Certificate:
     """Solve the program without some alternatives; the certificate of an answer that enumeration shares."""
     if problem.levels is None:
         from rgss.tradeoff.reduction import reduced_rows
@@ -138,20 +151,39 @@ def _certified(problem: TradeProblem, enumeration: Enumeration, excluded: tuple[
         model = LevelModel.of(problem.levels, considered, tuple(problem.measures_named))
         select = lambda: LevelSelection(model)  # noqa: E731
         exclusions = tuple(Exclusion(alternative=one) for one in excluded)
-    contradicted: TradeoffError | None = None
-    for run in RUNS:
+
+    def answer_of(run: SolverRun) -> Certificate | TradeoffError:
+        """The certificate of a run that enumeration agrees with; or why there is none."""
         solver = StageSolver(select=select, constraints=(*problem.constraints, *exclusions), run=run)
         try:
             solutions = problem.program.solve(problem, solver)
         except TradeoffError as error:
-            contradicted = error
-            continue
+            return error
         certificate = certify(problem, enumeration, solutions, considered=len(considered))
-        if certificate.enumeration_agrees is Agreement.AGREED:
-            return _noted(certificate, contradicted)
-        contradicted = _disagreement(enumeration, certificate)
+        agrees = certificate.enumeration_agrees is Agreement.AGREED
+        return certificate if agrees else _disagreement(enumeration, certificate)
+
+    contradicted: TradeoffError | None = None
+    for run in RUNS:
+        answer = answer_of(run)
+        if isinstance(answer, Certificate):
+            certificate = _noted(answer, contradicted)
+            for other in independent:
+                certificate = _checked_by(certificate, other, answer_of(other))
+            return certificate
+        contradicted = answer
     assert contradicted is not None  # noqa: S101 - there is at least one run
     raise contradicted
+
+
+def _checked_by(certificate: Certificate, run: SolverRun, answer: Certificate | TradeoffError) -> Certificate:
+    """The certificate with the answer of an independent solver, whose name it takes on where that agrees."""
+    if isinstance(answer, TradeoffError):
+        detail = f"{run.name}: {answer.message}"
+        check = Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=False, detail=detail)
+        return replace(certificate, checks=(*certificate.checks, check))
+    check = Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=True, detail=f"{run.name} comes to the same answer")
+    return replace(certificate, solver=f"{certificate.solver} and {run.solver}", checks=(*certificate.checks, check))
 
 
 def _noted(certificate: Certificate, contradicted: TradeoffError | None) -> Certificate:

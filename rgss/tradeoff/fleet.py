@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from rgss.errors import TradeoffError
 from rgss.tradeoff.checks import Agreement, Check, CheckKind
 from rgss.tradeoff.fleet_checks import (
+    FLEET_RUN,
     LARGEST_SOLVED,
     FleetAim,
     best_portfolio,
@@ -20,6 +21,7 @@ from rgss.tradeoff.fleet_checks import (
 from rgss.tradeoff.fleet_work import MOST_WORK, Cut, Work
 from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.program import AdditiveValue
+from rgss.tradeoff.stage import SolverRun
 from rgss.tradeoff.status import DecisionStatus
 from rgss.tradeoff.values import TIE_TOLERANCE
 from rgss.tradeoff.weighting import Weighting
@@ -152,14 +154,19 @@ class FleetDecision:
 
 
 def decide_fleet(
-    problem: FleetProblem, *, time_limit: float | None = None, most_work: int = MOST_WORK
+    problem: FleetProblem,
+    *,
+    time_limit: float | None = None,
+    most_work: int = MOST_WORK,
+    independent: tuple[SolverRun, ...] = (),
 ) -> FleetDecision:
     """Choose the best portfolio, with a bound on how much better another one can be.
 
     A member's value in a task is that of its best feasible alternative. A member that another is at
     least as good as in every task is left out before. For each size a portfolio is searched for by
     greedy choice and exchanges, and proven best by branch and bound: with Lagrangian bounds for the
-    mean, over covers for the worst task. Both bounds are computed in NumPy from the values alone.
+    mean, over covers for the worst task. Both bounds are computed in NumPy from the values alone; the weights
+    that bound covers are proposed by a linear program, and hold whatever it answers.
     Where it is small enough, HiGHS solves the mixed-integer program as well, and all portfolios are
     enumerated; what they find better is used.
 
@@ -168,6 +175,7 @@ def decide_fleet(
         time_limit: Seconds for the proofs, in place of the work limit; the answer then depends on the
             machine.
         most_work: The work limit: so many values are looked at, the same on every machine.
+        independent: Runs of other solvers than HiGHS, made wherever HiGHS solves the program.
 
     Raises:
         TradeoffError: The time limit is not positive.
@@ -184,7 +192,7 @@ def decide_fleet(
     best, bound = answers[-1].objective, answers[-1].bound
     # Of equally good sizes the smallest.
     rows = next(one.rows for one in answers if one.objective >= best - TIE_TOLERANCE)
-    rows, checks = _checked(problem, values[kept], weights, rows)
+    rows, checks = _checked(problem, values[kept], weights, rows, independent)
     enumerated = best_portfolio(values[kept], weights, problem.at_most, problem.aim)
     agreement = Agreement.NOT_ENUMERATED
     if enumerated is not None:
@@ -272,24 +280,53 @@ def _by_size(
 
 
 def _checked(
-    problem: FleetProblem, values: NDArray[np.float64], weights: NDArray[np.float64], rows: tuple[int, ...]
+    problem: FleetProblem,
+    values: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    rows: tuple[int, ...],
+    independent: tuple[SolverRun, ...],
 ) -> tuple[tuple[int, ...], list[Check]]:
-    """The better of a portfolio and the solver's, and what the solver came to."""
-    if values.size > LARGEST_SOLVED:
-        return rows, []
+    """The better of a portfolio and the solvers', and what the solvers came to."""
+    checks: list[Check] = []
+    if values.size <= LARGEST_SOLVED:
+        rows, check = _compared(problem, values, weights, rows, FLEET_RUN, "HiGHS", CheckKind.SECOND_RUN)
+        checks.append(check)
+    for run in independent:
+        if values.size > LARGEST_SOLVED:
+            detail = (
+                f"{run.name} not run: the program has {values.size} values, and at most {LARGEST_SOLVED} are solved"
+            )
+            checks.append(Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=False, detail=detail))
+            continue
+        rows, check = _compared(problem, values, weights, rows, run, run.name, CheckKind.INDEPENDENT_SOLVER)
+        checks.append(check)
+    return rows, checks
+
+
+def _compared(
+    problem: FleetProblem,
+    values: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    rows: tuple[int, ...],
+    run: SolverRun,
+    name: str,
+    kind: CheckKind,
+) -> tuple[tuple[int, ...], Check]:
+    """The better of a portfolio and that of one run, and what the run came to."""
     ours = _score(problem, values, weights, rows)
     try:
-        found = solved_portfolio(values, weights, min(problem.at_most, len(values)), problem.aim) or ()
+        found = solved_portfolio(values, weights, min(problem.at_most, len(values)), problem.aim, run) or ()
     except TradeoffError as error:
-        detail = f"the mixed-integer program was not completed: {error.message}"
-        return rows, [Check(kind=CheckKind.SECOND_RUN, agrees=False, detail=detail)]
+        subject = "" if kind is CheckKind.SECOND_RUN else f"{name}: "
+        detail = f"{subject}the mixed-integer program was not completed: {error.message}"
+        return rows, Check(kind=kind, agrees=False, detail=detail)
     theirs = _score(problem, values, weights, found)
     agrees = abs(theirs - ours) <= TIE_TOLERANCE
-    detail = "HiGHS on the mixed-integer program"
+    detail = f"{name} on the mixed-integer program"
     if not agrees:
         detail += f": {'no portfolio' if theirs < 0.0 else f'{theirs:.9g}'} instead of {ours:.9g}; the better is used"
     better = found if theirs > ours + TIE_TOLERANCE else rows
-    return better, [Check(kind=CheckKind.SECOND_RUN, agrees=agrees, detail=detail)]
+    return better, Check(kind=kind, agrees=agrees, detail=detail)
 
 
 def _score(

@@ -44,7 +44,11 @@ def portfolio_objective(values: NDArray[np.float64], weights: NDArray[np.float64
 
 
 def solved_portfolio(
-    values: NDArray[np.float64], weights: NDArray[np.float64], at_most: int, aim: FleetAim
+    values: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    at_most: int,
+    aim: FleetAim,
+    run: SolverRun = FLEET_RUN,
 ) -> tuple[int, ...] | None:
     """The chosen rows of the mixed-integer program; None if the solver calls it infeasible.
 
@@ -69,7 +73,7 @@ def solved_portfolio(
     by_task = cvxpy.sum(cvxpy.multiply(np.where(able, values, 0.0), serves), axis=0)
     objective = weights @ by_task if aim is FleetAim.MEAN else cvxpy.min(by_task)
     program = cvxpy.Problem(cvxpy.Maximize(OBJECTIVE_SCALE * objective), constraints)
-    if not solve_program(program, FLEET_RUN):
+    if not solve_program(program, run):
         return None
     answer = np.asarray(chosen.value, dtype=np.float64)
     error = float(np.abs(answer - answer.round()).max())

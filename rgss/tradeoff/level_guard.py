@@ -77,12 +77,15 @@ class GuardedStageSolver(StageSolver):
         model: What the variables stand for.
         exhaustive: Whether all combinations are evaluated.
         known: Feasible designs of earlier stages, from which the search starts.
+        independent: Runs of other solvers than HiGHS. Each is made on every stage, and where neither enumeration
+            nor interval branch and bound proves the answer, counts as one of the runs that have to agree.
     """
 
     grid: LevelGrid
     model: LevelModel
     exhaustive: bool
     known: list[Designs] = field(default_factory=list, hash=False)
+    independent: tuple[SolverRun, ...] = ()
 
     def solve(self, stage: Stage) -> StageSolution:
         """Solve a stage.
@@ -109,12 +112,19 @@ class GuardedStageSolver(StageSolver):
             detail += "; the solver's answer is wrong with all options, the best of the enumeration is used"
         elif wrong:
             detail += f"; {_runs(wrong)} of the solver came to another answer and was discarded"
-        check = Check(kind=CheckKind.ENUMERATION, agrees=agrees, detail=detail)
+        opinions = [self._attempt(stage, run) for run in self.independent]
+        checks = (
+            Check(kind=CheckKind.ENUMERATION, agrees=agrees, detail=detail),
+            *(_opinion_check(one, best) for one in opinions),
+        )
+        solvers = self._agreeing([attempt, *opinions], best)
         if found is None:
-            return _infeasible(stage, (check,), exhaustive=True)
+            return _infeasible(stage, checks, exhaustive=True, solvers=solvers)
         if agrees and attempt.design is not None:
-            return self._solution(stage, attempt.design, DecisionStatus.OPTIMAL, attempt, (check,), gap=attempt.gap)
-        return self._solution(stage, found[1], DecisionStatus.OPTIMAL, None, (check,), gap=0.0)
+            return self._solution(
+                stage, attempt.design, DecisionStatus.OPTIMAL, attempt, checks, gap=attempt.gap, solvers=solvers
+            )
+        return self._solution(stage, found[1], DecisionStatus.OPTIMAL, None, checks, gap=0.0, solvers=solvers)
 
     def _searched(self, stage: Stage) -> StageSolution:
         attempts = [self._attempt(stage, RUNS[0])]
@@ -123,21 +133,27 @@ class GuardedStageSolver(StageSolver):
         bound = interval_bound(self.grid, stage, self.constraints, known=best, tolerance=tolerance_at(best))
         if bound.better is not None:
             best, design = bound.bound, bound.better
+        opinions = [self._attempt(stage, run) for run in self.independent]
+        for one in opinions:
+            if one.score > best + tolerance_at(best):
+                best, design = one.score, one.design
         if not bound.complete:
             # What interval branch and bound does not prove, two runs of the solver have to agree on.
             for run in RUNS[1:]:
                 attempts.append(self._attempt(stage, run))
                 if attempts[-1].score > best + tolerance_at(best):
                     best, design = attempts[-1].score, attempts[-1].design
-                if sum(one.confirms(best) for one in attempts) >= NEEDED:
+                if sum(one.confirms(best) for one in (*attempts, *opinions)) >= NEEDED + len(opinions):
                     break
             checks.append(_run_check(attempts, best))
         checks.append(_bound_check(bound, best))
-        confirming = [one for one in attempts if one.confirms(best)]
+        checks += [_opinion_check(one, best) for one in opinions]
+        confirming = [one for one in (*attempts, *opinions) if one.confirms(best)]
         proven = bound.complete or len(confirming) >= NEEDED
+        solvers = self._agreeing([*attempts, *opinions], best)
         if design is None:
             if proven:
-                return _infeasible(stage, tuple(checks), exhaustive=False)
+                return _infeasible(stage, tuple(checks), exhaustive=False, solvers=solvers)
             raise TradeoffError(
                 f"stage {stage.name!r}: no feasible design was found, and that there is none was not proved",
                 hint="relax a requirement, or look for measures of extreme magnitude",
@@ -147,7 +163,13 @@ class GuardedStageSolver(StageSolver):
             gap = 0.0 if bound.complete else max((one.gap for one in confirming), default=0.0)
         same = next((one for one in confirming if one.design is not None and (one.design == design).all()), None)
         status = DecisionStatus.OPTIMAL if proven else DecisionStatus.BEST_FOUND
-        return self._solution(stage, design, status, same, tuple(checks), gap=gap)
+        return self._solution(stage, design, status, same, tuple(checks), gap=gap, solvers=solvers)
+
+    def _agreeing(self, attempts: Sequence[Attempt], best: float) -> tuple[str, ...]:
+        """The solvers of the runs that came to the answer; HiGHS where no other was run."""
+        if not self.independent:
+            return (RUNS[0].solver,)
+        return tuple(dict.fromkeys(one.run.solver for one in attempts if one.confirms(best)))
 
     def _improved(self, stage: Stage, attempts: Sequence[Attempt]) -> tuple[float, Designs | None]:
         """The best of the solver's design and of those that the primal search meets."""
@@ -193,6 +215,7 @@ class GuardedStageSolver(StageSolver):
         checks: tuple[Check, ...],
         *,
         gap: float,
+        solvers: tuple[str, ...],
     ) -> StageSolution:
         factors = self.model.space.factors
         alternative = self.model.alternative_of(
@@ -208,6 +231,7 @@ class GuardedStageSolver(StageSolver):
             selection_error=0.0 if attempt is None else attempt.selection_error,
             checks=checks,
             exhaustive=self.exhaustive,
+            solvers=solvers,
         )
 
 
@@ -216,7 +240,9 @@ def tolerance_at(best: float) -> float:
     return TIE_TOLERANCE * max(1.0, abs(best)) if math.isfinite(best) else 0.0
 
 
-def _infeasible(stage: Stage, checks: tuple[Check, ...], *, exhaustive: bool) -> StageSolution:
+def _infeasible(
+    stage: Stage, checks: tuple[Check, ...], *, exhaustive: bool, solvers: tuple[str, ...]
+) -> StageSolution:
     return StageSolution(
         name=stage.name,
         status=DecisionStatus.INFEASIBLE,
@@ -226,6 +252,7 @@ def _infeasible(stage: Stage, checks: tuple[Check, ...], *, exhaustive: bool) ->
         selection_error=0.0,
         checks=checks,
         exhaustive=exhaustive,
+        solvers=solvers,
     )
 
 
@@ -236,6 +263,15 @@ def _run_check(attempts: Sequence[Attempt], best: float) -> Check:
     if other:
         detail += f"; not by {', '.join(other)}"
     return Check(kind=CheckKind.SECOND_RUN, agrees=not other, detail=detail)
+
+
+def _opinion_check(attempt: Attempt, best: float) -> Check:
+    agrees = attempt.confirms(best)
+    other = f": {attempt.outcome.value}" + (
+        f" {attempt.score:.9g}, not {best:.9g}" if attempt.design is not None else ""
+    )
+    detail = f"{attempt.run.name}{' comes to the same answer' if agrees else other}"
+    return Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=agrees, detail=detail)
 
 
 def _search_check(attempt: Attempt, best: float) -> Check:

@@ -15,8 +15,9 @@ from rgss.tradeoff.level_space import LevelSpace
 from rgss.tradeoff.preferences import Preferences, check_preferences
 from rgss.tradeoff.problem import TradeProblem
 from rgss.tradeoff.program import AdditiveValue, Program
-from rgss.tradeoff.stage import StageSolution
+from rgss.tradeoff.stage import SolverRun, StageSolution
 from rgss.tradeoff.status import DecisionStatus
+from rgss.tradeoff.sums import is_piecewise
 from rgss.tradeoff.values import ValueFunction
 from rgss.tradeoff.weight_bounds import WeightBounds
 from rgss.tradeoff.weighting import Weighting
@@ -160,7 +161,7 @@ class LevelDecision:
     enumerated: bool
 
 
-def decide_levels(problem: LevelProblem) -> LevelDecision:
+def decide_levels(problem: LevelProblem, *, independent: tuple[SolverRun, ...] = ()) -> LevelDecision:
     """Choose the best combination of levels and prove it.
 
     The size of the program is that of the tables, not of all combinations. Of equally good ones,
@@ -168,6 +169,10 @@ def decide_levels(problem: LevelProblem) -> LevelDecision:
     these are few enough, elsewhere by a second run with other options, a primal search and interval
     branch and bound. An answer that a check contradicts is replaced by the better one; what then is
     not proven is called best found, with its gap.
+
+    Args:
+        problem: The problem.
+        independent: Runs of other solvers than HiGHS, made on every stage as further checks.
 
     Raises:
         TradeoffError: Neither a feasible design was found nor that there is none was proved, the
@@ -183,6 +188,7 @@ def decide_levels(problem: LevelProblem) -> LevelDecision:
         replicates={},
         alternative_of=problem.alternative,
         levels_of=problem.levels_of,
+        curved=frozenset(one.measure for one in problem.value_functions if not is_piecewise(one)),
     )
     exhaustive = problem.space.size <= LARGEST_ENUMERATED
     grid = LevelGrid.of(problem.space, problem.tables)
@@ -192,6 +198,7 @@ def decide_levels(problem: LevelProblem) -> LevelDecision:
         grid=grid,
         model=model,
         exhaustive=exhaustive,
+        independent=independent,
     )
     tabulated = (
         problem.among(grid.table()) if problem.space.size <= min(LARGEST_TABULATED, LARGEST_ENUMERATED) else None

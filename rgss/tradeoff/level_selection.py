@@ -15,8 +15,18 @@ from rgss.tradeoff.sums import LinearQuantity
 
 Entry = TypeVar("Entry")
 
-LARGEST_TABLE = 20_000
-"""Tables of one measure are merged while the merged one has no more entries than this."""
+LARGEST_TABLE = 100
+"""Tables of one measure are merged while the merged one has no more entries than this.
+
+A merged table needs a variable for each of its entries: with up to 20,000 of them a problem of 18,900
+combinations took 12.7 s that takes less than 2 s as sums. On random problems of
+``benchmarks/tradeoff_guard.py`` the limits 1, 100 and 500 differ by less than a sixth; 100 is the fastest, and
+the solver was right with each. Tables over two factors of up to ten levels are still merged, which saves the
+booleans that say in which segment of a value function a sum lies.
+"""
+
+LARGEST_CURVED = 20_000
+"""The same where the value of the measure is not piecewise linear: it can be valued in one table only."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +52,7 @@ class LevelModel:
         replicates: The replicates of each measure, by the combination of levels that decides them.
         alternative_of: The alternative that a level of each factor makes.
         levels_of: The level of each factor of the alternative with an id.
+        curved: The measures whose value is not piecewise linear, which therefore need one table.
     """
 
     space: LevelSpace
@@ -49,6 +60,7 @@ class LevelModel:
     replicates: Mapping[str, LevelTable[Row]] = field(hash=False)
     alternative_of: Callable[[tuple[str, ...]], Alternative]
     levels_of: Callable[[int], tuple[str, ...]]
+    curved: frozenset[str] = frozenset()
 
     @staticmethod
     def of(structure: LevelStructure, alternatives: Sequence[Alternative], measures: Sequence[str]) -> LevelModel:
@@ -103,6 +115,7 @@ class LevelSelection:
             (f"choose one level of {factor}", cvxpy.sum(variable) == 1.0) for factor, variable in self._levels.items()
         ]
         self._quantities: dict[str, tuple[LevelTable[float | None], ...]] = {}
+        self._linear: dict[str, LinearQuantity] = {}
         for rule in model.space.rules:
             self._variable(rule.factors)
 
@@ -135,6 +148,11 @@ class LevelSelection:
         tables = self._merged(measure)
         if len(tables) == 1:
             return None
+        if measure not in self._linear:
+            self._linear[measure] = self._sum_of(measure, tables)
+        return self._linear[measure]
+
+    def _sum_of(self, measure: str, tables: Sequence[LevelTable[float | None]]) -> LinearQuantity:
         parts, low, high = [], 0.0, 0.0
         for table in tables:
             entries = [table.entries.get(combination) for combination in self._of_scope(table.factors)]
@@ -171,7 +189,8 @@ class LevelSelection:
 
     def _merged(self, measure: str) -> tuple[LevelTable[float | None], ...]:
         if measure not in self._quantities:
-            self._quantities[measure] = merged_tables(self._model.space, self._model.quantities[measure])
+            most = LARGEST_CURVED if measure in self._model.curved else LARGEST_TABLE
+            self._quantities[measure] = merged_tables(self._model.space, self._model.quantities[measure], most)
         return self._quantities[measure]
 
     def _of_scope(self, factors: tuple[str, ...]) -> Sequence[tuple[str, ...]]:
@@ -188,6 +207,8 @@ class LevelSelection:
     def _variable(self, factors: tuple[str, ...]) -> Any:
         """The variables of the combinations of some factors; made when they are first asked for."""
         import cvxpy
+        import numpy as np
+        import scipy.sparse
 
         if factors in self._variables:
             return self._variables[factors]
@@ -201,12 +222,15 @@ class LevelSelection:
         if not factors:
             self._structure.append(("a constant", variable == 1.0))
         for place, factor in enumerate(factors):
-            for at, level in enumerate(self._ids[factor]):
-                members = [row for row, combination in enumerate(designs) if combination[place] == level]
-                total = cvxpy.sum(variable[members]) if members else 0.0
-                self._structure.append(
-                    (f"combinations of {', '.join(factors)} at {factor} {level}", total == self._levels[factor][at])
-                )
+            # One constraint of many rows: CVXPY takes as long for one of a single row.
+            at = {level: row for row, level in enumerate(self._ids[factor])}
+            rows = [at[combination[place]] for combination in designs]
+            members = scipy.sparse.csr_array(
+                (np.ones(len(rows)), (rows, np.arange(len(rows)))), shape=(len(at), len(rows))
+            )
+            self._structure.append(
+                (f"combinations of {', '.join(factors)} at {factor}", members @ variable == self._levels[factor])
+            )
         return variable
 
     def _designs(self, factors: tuple[str, ...]) -> list[tuple[str, ...]]:
@@ -244,20 +268,21 @@ def smallest_table(factors: tuple[str, ...], entries: Mapping[tuple[str, ...], E
 
 
 def merged_tables(
-    space: LevelSpace, tables: Sequence[LevelTable[float | None]]
+    space: LevelSpace, tables: Sequence[LevelTable[float | None]], most: int
 ) -> tuple[LevelTable[float | None], ...]:
     """Tables whose sum is a measure as one, if that one is not too large.
 
     Args:
         space: The factors.
         tables: The tables.
+        most: The largest number of entries of the merged table.
 
     Returns:
         The one table over the factors of all; or the tables as they are.
     """
     counts = {factor.id: len(factor.levels) for factor in space.factors}
     wanted = [factor for factor in counts if any(factor in table.factors for table in tables)]
-    if len(tables) == 1 or math.prod(counts[factor] for factor in wanted) > LARGEST_TABLE:
+    if len(tables) == 1 or math.prod(counts[factor] for factor in wanted) > most:
         return tuple(tables)
     entries: dict[tuple[str, ...], float | None] = {}
     for combination in space.levels_of(wanted):

@@ -29,6 +29,9 @@ REGRET_TOLERANCE = 1e-10
 MOST_GENERATED = 500
 """So many weights are generated before it is given up."""
 
+MOST_RIVALS = 100_000
+"""Up to so many combinations of levels are listed as rivals, against which worst weights are found by programs."""
+
 FEWEST_SCENARIOS = 2
 """Of a single replicate there is nothing to regret: the best of it would be chosen, noise and all."""
 
@@ -49,7 +52,8 @@ class MinimaxRegret:
     of weights that agree with the elicited bounds: regret is convex in the weights, so its largest
     value over the whole set is at a corner. Where the corners may be many, only those that matter are
     generated: the worst weights of a candidate against one rival are a linear program (constraint
-    generation; Kouvelis and Yu, "Robust discrete optimization and its applications", 1997). Over
+    generation; Kouvelis and Yu, "Robust discrete optimization and its applications", 1997). Of levels
+    that is done up to `MOST_RIVALS` combinations; beyond, all corners are needed. Over
     replicates, scenario r is the r-th seed, and every replicate has to tell every weighted measure.
 
     Attributes:
@@ -101,12 +105,19 @@ class MinimaxRegret:
 
     def _rivals(self, preferences: Preferences, solver: StageSolver) -> Sequence[Alternative] | None:
         """The alternatives that can be chosen, where the corners of the weights may be many; None elsewhere."""
+        from rgss.tradeoff.level_problem import LevelProblem
         from rgss.tradeoff.problem import TradeProblem
         from rgss.tradeoff.weight_vertices import FEW_CANDIDATES, corner_candidates
 
-        if self.scenarios is not Scenarios.WEIGHTS or not isinstance(preferences, TradeProblem):
+        if self.scenarios is not Scenarios.WEIGHTS:
             return None
         if corner_candidates(preferences.weight_system()[0]) <= FEW_CANDIDATES:
+            return None
+        if isinstance(preferences, LevelProblem):
+            if preferences.space.size > MOST_RIVALS:
+                return None
+            preferences = preferences.enumerated()
+        if not isinstance(preferences, TradeProblem):
             return None
         excluded = {one.alternative.variant for one in solver.constraints if isinstance(one, Exclusion)}
         return [one for one in preferences.alternatives if one.variant not in excluded and preferences.is_feasible(one)]
@@ -206,7 +217,8 @@ def _worst(
         )
 
     mine = values(choice)
-    leads = [values(rival) - mine for rival in rivals]
+    # Of rivals alike in every value one is enough.
+    leads = [np.array(one) for one in dict.fromkeys(tuple((values(rival) - mine).tolist()) for rival in rivals)]
     best: tuple[float, tuple[float, ...]] = (-math.inf, ())
     # No lead exceeds its largest difference, so that rivals with small ones need no program.
     for lead in sorted(leads, key=lambda one: -float(one.max())):

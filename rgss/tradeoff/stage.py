@@ -20,15 +20,17 @@ OBJECTIVE_SCALE = 1e3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SolverRun:
-    """A named set of options of HiGHS.
+    """A solver with a named set of options.
 
     Attributes:
         name: The name, as certificates give it.
         options: The options.
+        solver: The solver, as CVXPY names it.
     """
 
     name: str
     options: Mapping[str, Any] = field(hash=False)
+    solver: str = "HIGHS"
 
 
 _COMMON = {
@@ -106,6 +108,7 @@ class StageSolution:
             alternative: the largest difference from 0 or 1; 0 if infeasible.
         checks: The independent checks of the answer.
         exhaustive: Whether one of them evaluated every alternative.
+        solvers: The solvers that came to the answer, where more than HiGHS were run.
     """
 
     name: str
@@ -116,6 +119,7 @@ class StageSolution:
     selection_error: float
     checks: tuple[Check, ...] = ()
     exhaustive: bool = False
+    solvers: tuple[str, ...] = (FIRST_RUN.solver,)
 
     @property
     def chosen(self) -> Alternative:
@@ -179,11 +183,11 @@ class StageSolver:
 
 
 def solve_program(problem: Any, run: SolverRun = FIRST_RUN) -> bool:
-    """Solve a CVXPY problem by HiGHS.
+    """Solve a CVXPY problem.
 
     Args:
-        problem: The problem.
-        run: The options of the solver.
+        problem: The problem, whose objective is bounded.
+        run: The solver and its options.
 
     Returns:
         True if an optimum is proven, False if it is proven that there is none.
@@ -198,13 +202,18 @@ def solve_program(problem: Any, run: SolverRun = FIRST_RUN) -> bool:
             # These two only repeat the status, which is judged below.
             warnings.filterwarnings("ignore", message=r"\s*Solution may be inaccurate")
             warnings.filterwarnings("ignore", message=r"\s*The problem is either infeasible or unbounded")
-            problem.solve(solver=cvxpy.HIGHS, **run.options)
+            problem.solve(solver=run.solver, **run.options)
     except cvxpy.SolverError as error:
         raise TradeoffError(
             f"the solver failed: {' '.join(str(error).split())}",
-            hint="check that highspy is installed: pip install 'cvxpy>=1.7' highspy",
+            hint=f"check that {run.name} is installed: pip install 'rgss[scip]'"
+            if run.solver == cvxpy.SCIP
+            else "check that highspy is installed: pip install 'cvxpy>=1.7' highspy",
         ) from error
     if problem.status == cvxpy.INFEASIBLE:
+        return False
+    if problem.status == "infeasible_or_unbounded" and run.solver == cvxpy.SCIP:
+        # What the presolve of SCIP ends with; the objective is bounded, for it is that of one of finitely many designs.
         return False
     if problem.status != cvxpy.OPTIMAL:
         raise TradeoffError(
@@ -215,6 +224,10 @@ def solve_program(problem: Any, run: SolverRun = FIRST_RUN) -> bool:
 
 
 def proven_gap(problem: Any) -> float:
-    """How far the bound that HiGHS proved is from the objective that it found; 0 if that is proven best."""
+    """How far the bound that the solver proved is from the objective that it found; 0 if that is proven best."""
     information = problem.solver_stats.extra_stats
+    if isinstance(information, Mapping):
+        # SCIP minimises, and its model outlives the run.
+        model = information["model"]
+        return max(0.0, float(model.getObjVal()) - float(model.getDualbound()))
     return max(0.0, float(information.objective_function_value) - float(information.mip_dual_bound))

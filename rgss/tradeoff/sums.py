@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, TypeGuard
 
 from rgss.errors import TradeoffError
 from rgss.measures.verdicts import RELATIVE_TOLERANCE
@@ -23,6 +23,7 @@ class LinearQuantity:
         low: The least that it can be.
         high: The most that it can be.
         require: Takes constraints on further variables that terms need.
+        valued: The value by each function that was compiled, so that terms share its variables.
     """
 
     measure: str
@@ -30,11 +31,17 @@ class LinearQuantity:
     low: float
     high: float
     require: Callable[[Any], None]
+    valued: dict[ValueFunction, Any] = field(default_factory=dict)
 
     @property
     def span(self) -> float:
         """Its range, by which constraints are scaled; 1 where there is none."""
         return self.high - self.low or 1.0
+
+
+def is_piecewise(function: ValueFunction) -> TypeGuard[PiecewiseValue | TargetValue]:
+    """Whether a value function is piecewise linear, so that a sum can be valued by it."""
+    return isinstance(function, (PiecewiseValue, TargetValue))
 
 
 def value_of_sum(quantity: LinearQuantity, function: ValueFunction) -> Any:
@@ -48,14 +55,20 @@ def value_of_sum(quantity: LinearQuantity, function: ValueFunction) -> Any:
     Raises:
         TradeoffError: The function is not piecewise linear.
     """
-    import cvxpy
-    import numpy as np
-
-    if not isinstance(function, (PiecewiseValue, TargetValue)):
+    if not is_piecewise(function):
         raise TradeoffError(
             f"{quantity.measure!r} is a sum over too many levels for a value that is not piecewise linear",
             hint="value it linearly, by points or by a target",
         )
+    if function not in quantity.valued:
+        quantity.valued[function] = _piecewise(quantity, function)
+    return quantity.valued[function]
+
+
+def _piecewise(quantity: LinearQuantity, function: PiecewiseValue | TargetValue) -> Any:
+    import cvxpy
+    import numpy as np
+
     segments = _segments(sorted(function.points), quantity.low, quantity.high)
     if len(segments) == 1:
         ((start, start_value), (end, end_value)) = segments[0]

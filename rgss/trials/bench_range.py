@@ -79,9 +79,10 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
         highest=MOST_ITERATIONS,
         of=lambda spec: spec.physics.solver_iterations * spec.lightest_body_kg / spec.gripper.finger_mass_kg,
     ),
-    # Below, two ribs of a pad are too near one another to keep the object from turning about them.
+    # Below, two ribs of a pad are too near one another to keep the object from turning about them: at 20 mm a slow
+    # heavy finger that presses with 0.5 N is 4.5 % off.
     ValidatedQuantity(
-        name="height of the object", unit="m", lowest=0.05, highest=0.2, of=lambda spec: spec.shape.height_m
+        name="height of the object", unit="m", lowest=0.03, highest=0.2, of=lambda spec: spec.shape.height_m
     ),
     ValidatedQuantity(
         name="payload by Coulomb's law", unit="kg", lowest=0.03, highest=50.0, of=lambda spec: spec.theory_kg

@@ -11,6 +11,7 @@ from rgss.physics import Contacts, World
 from rgss.scenes import Pose
 from rgss.trials.arm_watch import ToolKinematics
 from rgss.trials.control import ControlSettings
+from rgss.trials.drag_monitor import DragMonitor
 from rgss.trials.force_sensor import ForceSensor
 from rgss.trials.grasp_record import grasp_metrics
 from rgss.trials.hand_motion import HandWatch
@@ -200,6 +201,7 @@ class Execution:
         """Open to the initial position and wait until the object stands."""
         world, gripper, control = self._world, self._world.gripper, self._control
         watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world)
+        drag = DragMonitor(world, control)
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
         steps = 0
@@ -208,6 +210,7 @@ class Execution:
             self._hold_arm_and_step()
             contacts = self._observe(Phase.PLACE, watch, 0.0)
             watch.note(landing.after_step())
+            watch.note(drag.after_step(contacts))
             steps += 1
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 open_m = max(world.finger_travel_m())
@@ -220,6 +223,7 @@ class Execution:
             self._hold_arm_and_step()
             contacts = self._observe(Phase.PLACE, watch, 0.0)
             watch.note(landing.after_step())
+            watch.note(drag.after_step(contacts))
             steps += 1
             waited_s += self._step_s
             still_s += self._step_s
@@ -230,6 +234,7 @@ class Execution:
             watch.fail(Failure.NOT_RELEASED, f"{contacts.fingers_touching} fingers still touch the object")
         metrics = watch.metrics()
         metrics.update(landing.metrics())
+        metrics.update(drag.metrics())
         metrics["opening_s"] = opening_s
         metrics["settling_s"] = waited_s - still_s
         self._judge_place(watch, metrics)

@@ -106,7 +106,13 @@ def matter_of(scene: Scene) -> dict[str, Any]:
         "id": scene.id,
         "gravity_m_s2": scene.gravity_m_s2,
         "frictions": [body.friction for body in scene.bodies],
-        "workpiece": [workpiece.mass_kg, workpiece.friction, workpiece.force_limit_n, workpiece.force_window_s],
+        "workpiece": [
+            workpiece.mass_kg,
+            workpiece.friction,
+            workpiece.force_limit_n,
+            workpiece.force_window_s,
+            workpiece.landing_limit_m_s,
+        ],
         "place": [
             scene.place.radius_m,
             scene.place.largest_tilt_rad,

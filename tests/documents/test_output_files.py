@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 import subprocess
@@ -172,6 +173,63 @@ def test_permissions_of_the_old_file_are_kept(tmp_path):
     write_output(path, b"new")
 
     assert path.stat().st_mode & 0o777 == 0o640
+
+
+def test_a_file_with_two_names_has_the_new_content_under_both(tmp_path):
+    path, other = tmp_path / "a.csv", tmp_path / "b.csv"
+    for old, new in ((b"old", b"longer than the old"), (b"longer than the new", b"new")):
+        path.write_bytes(old)
+        if not other.exists():
+            os.link(path, other)
+        with replaced_file(path) as part:
+            part.write_bytes(new)
+            assert other.read_bytes() == old
+
+        assert (path.read_bytes(), other.read_bytes()) == (new, new)
+    assert path.samefile(other)
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["a.csv", "b.csv"]
+
+
+def test_a_full_disk_leaves_a_file_with_two_names_as_it_was(tmp_path, monkeypatch):
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"old")
+    os.link(path, tmp_path / "b.csv")
+
+    def full(descriptor, offset, length):
+        os.ftruncate(descriptor, offset + length)
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "posix_fallocate", full)
+    with pytest.raises(StorageError, match=r"a\.csv cannot be written: No space left on device"):
+        write_output(path, b"longer than the old")
+    assert path.read_bytes() == b"old"
+
+
+def test_extended_attributes_are_kept(tmp_path, monkeypatch):
+    """Not every file system has them, so those of the old file are made up."""
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"old")
+    before, given = path.stat().st_ino, {}
+    monkeypatch.setattr(os, "listxattr", lambda _: ["user.rgss"], raising=False)
+    monkeypatch.setattr(os, "getxattr", lambda _, name: f"value of {name}".encode(), raising=False)
+    monkeypatch.setattr(os, "setxattr", lambda _, name, value: given.update({name: value}), raising=False)
+    write_output(path, b"new")
+    assert path.read_bytes() == b"new"
+    assert path.stat().st_ino != before
+    assert given == {"user.rgss": b"value of user.rgss"}
+
+
+def test_a_file_whose_owner_cannot_be_kept_is_written_in_place(tmp_path, monkeypatch):
+    path = tmp_path / "a.csv"
+    path.write_bytes(b"old")
+    before = path.stat().st_ino
+
+    def refused(*_):
+        raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
+
+    monkeypatch.setattr(os, "chown", refused)
+    write_output(path, b"new")
+    assert (path.read_bytes(), path.stat().st_ino) == (b"new", before)
 
 
 def test_a_file_that_is_read_only_stays(tmp_path, monkeypatch):

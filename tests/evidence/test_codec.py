@@ -195,3 +195,11 @@ def test_parts_that_may_be_missing_are_read_as_what_they_are():
     assert read_json('{"inner":null,"names":null}', Outer, "text") == Outer(inner=None, names=None)
     with pytest.raises(EvidenceError, match=r"^text\.names is not one of Mapping, none: 3$"):
         read_json('{"inner":null,"names":3}', Outer, "text")
+
+
+def test_records_share_the_names_of_their_metrics(record):
+    """A hundred thousand records do not hold a hundred thousand copies of every name."""
+    text = record_to_json(record(metrics={"slip_m": 0.1, "a_metric": None}))
+    first, second = record_from_json(text), record_from_json(text)
+    assert first.metrics
+    assert all(one is other for one, other in zip(first.metrics, second.metrics, strict=True))

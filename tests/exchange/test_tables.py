@@ -136,8 +136,10 @@ def test_markup_stays_text(project, written):
         (b"<=", b"~", "SYS-1: comparison: '~' is not one of"),
         (b"Simulation", b"Simu\x07lation", "SYS-1: facility: a control character is no text"),
         (b"Simulation", b"Simu\xfclation", "t.csv:\\d+:1: error: is not UTF-8 \\(save it as CSV UTF-8\\)"),
-        (b'"When', b'"When" ', "not CSV: "),
-        (b"Catalogue", b'"Catalogue', "not CSV: |cells are expected"),
+        (b'"When', b'"When" ', "not CSV: a quotation mark within a quoted cell must be doubled"),
+        (b"gripper engineer", b'"gripper engineer', "not CSV: a cell that begins with a quotation mark has no closing"),
+        (b"Catalogue", b"C" * 140_000, "not CSV: a cell must have at most 131072 characters"),
+        (b"Catalogue", b"Cata\rlogue", "not CSV: |cells are expected"),
     ],
 )
 def test_a_csv_that_is_wrong_is_one_line_each(project, tmp_path, refused, old, new, complaint):

@@ -28,7 +28,9 @@ def slope(angle_rad: float, direction_rad: float) -> SceneBody:
 
 @pytest.fixture
 def slide(three_fingers):
-    def run(angle_rad: float, direction_rad: float, rate_hz: float = 240.0) -> tuple[float, float, float]:
+    def run(
+        angle_rad: float, direction_rad: float, rate_hz: float = 240.0, time_s: float = TIME_S
+    ) -> tuple[float, float, float]:
         """Distance down the slope, distance across it, and tilt against it after some time."""
         board = slope(angle_rad, direction_rad)
         puck = three_fingers.with_workpiece(
@@ -39,7 +41,7 @@ def slide(three_fingers):
         with three_fingers.world(
             rate_hz=rate_hz, bodies=(board,), support="slope", place_support="slope", **puck
         ) as world:
-            for _ in range(round(TIME_S * rate_hz)):
+            for _ in range(round(time_s * rate_hz)):
                 world.step()
             assert world.contacts().workpiece_bodies == ("slope",)
             on_board = board.pose.inverse() @ world.workpiece_pose()
@@ -56,12 +58,20 @@ def expected_slide(angle_rad: float, rate_hz: float) -> float:
     return acceleration * TIME_S * (TIME_S + 1 / rate_hz) / 2  # the integrator's sum, as in a fall
 
 
-@pytest.mark.parametrize("direction_deg", [0, 30, 45, 90])
+@pytest.mark.parametrize("direction_deg", [0, 15, 30, 45, 90])
 def test_it_rests_just_below_the_friction_angle(slide, direction_deg):
     along, across, tilt = slide(0.97 * FRICTION_ANGLE_RAD, math.radians(direction_deg))
     assert math.hypot(along, across) < 1e-4
-    # The engine keeps some points of the rim's contact, and last bits decide which: it lies to a tenth of a millimetre.
-    assert tilt * 0.05 < 1.5e-4
+    # The engine finds one point of the contact a step, and drops one that has drifted: the puck then falls about the
+    # others for one step, and comes back within some tens of steps.
+    assert tilt * 0.05 < 9.81 / 240.0**2
+    assert slide(0.97 * FRICTION_ANGLE_RAD, math.radians(direction_deg), 1000.0)[2] < 1e-4
+
+
+@pytest.mark.parametrize("direction_deg", [0, 15, 30, 45, 90])
+def test_a_resting_puck_comes_to_lie_flat(slide, direction_deg):
+    *_, tilt = slide(0.97 * FRICTION_ANGLE_RAD, math.radians(direction_deg), time_s=2.0)
+    assert tilt < 1e-4
 
 
 @pytest.mark.parametrize("direction_deg", [0, 90, 180])

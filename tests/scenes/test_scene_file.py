@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from rgss.scenes import Box, Cylinder, Task
+from rgss.scenes import LANDING_LIMIT_M_S, Box, Cylinder, Task
 
 TOO_HIGH = (
     "scene.drop a place_clearance of 11 mm drops the object from more than 10 mm "
@@ -48,7 +48,13 @@ def test_the_workpiece_stands_on_its_body(kitchen):
     assert mug.pose.position_m == pytest.approx((0.4, 0.1, 0.8 + 0.06))
     assert mug.pose.tilt_rad == 0.0
     assert (mug.mass_kg, mug.friction, mug.force_limit_n) == (0.3, 0.9, 20.0)
+    assert mug.landing_limit_m_s == LANDING_LIMIT_M_S
     assert mug.colour == (1.0, 1.0, 1.0, 1.0)
+
+
+def test_what_landing_the_workpiece_bears_is_the_scene_s(kitchen):
+    kitchen.change("kitchen.yaml", "force_limit: 20 N", "force_limit: 20 N\n  landing_limit: 60 cm/s")
+    assert kitchen.scene().workpiece.landing_limit_m_s == pytest.approx(0.6)
 
 
 def test_the_place_region_lies_on_top_of_its_body(kitchen):
@@ -116,6 +122,11 @@ def test_touching_is_allowed_and_so_is_no_friction(kitchen):
         ("height: 120 mm", "height: ¦0 mm", "scene.not-positive height must be greater than zero"),
         ("mass: 300 g", "mass: ¦0 g", "scene.not-positive mass must be greater than zero"),
         ("force_limit: 20 N", "force_limit: ¦0 N", "scene.not-positive force_limit must be greater than zero"),
+        (
+            "force_limit: 20 N",
+            "force_limit: 20 N\n  landing_limit: ¦0 m/s",
+            "scene.not-positive landing_limit must be greater than zero",
+        ),
         ("radius: 3 cm", "radius: ¦0 cm", "scene.not-positive radius must be greater than zero"),
         ("largest_tilt: 5 deg", "largest_tilt: ¦0 deg", "scene.not-positive largest_tilt must be greater than zero"),
         ("approach_height: 150 mm", "approach_height: ¦-1 mm", None),
@@ -154,6 +165,16 @@ def test_each_mistake_is_found_at_its_place(kitchen, old, new, expected):
         expected = f"scene.not-positive {old.split(':')[0]} must be greater than zero"
     kitchen.change("kitchen.yaml", old, new)
     assert kitchen.findings("scene") == [f"{kitchen.marks()[0]} {expected}"]
+
+
+def test_a_drop_that_damages_the_object_is_found(kitchen):
+    kitchen.change("kitchen.yaml", "largest_tilt: 5 deg", "largest_tilt: 5 deg\n  largest_drop: 60 mm")
+    kitchen.change("kitchen.yaml", "clearance: 2 mm", "clearance: ¦52 mm")
+    (finding,) = kitchen.findings("scene")
+    assert finding == (
+        f"{kitchen.marks()[0]} scene.landing a place_clearance of 52 mm lands the object with 1.01 m/s, it bears 1 m/s "
+        "(release it lower, or give the workpiece a greater landing_limit)"
+    )
 
 
 def test_an_id_that_is_taken_is_found(kitchen):

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import socket
+from pathlib import Path
 
 import pytest
 
@@ -89,6 +92,61 @@ def test_what_is_no_document_is_left_alone(project):
         (project / name).write_text("study: s\n")
 
     assert told(project) == []
+
+
+def _socket(path):
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        with socket.socket(socket.AF_UNIX) as made:  # its names are short: a long path does not fit
+            made.bind(f"/proc/self/fd/{folder}/{path.name}")
+    finally:
+        os.close(folder)
+
+
+def _large(path):
+    path.touch()
+    os.truncate(path, 3 * 1024**3)
+
+
+NO_DOCUMENTS = {
+    "device": (lambda path: path.symlink_to("/dev/zero"), "it is a device, not a file"),
+    "pipe": (os.mkfifo, "it is a pipe, not a file"),
+    "socket": (_socket, "it is a socket, not a file"),
+    "folder": (os.mkdir, "it is a folder, not a file"),
+    "dangling link": (lambda path: path.symlink_to("nowhere.yaml"), "it is a link to what is not there"),
+    "circle": (lambda path: path.symlink_to(path.name), "it is a circle of links"),
+    "three gigabytes": (_large, "it is larger than the 8 MiB that are read"),
+}
+
+
+@pytest.mark.parametrize("name", ["requirements/zero.yaml", "scenes/zero.yml", "studies/zero.yaml"])
+@pytest.mark.parametrize("kind", NO_DOCUMENTS)
+def test_what_has_the_name_of_a_document_and_is_none_is_named_once(project, kind, name):
+    make, message = NO_DOCUMENTS[kind]
+    make(project / name)
+
+    (finding,) = unread_findings(project)
+    assert str(finding) == (
+        f"{name}:1:1: warning: nothing reads this: {message} (put a YAML file in its place, or remove it) "
+        "[document.unread]"
+    )
+
+
+def test_a_document_that_may_not_be_read_is_named(project, monkeypatch):
+    path = project / "scenes" / "secret.yaml"
+    path.write_text("bodies: []\n")
+    path.chmod(0)
+
+    def refused(name, *arguments):
+        if Path(name) == path:
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        return opened(name, *arguments)
+
+    opened = os.open
+    monkeypatch.setattr(os, "open", refused)
+    assert [each.message for each in unread_findings(project)] == [
+        "nothing reads this: it cannot be read: Permission denied"
+    ]
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff import Agreement, CheckKind, DecisionStatus, certificate_to_json, decide_levels
 from rgss.tradeoff.level_bound import interval_bound
 from rgss.tradeoff.level_grid import LevelGrid, compensated_sum
+from rgss.tradeoff.level_guard import Attempt, GuardedStageSolver, Outcome
 from rgss.tradeoff.level_search import search_levels
 from rgss.tradeoff.level_selection import LevelModel, LevelSelection
 from rgss.tradeoff.program import additive_stage
@@ -174,8 +175,8 @@ def test_infeasible_is_proved_by_each_check(guard_cases, path, name):
     path(name)
     infeasible = next(
         case
-        for case in map(guard_cases.level_case, range(0, 5000, 5))
-        if not case.any_feasible and case.problem.space.size < 15_000
+        for case in (guard_cases.level_case(seed, largest=15_000) for seed in range(0, 5000, 5))
+        if not case.any_feasible
     )
     decision = decide_levels(infeasible.problem)
     assert (decision.status, decision.variant) == (DecisionStatus.INFEASIBLE, None)
@@ -185,7 +186,7 @@ def test_infeasible_is_proved_by_each_check(guard_cases, path, name):
 @pytest.mark.parametrize("seed", [10, 11, 2, 8, 4])
 def test_random_level_problems_against_brute_force(guard, guard_cases, seed):
     """One of each program; benchmarks/tradeoff_guard.py decides 2,000."""
-    case = guard_cases.level_case(seed)
+    case = guard_cases.level_case(seed, largest=30_000)
     for name in ("enumerated", "solver"):
         assert guard.level_outcome(case, name, seed=seed) in ("right", "infeasible, right")
 
@@ -195,7 +196,7 @@ def test_the_interval_bound_is_never_exceeded(guard_cases, program):
     """However few partial designs are kept, and with rules and unknown entries too."""
     checked = 0
     for seed in range(12):
-        problem = guard_cases.level_case(seed).problem
+        problem = guard_cases.level_case(seed, largest=30_000).problem
         grid = LevelGrid.of(problem.space, problem.tables)
         stage = additive_stage(problem)
         constraints = problem.constraints
@@ -225,15 +226,58 @@ def test_the_sum_of_columns_is_that_of_exact_arithmetic():
     assert compensated_sum(parts, 2).tolist() == [1.0, 1e-17]
 
 
-def test_the_certificate_lists_the_checks(guard_cases, path):
+@pytest.fixture
+def answered(monkeypatch):
+    """A solver that answers the best design, or the worst feasible one, whatever HiGHS would come to."""
+
+    def make(*, right):
+        def attempt(solver, stage, run):
+            grid = solver.grid
+            designs = np.concatenate(list(grid.blocks()))
+            scores = grid.scores(stage, solver.constraints, designs)
+            row = int(scores.argmax() if right else np.where(np.isfinite(scores), scores, np.inf).argmin())
+            return Attempt(run=run, outcome=Outcome.PROVEN, score=float(scores[row]), design=designs[row])
+
+        monkeypatch.setattr(GuardedStageSolver, "_attempt", attempt)
+
+    return make
+
+
+@pytest.mark.parametrize(
+    ("right", "search"),
+    [
+        (True, "primal search agrees: nothing better was found"),
+        (False, "primal search DISAGREES: found a better design than HiGHS without presolve"),
+    ],
+)
+def test_the_certificate_lists_the_checks(guard_cases, path, answered, right, search):
+    """Each check with its outcome, which here depends on no release of HiGHS."""
     path("bounds")
+    answered(right=right)
     case = guard_cases.small_case(1, (3, 4, 3, 4), "additive")
     decision = decide_levels(case.problem)
     certificate = decision.certificate
     document = certificate_to_json(certificate)
     assert document["enumeration_agrees"] == "not enumerated"
-    assert [check["kind"] for check in document["checks"]] == ["primal search", "dual bound"]
-    # HiGHS 1.15.1 without presolve misses this optimum in the form that CVXPY 1.7 gives it, and the search mends it.
-    assert document["checks"][1]["agrees"]
+    assert [(check["kind"], check["agrees"]) for check in document["checks"]] == [
+        ("primal search", right),
+        ("dual bound", True),
+    ]
+    assert [check.text for check in certificate.checks] == [
+        search,
+        "dual bound agrees: interval branch and bound leaves no better design",
+    ]
+    assert (decision.status, certificate.gap) == (DecisionStatus.OPTIMAL, 0.0)
     assert case.missed_by(decision.variant - 1) == 0.0
-    assert certificate.checks[1].text == "dual bound agrees: interval branch and bound leaves no better design"
+
+
+def test_the_certificate_of_what_the_solver_itself_answers(guard_cases, path):
+    """Whether it is right or wrong, the search's check says so, and the decision is the optimum."""
+    path("bounds")
+    case = guard_cases.small_case(1, (3, 4, 3, 4), "additive")
+    decision = decide_levels(case.problem)
+    search, bound = decision.certificate.checks
+    assert search.agrees == (search.detail == "nothing better was found")
+    assert bound.agrees
+    assert (decision.status, decision.certificate.gap) == (DecisionStatus.OPTIMAL, 0.0)
+    assert case.missed_by(decision.variant - 1) == 0.0

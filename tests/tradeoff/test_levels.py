@@ -39,6 +39,8 @@ from rgss.tradeoff import (
     decide_levels,
     smallest_table,
 )
+from rgss.tradeoff.level_selection import LevelModel, LevelSelection
+from rgss.tradeoff.terms import WeightedValue
 
 ARM, HAND, PLANNER = (
     LevelFactor(id="arm", levels=("slow", "fast")),
@@ -333,11 +335,44 @@ def test_ill_posed(make, message):
     assert error.value.hint
 
 
-def test_a_sum_cannot_be_valued_by_a_curve(monkeypatch):
-    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 3)
+def curved():
     functions = (ExponentialValue(measure="cost", worst=10.0, best=0.0, halfway=3.0), *by_hand().value_functions[1:])
+    return by_hand(value_functions=functions)
+
+
+def test_a_sum_cannot_be_valued_by_a_curve(monkeypatch):
+    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_CURVED", 3)
     with pytest.raises(TradeoffError, match="'cost' is a sum over too many levels for a value that is not piecewise"):
-        decide_levels(by_hand(value_functions=functions))
+        decide_levels(curved())
+
+
+def test_a_measure_that_is_valued_by_a_curve_is_merged_beyond_the_others(monkeypatch):
+    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 3)
+    decision, others = decide_levels(curved()), decide(curved().enumerated())
+    assert decision.variant in others.ties
+    assert decision.certificate.objective == pytest.approx(others.certificate.objective, abs=1e-9)
+
+
+def test_terms_share_the_variables_of_a_sum(monkeypatch):
+    """However many scenarios value a measure, its segments are modelled once."""
+    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 3)
+    problem = by_hand()
+    selection = LevelSelection(
+        LevelModel(
+            space=problem.space,
+            quantities=problem.tables,
+            replicates={},
+            alternative_of=problem.alternative,
+            levels_of=problem.levels_of,
+        )
+    )
+    bent = PiecewiseValue(measure="cost", worst=6.0, best=2.0, interior=((5.0, 0.1), (4.0, 0.9)))
+    other = PiecewiseValue(measure="cost", worst=6.0, best=1.0)
+    sizes = []
+    for function in (bent, bent, other, other):
+        WeightedValue(function=function, weight=0.5).compile(selection)
+        sizes.append(len(selection.structure))
+    assert sizes[0] == sizes[1] < sizes[2] == sizes[3]
 
 
 def test_an_answer_that_violates_a_demand_is_refused(monkeypatch):

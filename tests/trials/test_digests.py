@@ -69,6 +69,7 @@ CHANGES = {
     "friction of the workpiece": (GRIPPED, lambda spec: with_workpiece(spec, friction=0.9)),
     "force that the workpiece bears": (GRIPPED, lambda spec: with_workpiece(spec, force_limit_n=39.0)),
     "window of that force": (GRIPPED, lambda spec: with_workpiece(spec, force_window_s=0.02)),
+    "landing that the workpiece bears": (LAST, lambda spec: with_workpiece(spec, landing_limit_m_s=0.9)),
     "gravity": (GRIPPED, lambda spec: with_scene(spec, gravity_m_s2=1.62)),
     "finger mass": (GRIPPED, lambda spec: with_gripper(spec, finger_mass_kg=0.25)),
     "base mass": (GRIPPED, lambda spec: with_gripper(spec, base_mass_kg=0.25)),

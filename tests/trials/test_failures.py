@@ -122,26 +122,30 @@ TRIALS = {
         (
             Failure.OBJECT_DAMAGED,
             Phase.PLACE,
-            r"the object landed with \d+\.\d N over 10 ms after a drop of 25\d\.\d mm, .*",
+            r"the object landed with 1\.\d\d m/s after a drop of 25\d\.\d mm, it bears 1 m/s",
         ),
     ),
     "a cup that bears a fall and may be dropped": (
         lambda spec: with_place(
-            with_workpiece(with_task(spec, place_clearance_m=0.25), force_limit_n=1e4), largest_drop_m=1.0
+            with_workpiece(with_task(spec, place_clearance_m=0.25), landing_limit_m_s=10.0), largest_drop_m=1.0
         ),
         (Failure.NOT_UPRIGHT, Phase.PLACE, r"the object leans by \d+\.\d deg"),
     ),
     "a cup released above the place": (
-        lambda spec: with_task(spec, place_clearance_m=0.06),
+        lambda spec: with_task(spec, place_clearance_m=0.03),
         (
             Failure.OBJECT_DROPPED,
             Phase.PLACE,
-            r"the object was released 60\.\d mm above counter_place, at most 10 mm",
+            r"the object was released 30\.\d mm above counter_place, at most 10 mm",
         ),
     ),
     "a cup that lands harder than it bears": (
-        lambda spec: with_workpiece(with_task(spec, place_clearance_m=0.009), force_limit_n=11.0, mass_kg=0.25),
-        (Failure.OBJECT_DAMAGED, Phase.PLACE, r"the object landed with .* after a drop of 9\.0 mm, it bears 11 N"),
+        lambda spec: with_workpiece(with_task(spec, place_clearance_m=0.009), landing_limit_m_s=0.3),
+        (
+            Failure.OBJECT_DAMAGED,
+            Phase.PLACE,
+            r"the object landed with 0\.\d\d m/s after a drop of 9\.0 mm, it bears 0\.3 m/s",
+        ),
     ),
 }
 
@@ -228,7 +232,8 @@ UNFORESEEN = {
         ),
     ),
     "a counter that slopes and is slippery": (
-        lambda spec: with_slippery_slope(spec, math.radians(3.0)),
+        # What slides down along a finger and leans on it may count as dragged by it, so it may be.
+        lambda spec: with_place(with_slippery_slope(spec, math.radians(3.0)), largest_drag_m=1.0),
         (Failure.NOT_RELEASED, Phase.PLACE, "1 fingers still touch the object"),
     ),
     "a shoulder too weak for its own arm": (

@@ -84,9 +84,9 @@ SOLVERS = [(240.0, 20), (240.0, 200), (1000.0, 20), (1000.0, 200)]
 @pytest.mark.parametrize(("rate_hz", "iterations"), SOLVERS)
 def test_what_friction_can_carry_does_not_slip_at_any_rate(carry, share, rate_hz, iterations):
     """Grip margins of 1.27 and 1.03; without a yielding pad the object swings, without the arc it drifts."""
-    # So heavy an object lands with more than the cup bears; what is asked here is the carry.
-    heavy = {"mass_kg": share * carry.limit_kg(), "force_limit_n": 1.0e3}
-    found = carry.run(rate_hz=rate_hz, iterations=iterations, workpiece=heavy, holding_share=1.0)
+    found = carry.run(
+        rate_hz=rate_hz, iterations=iterations, workpiece={"mass_kg": share * carry.limit_kg()}, holding_share=1.0
+    )
     assert [result.failure for result in found.values()] == [None] * len(Phase)
     assert slip_m(found) < 0.3e-3
 
@@ -121,6 +121,8 @@ def test_the_sensed_force_of_closing_converges_as_the_step_shrinks(carry, finger
     finest = read[-1]
     assert read == pytest.approx([finest] * len(read), rel=within)
     assert read[2:] == pytest.approx([finest] * len(read[2:]), rel=0.07)
+    # With the damping that the implicit step adds on top of the pad's, 1000 Hz reads 6 % low.
+    assert read[3:] == pytest.approx([finest] * len(read[3:]), rel=0.04)
     # Of the impulse, no more than the motor's over the window and the momentum of a finger that rebounds as fast.
     gripper = replace(carry.spec.gripper, **finger)
     window_s = carry.spec.scene.workpiece.force_window_s

@@ -20,7 +20,7 @@ from rgss.exchange.reqif.vocabulary import MEASURE
 from rgss.exchange.xml_guard import require_plain_xml
 from rgss.findings import Severity
 
-_COMMENT = re.compile(r"(<!\[CDATA\[.*?\]\]>)|<!--.*?-->", re.DOTALL)
+_NO_CONTENT = re.compile(r"(<!\[CDATA\[.*?\]\]>|<\?xml\s.*?\?>)|<!--.*?-->|<\?.*?\?>", re.DOTALL)
 
 
 def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Part | None = None) -> Content:
@@ -95,7 +95,7 @@ def _parsed(content: bytes, file: str) -> Any:
             "ReqIF needs the package reqif, which is not installed", hint="pip install 'rgss[exchange]'"
         ) from error
     try:
-        bundle = library.ReqIFParser.parse_from_string(_without_comments(content.decode("utf-8-sig")))
+        bundle = library.ReqIFParser.parse_from_string(_content_alone(content.decode("utf-8-sig")))
     # A file that is no ReqIF breaks the library in many ways, none of which it documents.
     except Exception as error:
         raise _unreadable(content, file, error) from None
@@ -104,10 +104,10 @@ def _parsed(content: bytes, file: str) -> Any:
     return bundle
 
 
-def _without_comments(text: str) -> str:
-    """The same XML without comments, which the library does not expect within XHTML."""
-    # What is well formed has no comment within a tag, so only sections of CDATA could look like one.
-    return _COMMENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
+def _content_alone(text: str) -> str:
+    """The same XML without comments and processing instructions, which the library takes for elements."""
+    # What is well formed has none of them within a tag, so only sections of CDATA could look like one.
+    return _NO_CONTENT.sub(lambda match: match[1] or "\n" * match[0].count("\n"), text)
 
 
 def _unreadable(content: bytes, file: str, error: Exception | None, *, line: int = 1) -> DocumentError:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from rgss.exchange.attributes import Part
-from rgss.exchange.reqif.objects import ForeignObject
+from rgss.exchange.reqif.objects import ForeignObject, UnsoundObjectError
 from rgss.exchange.reqif.vocabulary import ACTOR, INCLUDE, MEASURE, relation_name
 from rgss.requirements import LinkKind
 
@@ -55,6 +55,7 @@ class RelationReader:
         """The ids that an attribute of an element names, in the file's order."""
         found: dict[tuple[str, str], list[str]] = {}
         for each in self._core.spec_relations or []:
+            _require_names(each.source, each.target, each.relation_type_ref)
             kind = self._types.get(each.relation_type_ref)
             missing = [end for end in (each.source, each.target) if end not in self._all]
             line = int(getattr(each.xml_node, "sourceline", None) or 1)
@@ -83,6 +84,7 @@ class RelationReader:
         while pending:
             node, around = pending.pop()
             line = int(getattr(node.xml_node, "sourceline", None) or 1)
+            _require_names(node.spec_object)
             if node.spec_object not in self._all:
                 message = f"the hierarchy names the object {node.spec_object!r}, which is not there"
                 self.broken.append((line, message))
@@ -99,6 +101,16 @@ class RelationReader:
         """What was not taken over."""
         for kind, count in sorted(self._left.items()):
             yield f"{count} relations of type {kind!r} are left aside: there is no such link between such elements here"
+
+
+def _require_names(*references: str | None) -> None:
+    """Make sure that references name something, whether it is there or not.
+
+    Raises:
+        UnsoundObjectError: One of them is empty.
+    """
+    if not all(references):
+        raise UnsoundObjectError("a reference is empty")
 
 
 def _place(kind: str | None, source: ForeignObject, target: ForeignObject) -> tuple[str, str] | None:

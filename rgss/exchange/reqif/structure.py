@@ -2,54 +2,27 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
-from types import MappingProxyType
+from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from rgss.exchange.files import problem
+from rgss.exchange.reqif.grammar import Shape, shape_of
 from rgss.findings import Finding, shown
 
 NAMESPACE = "http://www.omg.org/spec/ReqIF/20110401/reqif.xsd"
 
 _SEPARATOR = " "
-_ROOT_PARTS = ("THE-HEADER", "REQ-IF-HEADER", "CORE-CONTENT", "REQ-IF-CONTENT")
-_REFERENCES: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "SPEC-OBJECT": ("SPEC-OBJECT-TYPE-REF",),
-        "SPEC-RELATION": ("SPEC-RELATION-TYPE-REF", "SOURCE", "TARGET"),
-        "SPEC-HIERARCHY": ("SPEC-OBJECT-REF",),
-        "SPECIFICATION": ("SPECIFICATION-TYPE-REF",),
-    }
-)
-"""What must stand in an element."""
-_KINDS = ("BOOLEAN", "DATE", "ENUMERATION", "INTEGER", "REAL", "STRING", "XHTML")
-_SIMPLE_VALUES = frozenset(f"ATTRIBUTE-VALUE-{kind}" for kind in _KINDS if kind not in ("ENUMERATION", "XHTML"))
-_NAMED = frozenset(
-    {"SPEC-OBJECT", "SPEC-RELATION", "SPEC-HIERARCHY", "SPECIFICATION", "ENUM-VALUE", "RELATION-GROUP"}
-    | {"SPEC-OBJECT-TYPE", "SPEC-RELATION-TYPE", "SPECIFICATION-TYPE", "RELATION-GROUP-TYPE", "REQ-IF-HEADER"}
-    | {f"{what}-DEFINITION-{kind}" for what in ("ATTRIBUTE", "DATATYPE") for kind in _KINDS}
-)
-"""What has an identifier."""
-_CHILDREN: Mapping[str, frozenset[str]] = MappingProxyType(
-    {
-        "DATATYPES": frozenset(f"DATATYPE-DEFINITION-{kind}" for kind in _KINDS),
-        "SPEC-TYPES": frozenset(
-            {"SPEC-OBJECT-TYPE", "SPEC-RELATION-TYPE", "SPECIFICATION-TYPE", "RELATION-GROUP-TYPE"}
-        ),
-        "SPEC-ATTRIBUTES": frozenset(f"ATTRIBUTE-DEFINITION-{kind}" for kind in _KINDS),
-        "SPECIFIED-VALUES": frozenset({"ENUM-VALUE"}),
-        "SPEC-OBJECTS": frozenset({"SPEC-OBJECT"}),
-        "SPEC-RELATIONS": frozenset({"SPEC-RELATION"}),
-        "SPECIFICATIONS": frozenset({"SPECIFICATION"}),
-        "CHILDREN": frozenset({"SPEC-HIERARCHY"}),
-        "VALUES": frozenset(f"ATTRIBUTE-VALUE-{kind}" for kind in _KINDS) | {"ENUM-VALUE-REF"},
-    }
-)
-"""What may stand in an element that holds many of a kind."""
+_REFERENCE = "-REF"
+_MAY_BE_EMPTY = ("THE-VALUE", "KEY")
+_WHOLE_NUMBERS = ("ACCURACY",)
 
 
 def structure_problems(content: bytes, file: str) -> tuple[Finding, ...]:
     """Elements that lack what ReqIF wants of them, and references to what is not there; empty if none is known.
+
+    What reading needs comes first; what the schema alone demands is said if there is nothing else.
 
     Args:
         content: Well-formed XML.
@@ -64,85 +37,122 @@ def structure_problems(content: bytes, file: str) -> tuple[Finding, ...]:
     return tuple(reader.problems())
 
 
+@dataclass(slots=True, kw_only=True)
+class _Element:
+    """An element whose end is not read yet."""
+
+    name: str
+    identifier: str
+    line: int
+    shape: Shape
+    inner: Counter[str] = field(default_factory=Counter)
+    text: str = ""
+
+    def __str__(self) -> str:
+        return f"the {self.name} {shown(self.identifier)}" if self.identifier else f"an element {self.name}"
+
+
 class _Reader:
     def __init__(self, file: str) -> None:
         self._file = file
-        self._open: list[tuple[str, str, int, set[str]]] = []
-        """Name, identifier, line and inner names of each element around."""
+        self._open: list[_Element] = []
+        self._passed_over = 0
+        """How deep it is in an element that may hold anything, or that does not belong where it is."""
         self._found: list[Finding] = []
-        self._identifiers: dict[str, int] = {}
-        self._named: list[tuple[str, str, int]] = []
-        self._seen: set[str] = set()
-        self._text = ""
+        self._formal: list[Finding] = []
+        self._identifiers: dict[str, tuple[str, int]] = {}
+        """Name and line of the element with each identifier."""
+        self._references: list[tuple[str, str, int]] = []
         self._root = ""
 
     def started(self, qualified: str, attributes: Mapping[str, str], line: int) -> None:
+        if self._passed_over or (self._open and self._open[-1].shape.is_open):
+            self._passed_over += 1
+            return
         namespace, _, name = qualified.rpartition(_SEPARATOR)
-        if not self._open:
+        around = self._open[-1] if self._open else None
+        if around is None:
             if name != "REQ-IF":
                 self._root = f"its root is {shown(name)}, not 'REQ-IF'"
             elif namespace != NAMESPACE:
                 self._root = f"its root has the namespace {shown(namespace)}, not {NAMESPACE!r}"
-        identifier = attributes.get("IDENTIFIER", "")
-        if name in _NAMED:
-            if not identifier:
-                self._report(line, f"an element {name} has no IDENTIFIER")
-            elif identifier in self._identifiers:
-                before = self._identifiers[identifier]
-                self._report(line, f"the identifier {shown(identifier)} stands already in line {before}")
-            else:
-                self._identifiers[identifier] = line
-        around = self._open[-1][0] if self._open else ""
-        if around in _CHILDREN and name not in _CHILDREN[around]:
-            self._report(line, f"an element {shown(name)} stands in {around}, where it does not belong")
-        if name == "EMBEDDED-VALUE" and "KEY" not in attributes:
-            self._report(line, "an element EMBEDDED-VALUE has no KEY")
-        if name in _SIMPLE_VALUES and "THE-VALUE" not in attributes:
-            self._report(line, f"an element {name} has no THE-VALUE")
-        for *_, names in self._open[-3:]:
-            names.add(name)
-        self._seen.add(name)
-        self._open.append((name, identifier, line, set()))
-        self._text = ""
+        elif not self._belongs(name, namespace, around, line):
+            self._passed_over = 1
+            return
+        shape = shape_of(name, "" if around is None else around.name)
+        if shape is None:  # the root is another, which is reported alone
+            self._passed_over = 1
+            return
+        element = _Element(name=name, identifier=attributes.get("IDENTIFIER", ""), line=line, shape=shape)
+        self._check_attributes(element, attributes)
+        self._open.append(element)
 
     def said(self, text: str) -> None:
-        if self._open and self._open[-1][0].endswith("-REF"):
-            self._text += text
+        if not self._passed_over and self._open and self._open[-1].name.endswith(_REFERENCE):
+            self._open[-1].text += text
 
     def ended(self) -> None:
-        name, identifier, line, inner = self._open.pop()
-        if name.endswith("-REF"):
-            self._named.append((name, self._text.strip(), line))
-        for wanted in _REFERENCES.get(name, ()):
-            if wanted not in inner:
-                self._report(line, f"the {name} {shown(identifier)} has no {wanted}")
-        if (
-            name.startswith("ATTRIBUTE-DEFINITION-")
-            and not name.endswith("-REF")
-            and not any(each.startswith("DATATYPE-DEFINITION-") for each in inner)
-        ):
-            self._report(line, f"the {name} {shown(identifier)} has no data type")
-        if name.startswith("ATTRIBUTE-VALUE-") and f"{name.replace('VALUE', 'DEFINITION')}-REF" not in inner:
-            self._report(line, f"an element {name} does not say of which attribute it is the value")
-        if name == "ATTRIBUTE-VALUE-XHTML" and "THE-VALUE" not in inner:
-            self._report(line, f"an element {name} has no THE-VALUE")
-        if name in ("SOURCE", "TARGET") and "SPEC-OBJECT-REF" not in inner:
-            self._report(line, f"a {name} of a relation names no object")
+        if self._passed_over:
+            self._passed_over -= 1
+            return
+        element = self._open.pop()
+        if element.name.endswith(_REFERENCE):
+            self._references.append((element.name, element.text.strip(), element.line))
+        around = f" in {self._open[-1]}" if self._open and not element.identifier else ""
+        for wanted in element.shape.one:
+            if not element.inner[wanted]:
+                self._report(element.line, f"{element}{around} has no {wanted}")
+        for wanted in element.shape.formal:
+            if wanted in element.shape.maybe and not element.inner[wanted]:
+                self._report(element.line, f"{element} has no {wanted}", is_formal=True)
 
     def problems(self) -> Iterator[Finding]:
         if self._root:
             yield self._problem(1, self._root)
             return
-        missing = next((part for part in _ROOT_PARTS if part not in self._seen), None)
-        if missing is not None:
-            yield self._problem(1, f"it has no {missing}")
-        yield from self._found
-        for name, identifier, line in self._named:
-            if identifier not in self._identifiers:
-                yield self._problem(line, f"the {name} {shown(identifier)} names what is not there")
+        found = [*self._found, *self._broken_references()]
+        yield from found or self._formal
 
-    def _report(self, line: int, message: str) -> None:
-        self._found.append(self._problem(line, message))
+    def _belongs(self, name: str, namespace: str, around: _Element, line: int) -> bool:
+        shape = around.shape
+        if namespace != NAMESPACE or name not in (*shape.one, *shape.maybe, *shape.many):
+            self._report(line, f"an element {shown(name)} stands in {around.name}, where it does not belong")
+            return False
+        around.inner[name] += 1
+        if around.inner[name] == 2 and name not in shape.many:
+            self._report(line, f"{around} has more than one {name}")
+        return True
+
+    def _check_attributes(self, element: _Element, attributes: Mapping[str, str]) -> None:
+        line, name, shape = element.line, element.name, element.shape
+        for wanted in shape.attributes:
+            if not (wanted in attributes if wanted in _MAY_BE_EMPTY else attributes.get(wanted)):
+                what = f"an element {name}" if wanted == "IDENTIFIER" else str(element)
+                self._report(line, f"{what} has no {wanted}")
+        for wanted in shape.formal:
+            if wanted not in shape.maybe and wanted not in attributes:
+                self._report(line, f"{element} has no {wanted}", is_formal=True)
+        for wanted in _WHOLE_NUMBERS:
+            if wanted in attributes and not attributes[wanted].strip().lstrip("+-").isdecimal():
+                self._report(line, f"{wanted} of {element} must be a whole number, got {shown(attributes[wanted])}")
+        # An alternative identifier is one of another tool, which nothing refers to.
+        if element.identifier and name != "ALTERNATIVE-ID":
+            _, before = self._identifiers.setdefault(element.identifier, (name, line))
+            if self._identifiers[element.identifier] != (name, line):
+                self._report(line, f"the identifier {shown(element.identifier)} stands already in line {before}")
+
+    def _broken_references(self) -> Iterator[Finding]:
+        for name, identifier, line in self._references:
+            kind, where = self._identifiers.get(identifier, ("", 0))
+            if not identifier:
+                yield self._problem(line, f"an element {name} is empty and names nothing")
+            elif not kind:
+                yield self._problem(line, f"the {name} {shown(identifier)} names what is not there")
+            elif f"{kind}{_REFERENCE}" != name:
+                yield self._problem(line, f"the {name} {shown(identifier)} names a {kind}, that of line {where}")
+
+    def _report(self, line: int, message: str, *, is_formal: bool = False) -> None:
+        (self._formal if is_formal else self._found).append(self._problem(line, message))
 
     def _problem(self, line: int, message: str) -> Finding:
         return problem(

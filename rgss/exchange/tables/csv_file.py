@@ -6,6 +6,7 @@ import csv
 import io
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 from rgss.documents.spreadsheet_cells import neutralised, restored
 from rgss.errors import DocumentError
@@ -24,6 +25,16 @@ from rgss.exchange.tables.heads import (
 from rgss.findings import Finding, shown
 
 _DIVIDERS = (",", ";", "\t")
+_WRONG: Mapping[str, str] = MappingProxyType(
+    {
+        "unexpected end of data": "a cell that begins with a quotation mark has no closing one",
+        "expected after": "a quotation mark within a quoted cell must be doubled",
+        "field larger": f"a cell must have at most {csv.field_size_limit()} characters",
+        "new-line": "a line break within a cell needs quotation marks around the cell",
+        "NUL": "a cell must not hold the character U+0000",
+    }
+)
+"""What is wrong, by a sign in the message of the reader of the standard library."""
 
 
 def csv_text(content: Content) -> str:
@@ -71,7 +82,8 @@ def read_csv(path: Path) -> Content:
         findings: list[Finding] = []
         rows = list(_rows(file, reader, columns, findings))
     except csv.Error as error:
-        raise DocumentError([problem(file, "syntax", f"not CSV: {error}", line=reader.line_num)]) from None
+        message = next((said for sign, said in _WRONG.items() if sign in str(error)), "its quotation marks are wrong")
+        raise DocumentError([problem(file, "syntax", f"not CSV: {message}", line=reader.line_num)]) from None
     return table_content(file, rows, findings)
 
 

@@ -18,6 +18,7 @@ from rgss.exchange.attributes import Part
 from rgss.exchange.comparison import ChangeKind
 from rgss.exchange.content import Content, Row, part_of
 from rgss.exchange.reqif import read_reqif, reqif_text
+from rgss.exchange.reqif.grammar import shape_of
 from rgss.requirements import LinkKind
 
 STRICTDOC = Path(__file__).parents[1] / "strictdoc" / "gripper.reqif"
@@ -245,12 +246,11 @@ SPACE = 'xmlns="http://www.omg.org/spec/ReqIF/20110401/reqif.xsd"'
         (f"<REQ-IF {SPACE}><THE-HEADER/></REQ-IF>", "is XML, but not ReqIF that can be read"),
     ],
 )
-def test_xml_that_is_refused_or_no_reqif_is_one_line(as_xml, refused, text, complaint):
+def test_xml_that_is_refused_or_no_reqif_is_one_line_each(as_xml, refused, text, complaint):
     path = as_xml(text)
-    (line,) = refused(read_reqif, path)
-    assert complaint in line
-    assert line.startswith(f"{path}:")
-    assert "\n" not in line
+    lines = refused(read_reqif, path)
+    assert complaint in lines[0]
+    assert all(line.startswith(f"{path}:") and "\n" not in line for line in lines)
 
 
 @pytest.mark.parametrize(
@@ -293,3 +293,24 @@ def test_the_library_is_asked_for_in_one_line(monkeypatch, project, exported):
     for call in (lambda: reqif_text(project.content, title="t"), lambda: read_reqif(exported)):
         with pytest.raises(DefinitionError, match=r"needs the package reqif.*pip install 'rgss\[exchange\]'"):
             call()
+
+
+def test_the_grammar_is_that_of_the_schema(schema):
+    """Every element of the schema has the children of the schema; what must stand there once must do so here."""
+    pending, seen = [(schema.elements["REQ-IF"], "")], set()
+    while pending:
+        element, around = pending.pop()
+        if (element.local_name, around) in seen:
+            continue
+        seen.add((element.local_name, around))
+        shape = shape_of(element.local_name, around)
+        assert shape is not None, (element.local_name, around)
+        if shape.is_open:
+            continue
+        inner = list(element.type.content.iter_elements()) if element.type.has_complex_content() else []
+        assert {each.local_name for each in inner} <= {*shape.one, *shape.maybe, *shape.many}, element.local_name
+        demanded = {each.local_name for each in inner if each.min_occurs and each.parent.min_occurs}
+        assert demanded <= {*shape.one, *shape.maybe, *shape.many}
+        assert {*shape.one, *shape.maybe, *shape.many} - {each.local_name for each in inner} <= {"VALUES"}
+        pending += [(each, element.local_name) for each in inner]
+    assert len(seen) > 100
