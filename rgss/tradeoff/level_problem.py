@@ -117,6 +117,10 @@ class LevelProblem(Preferences):
             found.append(factor.levels[place])
         return tuple(reversed(found))
 
+    def feasible_alternatives(self, *, at_most: int) -> Sequence[Alternative] | None:
+        """The combinations of levels that meet every condition, if there are at most so many."""
+        return self.enumerated().feasible_alternatives(at_most=at_most) if self.space.size <= at_most else None
+
     def enumerated(self) -> TradeProblem:
         """The same choice as one among alternatives, each of which is a combination of levels.
 

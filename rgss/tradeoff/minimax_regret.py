@@ -105,22 +105,17 @@ class MinimaxRegret:
 
     def _rivals(self, preferences: Preferences, solver: StageSolver) -> Sequence[Alternative] | None:
         """The alternatives that can be chosen, where the corners of the weights may be many; None elsewhere."""
-        from rgss.tradeoff.level_problem import LevelProblem
-        from rgss.tradeoff.problem import TradeProblem
         from rgss.tradeoff.weight_vertices import FEW_CANDIDATES, corner_candidates
 
         if self.scenarios is not Scenarios.WEIGHTS:
             return None
         if corner_candidates(preferences.weight_system()[0]) <= FEW_CANDIDATES:
             return None
-        if isinstance(preferences, LevelProblem):
-            if preferences.space.size > MOST_RIVALS:
-                return None
-            preferences = preferences.enumerated()
-        if not isinstance(preferences, TradeProblem):
+        feasible = preferences.feasible_alternatives(at_most=MOST_RIVALS)
+        if feasible is None:
             return None
         excluded = {one.alternative.variant for one in solver.constraints if isinstance(one, Exclusion)}
-        return [one for one in preferences.alternatives if one.variant not in excluded and preferences.is_feasible(one)]
+        return [one for one in feasible if one.variant not in excluded]
 
     def _generated(
         self, preferences: Preferences, solver: StageSolver, rivals: Sequence[Alternative]

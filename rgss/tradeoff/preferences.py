@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from rgss.tradeoff.evidence_table import Alternative
     from rgss.tradeoff.program import Program
 
 
@@ -45,6 +46,14 @@ class Preferences(ABC):
     risks: tuple[Risk, ...]
     program: Program
     weight_bounds: WeightBounds
+
+    @abstractmethod
+    def feasible_alternatives(self, *, at_most: int) -> Sequence[Alternative] | None:
+        """The alternatives that meet every condition; None where more than so many combinations had to be listed.
+
+        Args:
+            at_most: Largest number of combinations that are listed.
+        """
 
     @property
     def conditions(self) -> tuple[Condition, ...]:

@@ -65,6 +65,10 @@ class TradeProblem(Preferences):
             for measure, every_replicate in self.evidence_needs.items()
         )
 
+    def feasible_alternatives(self, *, at_most: int) -> Sequence[Alternative]:  # noqa: ARG002 (listed in any case)
+        """The alternatives that meet every condition; they are listed already, however many."""
+        return [alternative for alternative in self.alternatives if self.is_feasible(alternative)]
+
     def replicate_count(self, measures: Sequence[str]) -> int:
         """The number of replicates that all alternatives have; see `Preferences.replicate_count`."""
         counts: dict[int, int] = {}
