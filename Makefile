@@ -24,7 +24,7 @@ check: setup ## format, lint, types, layers, and whether the repository keeps it
 	@.venv/bin/ruff check --quiet .
 	@.venv/bin/mypy
 	@.venv/bin/lint-imports --no-logo
-	@.venv/bin/pytest --quiet tests/house
+	@.venv/bin/pytest --quiet tests/repository
 
 format: setup ## format the code and mend what the linter can mend
 	@.venv/bin/ruff format --quiet .

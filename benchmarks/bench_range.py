@@ -17,7 +17,7 @@ import numpy as np
 
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
-from rgss.trials.bench import BOUND, VALIDATED, BenchSpec, bench_spec, outside, run_bench
+from rgss.trials.payload_bench.bench import BOUND, VALIDATED, BenchSpec, bench_spec, outside, run_bench
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 ITERATIONS = (20, 50)

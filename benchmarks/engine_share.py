@@ -156,26 +156,26 @@ def measure(seeds: int, *, fidelity: str = "contact", project: Path = REPOSITORY
         project: The project's folder.
         top: How many functions to show of a profile by cProfile, which itself costs time; 0 for none.
     """
-    from rgss.studies.worker_process import settle
+    from rgss.sweep.worker_process import settle
 
     settle()
     from rgss.studies.expansion import trial_specs
     from rgss.studies.project import load_project
-    from rgss.studies.sweep import trials_of
-    from rgss.studies.work import Work
-    from rgss.trials.making import make
+    from rgss.sweep.running import trials_of
+    from rgss.sweep.task_queue import TaskQueue
+    from rgss.trials.pieces.pieces import make
 
     loaded = load_project(project).with_replicates(seeds).with_fidelity(fidelity)
     sides = Sides()
     time_engines(sides)
-    work = Work(trials_of(trial_specs(loaded)))
+    work = TaskQueue(trials_of(trial_specs(loaded)))
     pieces: dict[str, Any] = {}
     kinds: Counter[str] = Counter()
     outside: Counter[str] = Counter()
     timed: Counter[str] = Counter()
     profile = cProfile.Profile()
     # The first search, timing and world load what a worker loads once.
-    warm = Work(trials_of(trial_specs(loaded.with_replicates(1)))[:1])
+    warm = TaskQueue(trials_of(trial_specs(loaded.with_replicates(1)))[:1])
     while warm.left:
         task = warm.take()
         pieces[task.digest] = make(task, {digest: pieces[digest] for digest in task.needs})

@@ -27,13 +27,13 @@ _RUN = """
 import json, os, sys, time
 from pathlib import Path
 from rgss.evidence import PieceKind, record_digest
-from rgss.evidence.digests import text_digest
+from rgss.evidence.records.digests import text_digest
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.trials.making import make_piece, record_of, tasks_of
-from rgss.trials.numerics import numerics
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import versions
+from rgss.trials.pieces.pieces import make_piece, record_of, tasks_of
+from rgss.trials.code.numeric_probe import numerics
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.code.piece_versions import versions
 
 folder, variants, seed = Path(sys.argv[1]), json.loads(sys.argv[2]), int(sys.argv[3])
 project = load_project(folder).with_fidelity("contact")
@@ -87,7 +87,7 @@ def run(environment: dict[str, str], variants: list[int], seed: int) -> dict[str
 
 def main() -> int:
     """Run everything and print a row a setting; 1 if a record of a worker differs."""
-    from rgss.trials.numeric_environment import numeric_environment
+    from rgss.trials.code.kernel_environment import numeric_environment
 
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--variants", default="1,10,28,40,65", help="ids of the variants")

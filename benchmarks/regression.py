@@ -33,15 +33,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.evidence import EvidenceStore, Fidelity, TrialRecord
+from rgss.guard.decision import decision_of, explained_by_noise, p_values
+from rgss.guard.runs import Records, WatchedTrials, guard_of, subjects_of, watched_trials
 from rgss.regression.comparing import WHOLE_TRIAL, Candidate, Comparison, Guard, Outcome, Subject
 from rgss.regression.comparing_baselines import decision_changes
 from rgss.regression.looking import Settled, settle
 from rgss.regression.observing import observed
 from rgss.regression.power import powers
 from rgss.studies.project import load_project
-from rgss.studies.regressing_decision import decision_of, explained_by_noise, p_values
-from rgss.studies.regressing_runs import Records, WatchedTrials, guard_of, subjects_of, watched_trials
-from rgss.studies.sweep import sweep
+from rgss.sweep.running import sweep
 
 PLANTED = (2.0, 3.0, 5.0)
 """By how many margins quantities are made worse, each in a run of comparisons of its own."""

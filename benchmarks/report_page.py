@@ -118,13 +118,13 @@ def opening_times(page: Path) -> tuple[float, float, float, float]:
 def main() -> None:
     """Write a table in Markdown."""
     out = sys.stdout
-    from rgss.reports.report_page import study_report_to_html
-    from rgss.reports.trace_report import trace_report
-    from rgss.studies.evidence_state import evidence_state
-    from rgss.studies.measuring import measure_variants
+    from rgss.assessment.evidence_status import evidence_state
+    from rgss.assessment.measuring import measure_variants
+    from rgss.decision.tracing import trace_evidence
+    from rgss.reports.study_page import study_report_to_html
+    from rgss.reports.trace.report import trace_report
     from rgss.studies.project import load_project
-    from rgss.studies.trace_evidence import trace_evidence
-    from rgss.trace.model import build_trace_model
+    from rgss.trace.model.model import build_trace_model
 
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
     command = [sys.executable, "-m", "rgss.cli.main", "report", "--no-film", "--json", "--project", str(folder)]

@@ -21,15 +21,15 @@ from typing import Any
 
 from rgss.findings import Severity
 from rgss.reports.table_files import to_csv
-from rgss.reports.trace_files import report_file, tables_of
-from rgss.reports.trace_report import TraceReport, trace_report
+from rgss.reports.trace.files import report_file, tables_of
+from rgss.reports.trace.report import TraceReport, trace_report
 from rgss.requirements import RequirementGroup, RequirementSet, load_requirements
 from rgss.trace import MeasureKind, MeasureTrace, TraceModel, build_trace_model, check_trace
-from rgss.trace.chain import chain_of
-from rgss.trace.impact import impact_of
-from rgss.trace.metrics import trace_matrices
-from rgss.trace.review_stamps import stamped
-from rgss.trace.verdict_evidence import TraceEvidence
+from rgss.trace.evidence.verdict_evidence import TraceEvidence
+from rgss.trace.rules.review_stamps import stamped
+from rgss.trace.views.chain import chain_of
+from rgss.trace.views.impact import impact_of
+from rgss.trace.views.metrics import trace_matrices
 
 SIZES = (1_000, 2_000, 5_000, 10_000)
 LINKS_EACH = 3

@@ -17,6 +17,9 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose
+from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.evidence import (
     PLANNED_PHASES,
     EvidenceStore,
@@ -29,14 +32,11 @@ from rgss.evidence import (
     Provenance,
     TrialRecord,
 )
-from rgss.studies.choosing import choose
 from rgss.studies.expansion import trial_specs
-from rgss.studies.measuring import measure_variants
 from rgss.studies.project import FOLDERS, Project, load_project
-from rgss.studies.robustness import analyse_robustness
-from rgss.studies.sweep import key_of
+from rgss.sweep.running import key_of
 from rgss.trials.metrics import METRICS
-from rgss.trials.spec import TrialSpec
+from rgss.trials.pieces.input_digests import TrialSpec
 
 LARGEST_MB = 1500
 """The memory that is allowed."""

@@ -14,8 +14,8 @@ from typing import Any
 
 from tradeoff_guard_cases import LevelCase, level_case
 
-import rgss.tradeoff.level_guard
-import rgss.tradeoff.level_problem
+import rgss.tradeoff.levels.guard
+import rgss.tradeoff.levels.problem
 from rgss.errors import TradeoffError
 from rgss.tradeoff import CheckKind, DecisionStatus, SolverCheck, SolverRun, decide_levels, independent_run
 
@@ -43,13 +43,13 @@ def main() -> int:
     number = int(sys.argv[1]) if len(sys.argv) > 1 else 500
     first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     run = independent_run(SolverCheck.SCIP)
-    bound = rgss.tradeoff.level_guard.interval_bound
+    bound = rgss.tradeoff.levels.guard.interval_bound
 
     def no_bound(*rest: Any, **more: Any) -> Any:
         return bound(*rest, **{**more, "most": 0})
 
-    rgss.tradeoff.level_problem.LARGEST_ENUMERATED = 0
-    rgss.tradeoff.level_guard.interval_bound = no_bound
+    rgss.tradeoff.levels.problem.LARGEST_ENUMERATED = 0
+    rgss.tradeoff.levels.guard.interval_bound = no_bound
     counts: Counter[tuple[str, str, str, str]] = Counter()
     start = time.process_time()
     for seed in range(first, first + number):

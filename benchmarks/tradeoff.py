@@ -15,24 +15,24 @@ from typing import Any
 
 import numpy as np
 
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.robustness.assumptions import assumption_findings, cost_box
+from rgss.decision.robustness.effects import study_effects
+from rgss.decision.robustness.remeasuring import Remeasuring
+from rgss.decision.robustness.robustness import ITERATIONS, analyse_robustness
 from rgss.evidence import EvidenceStore
-from rgss.studies.choosing import choose, trade_problem
-from rgss.studies.measuring import measure_variants
 from rgss.studies.project import load_project
-from rgss.studies.robustness import ITERATIONS, analyse_robustness
-from rgss.studies.robustness_assumptions import assumption_findings, cost_box
-from rgss.studies.robustness_effects import study_effects
-from rgss.studies.robustness_remeasuring import Remeasuring
-from rgss.tradeoff.acceptability import Outcomes, smaa2
-from rgss.tradeoff.effects import factorial_effects
-from rgss.tradeoff.evidence_table import tabulated
-from rgss.tradeoff.flip import weight_ranges, weight_shifts
-from rgss.tradeoff.pareto import Support, pareto_front
-from rgss.tradeoff.price_list import price_list
-from rgss.tradeoff.rank_reversal import rank_reversals, sample_anchored
-from rgss.tradeoff.resampling import bootstrap
-from rgss.tradeoff.weight_region import RegionKind, winning_regions
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff.problem.evidence_table import tabulated
+from rgss.tradeoff.problem.resampling import bootstrap
+from rgss.tradeoff.robustness.acceptability import Outcomes, smaa2
+from rgss.tradeoff.robustness.effects import factorial_effects
+from rgss.tradeoff.robustness.flip import weight_ranges, weight_shifts
+from rgss.tradeoff.robustness.pareto import Support, pareto_front
+from rgss.tradeoff.robustness.prices import price_list
+from rgss.tradeoff.robustness.rank_reversal import rank_reversals, sample_anchored
+from rgss.tradeoff.weights.weight_region import RegionKind, winning_regions
+from rgss.tradeoff.weights.weight_set import WeightSet
 
 PROJECT = Path(__file__).resolve().parents[1]
 VARIANTS, SHAPE, MEASURES = 72, (2, 2, 2, 3, 3), 5

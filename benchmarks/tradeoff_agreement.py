@@ -15,7 +15,7 @@ from tradeoff_cases import random_fleet, random_problem
 from tradeoff_oracle import expected, expected_fleet
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff import DecisionStatus, TradeProblem, decide, decide_fleet
+from rgss.tradeoff import DecisionStatus, TradeProblem, decide, decide_portfolio
 
 PROGRAMS = ("additive", "lexicographic", "epsilon_constraint", "tchebycheff", "minimax_regret", "risk")
 KINDS = (*PROGRAMS, *(f"{program} over levels" for program in PROGRAMS), "fleet")
@@ -75,7 +75,7 @@ def one_problem(kind: str, seed: int) -> list[str]:
 def one_fleet(seed: int) -> list[str]:
     """Choose one fleet; ``agree`` if its objective is the right one."""
     problem = random_fleet(random.Random(f"fleet {seed}"))  # noqa: S311 - a sample, no secret
-    decision, best = decide_fleet(problem), expected_fleet(problem)
+    decision, best = decide_portfolio(problem), expected_fleet(problem)
     if best is None:
         return ["infeasible", "agree"] if decision.status is DecisionStatus.INFEASIBLE else ["infeasible"]
     return ["agree"] if decision.objective is not None and math.isclose(decision.objective, best, abs_tol=1e-9) else []

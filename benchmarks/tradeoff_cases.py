@@ -19,9 +19,6 @@ from rgss.tradeoff import (
     ElicitedOrder,
     EpsilonConstraint,
     ExponentialValue,
-    FleetAim,
-    FleetProblem,
-    FleetTask,
     Incompatibility,
     LevelFactor,
     LevelSpace,
@@ -29,6 +26,9 @@ from rgss.tradeoff import (
     Lexicographic,
     MinimaxRegret,
     PiecewiseValue,
+    PortfolioAim,
+    PortfolioProblem,
+    PortfolioTask,
     Program,
     Scenarios,
     TailBound,
@@ -83,7 +83,7 @@ def random_problem(rng: random.Random, program: str, *, levels: bool = False) ->
     )
 
 
-def random_fleet(rng: random.Random) -> FleetProblem:
+def random_fleet(rng: random.Random) -> PortfolioProblem:
     """A random portfolio problem over one to four tasks."""
     count = rng.choice([1, 2, 4, 8, 14])
     variants = rng.sample(range(1, 100), count)
@@ -97,7 +97,7 @@ def random_fleet(rng: random.Random) -> FleetProblem:
             requirement="R", measure="b", comparison=Comparison.AT_LEAST, value=rng.choice([0.0, 0.3, 0.7]), unit="1"
         )
         tasks.append(
-            FleetTask(
+            PortfolioTask(
                 name=f"task {place}",
                 weight=share / sum(shares),
                 problem=TradeProblem(
@@ -109,7 +109,9 @@ def random_fleet(rng: random.Random) -> FleetProblem:
             )
         )
     groups = {variant: rng.choice(["x", "y", "z"]) for variant in variants} if rng.random() < 0.4 else None
-    return FleetProblem(tasks=tuple(tasks), at_most=rng.randrange(1, 4), groups=groups, aim=rng.choice(list(FleetAim)))
+    return PortfolioProblem(
+        tasks=tuple(tasks), at_most=rng.randrange(1, 4), groups=groups, aim=rng.choice(list(PortfolioAim))
+    )
 
 
 def random_structure(rng: random.Random) -> LevelStructure:

@@ -22,13 +22,13 @@ from typing import Any
 import numpy as np
 from tradeoff_guard_cases import FleetCase, LevelCase, fleet_case, level_case, seven_factors
 
-import rgss.tradeoff.level_guard
-import rgss.tradeoff.level_problem
-import rgss.tradeoff.level_selection
+import rgss.tradeoff.levels.guard
+import rgss.tradeoff.levels.problem
+import rgss.tradeoff.levels.selection
 from rgss.errors import TradeoffError
-from rgss.tradeoff import DecisionStatus, FleetAim, decide_fleet, decide_levels
-from rgss.tradeoff.level_selection import LevelModel, LevelSelection
-from rgss.tradeoff.stage import RUNS, SolverRun, StageSolver
+from rgss.tradeoff import DecisionStatus, PortfolioAim, decide_levels, decide_portfolio
+from rgss.tradeoff.levels.selection import LevelModel, LevelSelection
+from rgss.tradeoff.milp.stage import RUNS, SolverRun, StageSolver
 
 TOLERANCE = 1e-9
 MERGED = 1_000
@@ -92,7 +92,7 @@ def _write(counts: Mapping[tuple[str, str], int], done: str, seconds: float) -> 
 
 def level_outcome(case: LevelCase, path: str, *, seed: int) -> str:
     """What the decision of a level problem is, compared with brute force."""
-    module, bound, tables = rgss.tradeoff.level_problem, rgss.tradeoff.level_guard, rgss.tradeoff.level_selection
+    module, bound, tables = rgss.tradeoff.levels.problem, rgss.tradeoff.levels.guard, rgss.tradeoff.levels.selection
     enumerated, interval, merged = module.LARGEST_ENUMERATED, bound.interval_bound, tables.LARGEST_TABLE
     if seed % 4 == 0:
         tables.LARGEST_TABLE = MERGED
@@ -123,14 +123,14 @@ def level_outcome(case: LevelCase, path: str, *, seed: int) -> str:
 def fleet_outcome(case: FleetCase) -> str:
     """What the decision of a fleet is, compared with all portfolios."""
     problem = case.problem
-    decision = decide_fleet(problem)
+    decision = decide_portfolio(problem)
     found: list[float | None] = []
     for size in range(1, problem.at_most + 1):
         best: float | None = found[-1] if found else None
         for rows in itertools.combinations(range(len(case.values)), min(size, len(case.values))):
             top = case.values[list(rows)].max(axis=0)
             if (top >= 0.0).all():
-                score = float(top @ case.weights) if problem.aim is FleetAim.MEAN else float(top.min())
+                score = float(top @ case.weights) if problem.aim is PortfolioAim.MEAN else float(top.min())
                 best = score if best is None else max(best, score)
         found.append(best)
     for ours, right in zip(decision.by_size, found, strict=True):

@@ -22,9 +22,6 @@ from rgss.tradeoff import (
     Comparison,
     ElicitedOrder,
     EpsilonConstraint,
-    FleetAim,
-    FleetProblem,
-    FleetTask,
     Incompatibility,
     LevelFactor,
     LevelProblem,
@@ -33,6 +30,9 @@ from rgss.tradeoff import (
     Lexicographic,
     MinimaxRegret,
     PiecewiseValue,
+    PortfolioAim,
+    PortfolioProblem,
+    PortfolioTask,
     TargetValue,
     Tchebycheff,
     Threshold,
@@ -64,7 +64,7 @@ class LevelCase:
 class FleetCase:
     """A portfolio problem, with the value of each design in each task, -1 where it does not serve."""
 
-    problem: FleetProblem
+    problem: PortfolioProblem
     values: Grid
     weights: Grid
 
@@ -337,7 +337,7 @@ def fleet_case(seed: int) -> FleetCase:
         weights[0] = 0.0
     weights = weights / weights.sum()
     tasks = tuple(
-        FleetTask(
+        PortfolioTask(
             name=f"task {task}",
             weight=float(weights[task]),
             problem=TradeProblem(
@@ -353,5 +353,5 @@ def fleet_case(seed: int) -> FleetCase:
         )
         for task in range(shape[1])
     )
-    aim = FleetAim.MEAN if rng.random() < 0.5 else FleetAim.WORST
-    return FleetCase(problem=FleetProblem(tasks=tasks, at_most=most, aim=aim), values=values, weights=weights)
+    aim = PortfolioAim.MEAN if rng.random() < 0.5 else PortfolioAim.WORST
+    return FleetCase(problem=PortfolioProblem(tasks=tasks, at_most=most, aim=aim), values=values, weights=weights)

@@ -23,10 +23,10 @@ from rgss.tradeoff import (
     Condition,
     EpsilonConstraint,
     ExponentialValue,
-    FleetAim,
-    FleetProblem,
     Lexicographic,
     MinimaxRegret,
+    PortfolioAim,
+    PortfolioProblem,
     Scenarios,
     TailBound,
     TargetValue,
@@ -253,7 +253,7 @@ def corners(problem: TradeProblem) -> list[tuple[float, ...]]:
     return found
 
 
-def expected_fleet(problem: FleetProblem) -> float | None:
+def expected_fleet(problem: PortfolioProblem) -> float | None:
     """The best objective of all fleets of the size, by trying each; None if none serves every task."""
     answers = [(task, expected(task.problem)) for task in problem.tasks]
     variants = [one.variant for one in problem.tasks[0].problem.alternatives]
@@ -273,6 +273,6 @@ def expected_fleet(problem: FleetProblem) -> float | None:
                 continue
             known = [value for value in values if value is not None]
             mean = math.fsum(task.weight * value for task, value in zip(problem.tasks, known, strict=True))
-            score = mean if problem.aim is FleetAim.MEAN else min(known)
+            score = mean if problem.aim is PortfolioAim.MEAN else min(known)
             best = score if best is None else max(best, score)
     return best

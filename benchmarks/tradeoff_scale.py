@@ -32,8 +32,8 @@ from rgss.tradeoff import (
     Weighting,
     decide,
 )
-from rgss.tradeoff.dominance import nondominated
-from rgss.tradeoff.enumeration import enumerate_alternatives
+from rgss.tradeoff.problem.dominance import nondominated
+from rgss.tradeoff.programs.enumeration import enumerate_alternatives
 
 MEASURES = "abcde"
 

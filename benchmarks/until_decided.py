@@ -26,10 +26,10 @@ from rgss.designs import sources
 from rgss.measures.evaluation import design_values
 from rgss.studies.project import Project, load_project
 from rgss.tradeoff import Alternative, Comparison, PiecewiseValue, Threshold, TradeProblem, Weighting
-from rgss.tradeoff.sequential import Decided, Progress, Reason, SequentialRule, next_batch
-from rgss.tradeoff.sequential_evidence import SequentialEvidence
-from rgss.tradeoff.sequential_probability import probability_of_good_selection
-from rgss.trials.spec import TrialSpec
+from rgss.tradeoff.sequential.evidence import SequentialEvidence
+from rgss.tradeoff.sequential.probability import probability_of_good_selection
+from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, SequentialRule, next_batch
+from rgss.trials.pieces.input_digests import TrialSpec
 
 FIXED = 200
 Rows = Mapping[int, Mapping[str, NDArray[np.float64]]]
@@ -244,7 +244,7 @@ def pool(file: Path, seeds: int) -> int:
     """Run one variant of each class, at the higher speed, and write success, planning time and length."""
     from rgss.evidence import EvidenceStore
     from rgss.studies.expansion import trial_specs
-    from rgss.studies.sweep import FinishedTrial, sweep
+    from rgss.sweep.running import FinishedTrial, sweep
 
     project = load_project(Path()).with_fidelity("kinematic")
     specs = trial_specs(project, seeds=range(1, seeds + 1))
@@ -339,10 +339,10 @@ def _by_planner(observed: Mapping[Class, NDArray[np.float64]]) -> dict[str, NDAr
 
 def _template(project: Project) -> tuple[TradeProblem, dict[int, tuple[Class, float, float]]]:
     """The study's trade-off with what follows from each design, and each variant's class, speed and stroke."""
+    from rgss.assessment.measuring import VariantMeasures
+    from rgss.decision.choosing import trade_problem
     from rgss.measures import evaluate
-    from rgss.studies.choosing import trade_problem
     from rgss.studies.expansion import trial_specs
-    from rgss.studies.measuring import VariantMeasures
 
     measured, classes = [], {}
     for variant in project.designs.expand():

@@ -13,7 +13,7 @@ from rgss.errors import RgssError
 if TYPE_CHECKING:
     from os import PathLike
 
-    from rgss.studies.analysis import Study
+    from rgss.api import Study
 
 __all__ = ["RgssError", "load_study"]
 
@@ -45,10 +45,10 @@ def load_study(
 
     # By name, since this package is above all others and yet imported with each: an import statement would
     # make everything a part of whatever imports it, for the digests of the code as for the layers.
-    analysis = import_module("rgss.studies.analysis")
-    drawing = import_module("rgss.studies.analysis_trial").Drawing(
-        figure=import_module("rgss.reports.trial_plots").trial_figure,
-        filmstrip=import_module("rgss.reports.filmstrip").filmstrip,
+    analysis = import_module("rgss.api.study")
+    drawing = import_module("rgss.api.trial").Drawing(
+        figure=import_module("rgss.reports.trials.trial_plots").trial_figure,
+        filmstrip=import_module("rgss.reports.trials.filmstrip").filmstrip,
     )
     found: Study = analysis.load(
         None if folder is None else Path(folder), study, fidelity=fidelity, replicates=replicates, drawing=drawing

@@ -19,7 +19,7 @@ import pytest
 from _pytest.junitxml import xml_key
 from hypothesis import settings
 
-from rgss.trials.numeric_environment import is_in_force, numeric_environment
+from rgss.trials.code.kernel_environment import is_in_force, numeric_environment
 
 from . import story as story_module
 from .processor_time import ProcessorTimes, file_of, name_of, slow_tests
@@ -65,7 +65,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         names = dict.fromkeys(str(name) for mark in item.iter_markers("verifies") for name in mark.args)
         if names:
             # Here, so that a run of unmarked tests does not wait for the import.
-            from rgss.trace.junit_file import TEST_ID, VERIFIES
+            from rgss.trace.evidence.junit_file import TEST_ID, VERIFIES
 
             item.user_properties += [(TEST_ID, item.nodeid), *((VERIFIES, name) for name in names)]
 
@@ -78,7 +78,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         return
     from rgss.errors import RgssError
     from rgss.requirements import load_requirements
-    from rgss.trace.software_evidence import run_properties
+    from rgss.trace.evidence.software import run_properties
 
     try:
         noted = run_properties(PROJECT, load_requirements(PROJECT / "requirements").system)

@@ -8,10 +8,10 @@ from pathlib import Path
 from rgss.measures import Estimate, StaleCause, Verdict
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.trace import MeasureKind, MeasureTrace, TraceModel, build_trace_model
-from rgss.trace.evidence_state import EvidenceState, TrialVerdicts
-from rgss.trace.junit_file import TestEnd
-from rgss.trace.software_evidence import SoftwareEvidence, TestEvidence
-from rgss.trace.verdict_evidence import TraceEvidence, TrialEvidence, VariantEvidence
+from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
+from rgss.trace.evidence.junit_file import TestEnd
+from rgss.trace.evidence.software import SoftwareEvidence, TestEvidence
+from rgss.trace.evidence.verdict_evidence import TraceEvidence, TrialEvidence, VariantEvidence
 
 NEED = """\
   - id: {id}

@@ -19,9 +19,9 @@ def computed_with(path: Path, label: str) -> list[dict[str, Any]]:
         SimulationError: No process can be started to look at this machine's numerics.
     """
     from rgss.evidence import EvidenceStore
-    from rgss.evidence.numerics import numerics_difference
-    from rgss.evidence.numerics_census import numerics_census
-    from rgss.trials.numerics import fixed_numerics
+    from rgss.evidence.records import numerics_difference
+    from rgss.evidence.store import numerics_census
+    from rgss.trials.code import fixed_numerics
 
     with EvidenceStore.open(path, create=False, label=label) as evidence:
         census = numerics_census(evidence.database)
@@ -42,7 +42,7 @@ def numerics_line(computed: Mapping[str, Any]) -> str:
     Args:
         computed: An entry of `computed_with`.
     """
-    from rgss.evidence.numerics import numerics_text
+    from rgss.evidence.records import numerics_text
     from rgss.findings import printable
 
     number = computed["trials"]

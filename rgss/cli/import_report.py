@@ -6,9 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rgss.exchange.applying import FileChange
-    from rgss.exchange.comparison import ElementChange
-    from rgss.exchange.content import Content
+    from rgss.exchange import Content, ElementChange, FileChange
 
 _LONGEST = 70
 _CONTEXT = 15

@@ -6,6 +6,7 @@ import argparse
 import errno
 import gc
 import importlib
+import keyword
 import os
 import sys
 from collections.abc import Sequence
@@ -101,7 +102,7 @@ def command_line() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rgss {_version()}")
     verbs = parser.add_subparsers(metavar="VERB", required=True)
     for name in VERBS:
-        module = importlib.import_module(f"rgss.cli.{name}_verb")
+        module = importlib.import_module(f"rgss.cli.verbs.{module_name(name)}")
         verb = verbs.add_parser(
             name,
             help=module.HELP,
@@ -116,6 +117,11 @@ def command_line() -> argparse.ArgumentParser:
         module.configure(verb)
         verb.set_defaults(handler=module.run)
     return parser
+
+
+def module_name(verb: str) -> str:
+    """The module of a verb, which has an underscore behind it where the verb is a word of Python."""
+    return f"{verb}_" if keyword.iskeyword(verb) else verb
 
 
 class _HelpFormatter(argparse.HelpFormatter):

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rgss.studies.project import Project
+    from rgss.studies import Project
 
 FIDELITIES = ("kinematic", "dynamic", "contact")
 
@@ -34,8 +34,7 @@ def chosen_project(options: argparse.Namespace) -> Project:
         DefinitionError: There is no project, or a number is impossible.
     """
     from rgss.errors import DefinitionError
-    from rgss.studies.document import MOST_REPLICATES
-    from rgss.studies.project import find_project, load_project
+    from rgss.studies import MOST_REPLICATES, find_project, load_project
 
     project = load_project(find_project(options.project), options.study)
     replicates = getattr(options, "replicates", None)

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from rgss.documents.output_files import is_standard_output
+from rgss.documents import is_standard_output
 from rgss.findings import printable
 
 _PIECES_AT_ONCE = 100_000

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, TextIO, cast
 
-from rgss.documents.steering import escaped_for_json, steers
+from rgss.documents import escaped_for_json, steers
 
 
 class _SafeStream:

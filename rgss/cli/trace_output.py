@@ -12,9 +12,8 @@ from rgss.cli.safe_output import data_stream
 from rgss.errors import DefinitionError
 
 if TYPE_CHECKING:
-    from rgss.reports.trace_report import TraceReport
-    from rgss.trace.chain import Chain
-    from rgss.trace.impact import Impact
+    from rgss.reports.trace import TraceReport
+    from rgss.trace.views import Chain, Impact
 
 FORMATS = ("text", "html", "md", "csv", "xlsx", "json")
 TABLES = ("coverage", "gaps", "stakeholder-moe", "system-stakeholder", "system-architecture", "verification")
@@ -135,7 +134,7 @@ def _format(options: argparse.Namespace, *, into_folder: bool) -> str:
 
 
 def _check_file(path: Path) -> None:
-    from rgss.documents.output_files import why_not_writable
+    from rgss.documents import why_not_writable
 
     problem = why_not_writable(path)
     if problem:
@@ -144,7 +143,7 @@ def _check_file(path: Path) -> None:
 
 def _contents(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> Mapping[str, bytes]:
     """The content of each file by its name in a folder."""
-    from rgss.reports.trace_files import found_file, report_file, tables_of
+    from rgss.reports.trace import found_file, report_file, tables_of
 
     suffix = _SUFFIXES[order.file_format]
     if order.file_format == "text":
@@ -170,7 +169,7 @@ def _stem(found: Chain | Impact | None) -> str:
 
 def _write(order: TraceOrder, contents: Mapping[str, bytes]) -> None:
     from rgss.cli.output import announce
-    from rgss.documents.output_files import replaced_file, require_no_source
+    from rgss.documents import replaced_file, require_no_source
 
     output = order.output
     if output is None:
@@ -204,8 +203,8 @@ def _print_text(order: TraceOrder, report: TraceReport, found: Chain | Impact | 
 
 
 def _text_lines(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> list[str]:
-    from rgss.reports.trace_terminal import chain_lines, impact_lines, table_lines, terminal_tables
-    from rgss.trace.chain import Chain
+    from rgss.reports.trace import chain_lines, impact_lines, table_lines, terminal_tables
+    from rgss.trace.views import Chain
 
     if isinstance(found, Chain):
         return chain_lines(found)

@@ -1,26 +1,30 @@
 """Design parameters, their levels and ranges, the components behind them, and the variants they make."""
 
-from rgss.designs.catalogue import load_catalogue
+from rgss.designs.catalogue import CatalogueModel, load_catalogue
 from rgss.designs.compatibility import Condition, Limit, Rule
 from rgss.designs.components import Catalogue, Component, Role, SourcedValue
 from rgss.designs.constraints import Constraint
+from rgss.designs.design_values import COMPONENT_PREFIX, numbers, source_units, sources
+from rgss.designs.document import DesignSpaceModel
 from rgss.designs.factors import Factor, Level, Span
 from rgss.designs.loading import load_design_space
-from rgss.designs.parameters import DesignParameter, ParameterKind
+from rgss.designs.parameters import DesignParameter, ParameterKind, si_unit
 from rgss.designs.picking import picked
 from rgss.designs.sampling import Sample, SamplingMethod
-from rgss.designs.sources import source_units, sources
 from rgss.designs.space import DesignSpace, ExcludedCombination
 from rgss.designs.tables import variant_rows, variants_csv
 from rgss.designs.variants import DesignVariant
 
 __all__ = [
+    "COMPONENT_PREFIX",
     "Catalogue",
+    "CatalogueModel",
     "Component",
     "Condition",
     "Constraint",
     "DesignParameter",
     "DesignSpace",
+    "DesignSpaceModel",
     "DesignVariant",
     "ExcludedCombination",
     "Factor",
@@ -35,7 +39,9 @@ __all__ = [
     "Span",
     "load_catalogue",
     "load_design_space",
+    "numbers",
     "picked",
+    "si_unit",
     "source_units",
     "sources",
     "variant_rows",

@@ -8,8 +8,8 @@ from math import prod
 
 from rgss.designs.components import Component
 from rgss.designs.constraints import Constraint
+from rgss.designs.design_values import COMPONENT_PREFIX, numbers
 from rgss.designs.parameters import ParameterValue
-from rgss.designs.sources import COMPONENT_PREFIX, numbers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

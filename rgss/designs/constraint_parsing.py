@@ -22,10 +22,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from rgss.designs.constraints import COMPARISONS, Amount, Constraint, Node, Operation, Raised, Symbol
+from rgss.designs.design_values import DESIGN_PREFIX
 from rgss.designs.factors import exact
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import read_magnitude, si_unit, unit_of
-from rgss.designs.sources import DESIGN_PREFIX
 from rgss.errors import QuantityError
 from rgss.findings import shown
 from rgss.quantities import dimension

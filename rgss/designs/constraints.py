@@ -13,9 +13,9 @@ from fractions import Fraction
 from types import MappingProxyType
 
 from rgss.designs.components import Component
+from rgss.designs.design_values import numbers
 from rgss.designs.factors import exact
 from rgss.designs.parameters import ParameterValue
-from rgss.designs.sources import numbers
 
 COMPARISONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = MappingProxyType(
     {

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 
 from rgss.designs.balance import balanced_part, binned
 from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
+from rgss.designs.design_values import COMPONENT_PREFIX, DESIGN_PREFIX, source_units
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterKind
-from rgss.designs.sources import COMPONENT_PREFIX, DESIGN_PREFIX, source_units
 from rgss.designs.space import DesignSpace
 from rgss.designs.variants import DesignVariant
 from rgss.errors import DefinitionError, QuantityError

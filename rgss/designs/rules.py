@@ -9,11 +9,11 @@ from rgss.designs.compatibility import Condition, Limit, Rule
 from rgss.designs.components import Catalogue
 from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
 from rgss.designs.constraints import Constraint
+from rgss.designs.design_values import COMPONENT_PREFIX, source_units
 from rgss.designs.document import LimitModel, RuleModel
 from rgss.designs.factors import Factor
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterValue, format_value
-from rgss.designs.sources import COMPONENT_PREFIX, source_units
 from rgss.designs.values import ValueReader
 from rgss.documents import Document
 from rgss.findings import Finding, shown

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from rgss.designs.compatibility import Rule
 from rgss.designs.components import Catalogue, Component
+from rgss.designs.design_values import source_units
 from rgss.designs.factors import Factor, Level
 from rgss.designs.parameters import DesignParameter, ParameterValue
 from rgss.designs.sampling import Sample
-from rgss.designs.sources import source_units
 from rgss.designs.variants import DesignVariant
 from rgss.errors import DefinitionError
 
@@ -90,7 +90,7 @@ class DesignSpace:
         raise DefinitionError(f"there is no variant {number}", hint=f"ids of variants: {known}")
 
     def source_units(self) -> Mapping[str, str]:
-        """The SI unit of everything that `rgss.designs.sources` gives, by name; empty for names."""
+        """The SI unit of everything that `rgss.designs.design_values` gives, by name; empty for names."""
         return source_units(self.parameters, self.catalogue)
 
     def combinations(self) -> Iterator[tuple[int, Mapping[str, str], Mapping[str, ParameterValue]]]:

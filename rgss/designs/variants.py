@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from rgss.designs.components import Component
 from rgss.designs.parameters import DesignParameter, ParameterValue
-from rgss.documents.digests import digest
+from rgss.documents import digest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

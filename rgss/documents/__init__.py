@@ -1,5 +1,7 @@
 """Strict YAML to typed models, with every problem of a file reported at its line and column."""
 
+from rgss.documents.digests import canonical_json, digest
+from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
 from rgss.documents.fields import (
     Dimensionless,
     Dollars,
@@ -19,16 +21,36 @@ from rgss.documents.fields import (
     Text,
     UnitText,
 )
-from rgss.documents.json_schema import described_keys, json_schema
 from rgss.documents.model import DocumentModel
-from rgss.documents.reader import Document, read_document
-from rgss.documents.validation import LoadedDocument, load_document
+from rgss.documents.output_files import (
+    DATA_FOLDERS,
+    is_standard_output,
+    replaced_file,
+    require_no_source,
+    unwritable,
+    why_not_writable,
+    write_output,
+)
+from rgss.documents.project_files import FilePlace, content_digest, place_of
+from rgss.documents.reader import LARGEST_FILE_BYTES, Document, read_document
+from rgss.documents.refusals import MOST_PROBLEMS, cut_short
+from rgss.documents.regular_file import chunks_of, open_regular
+from rgss.documents.schemas import described_keys, json_schema
+from rgss.documents.spreadsheet_cells import neutralised, printable, restored, starts_like_a_formula
+from rgss.documents.steering import escaped_for_json, escaped_for_xml, steers
+from rgss.documents.validation import LoadedDocument, load_document, validated
 
 __all__ = [
+    "DATA_FOLDERS",
+    "LARGEST_FILE_BYTES",
+    "MOST_PROBLEMS",
+    "AppendEntry",
     "Dimensionless",
     "Document",
     "DocumentModel",
     "Dollars",
+    "Edit",
+    "FilePlace",
     "Hertz",
     "Identifier",
     "Kilograms",
@@ -42,11 +64,36 @@ __all__ = [
     "Radians",
     "RadiansPerSecond",
     "RadiansPerSecondSquared",
+    "RemoveEntry",
+    "RemoveKey",
     "Seconds",
+    "SetKey",
     "Text",
     "UnitText",
+    "canonical_json",
+    "chunks_of",
+    "content_digest",
+    "cut_short",
     "described_keys",
+    "digest",
+    "edited",
+    "escaped_for_json",
+    "escaped_for_xml",
+    "is_standard_output",
     "json_schema",
     "load_document",
+    "neutralised",
+    "open_regular",
+    "place_of",
+    "printable",
     "read_document",
+    "replaced_file",
+    "require_no_source",
+    "restored",
+    "starts_like_a_formula",
+    "steers",
+    "unwritable",
+    "validated",
+    "why_not_writable",
+    "write_output",
 ]

@@ -1,1 +1,32 @@
 """Formats of other tools."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.exchange.applying import FileChange, planned, rehearsed, written
+    from rgss.exchange.attributes import ATTRIBUTES, Part
+    from rgss.exchange.comparison import ChangeKind, ElementChange, Wishes, compare, not_as_planned
+    from rgss.exchange.content import Content, content_of, part_of
+    from rgss.exchange.ompl_database import write_ompl_database
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "ATTRIBUTES",
+    "ChangeKind",
+    "Content",
+    "ElementChange",
+    "FileChange",
+    "Part",
+    "Wishes",
+    "compare",
+    "content_of",
+    "not_as_planned",
+    "part_of",
+    "planned",
+    "rehearsed",
+    "write_ompl_database",
+    "written",
+]

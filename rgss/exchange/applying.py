@@ -10,8 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
-from rgss.documents.output_files import unwritable, write_output
+from rgss.documents import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited, unwritable, write_output
 from rgss.errors import DefinitionError
 from rgss.exchange.attributes import ATTRIBUTES, Part
 from rgss.exchange.comparison import ChangeKind, ElementChange

@@ -9,21 +9,23 @@ from types import MappingProxyType
 
 from rgss.documents import DocumentModel
 from rgss.requirements import (
+    BehaviourFile,
     BehaviourKind,
+    BlockFile,
     BlockLevel,
     BlockRelation,
     Comparison,
     LinkKind,
+    NeedFile,
     NeedKind,
     Priority,
+    RequirementFile,
     RequirementGroup,
     Statistic,
     Status,
     VerificationMethod,
     VerificationPhase,
 )
-from rgss.requirements.architecture_files import BehaviourFile, BlockFile
-from rgss.requirements.files import NeedFile, RequirementFile
 
 
 class Part(str, Enum):

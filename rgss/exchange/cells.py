@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from rgss.documents.digests import canonical_json
+from rgss.documents import canonical_json
 from rgss.exchange.attributes import ATTRIBUTES, Attribute, Form, Part
 
 _DIVIDER = re.compile(r"(?<!\\)((?:\\\\)*);")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from rgss.documents.validation import validated
+from rgss.documents import validated
 from rgss.exchange.attributes import ATTRIBUTES, MODELS, Attribute, Form, Part
 from rgss.exchange.cells import CellError, cells_of, entry_of, ids_in
 from rgss.exchange.content import Content, Row

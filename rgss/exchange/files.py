@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from rgss.documents.refusals import MOST_PROBLEMS
+from rgss.documents import MOST_PROBLEMS
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity
 

@@ -13,10 +13,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from rgss.documents.output_files import replaced_file
+from rgss.documents import replaced_file
 from rgss.errors import EvidenceError
 from rgss.evidence import PlanOutcome
-from rgss.evidence.planning_runs import PlanningRun
+from rgss.evidence.records import PlanningRun
 
 STATUSES = (
     "Unknown status",

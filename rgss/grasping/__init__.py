@@ -2,9 +2,9 @@
 
 from rgss.grasping.closure import ClosureVerdict, equilibrium, force_closure, form_closure, wrench_resistance
 from rgss.grasping.contact import ContactKind, ContactPoint
-from rgss.grasping.geometry import GraspMemory
+from rgss.grasping.geometry import GraspGeometryCache
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import (
+from rgss.grasping.grasp_matrix import (
     PrimitiveWrenches,
     grasp_map,
     grasp_matrix,
@@ -55,7 +55,7 @@ __all__ = [
     "ContactTolerances",
     "Curvature",
     "Grasp",
-    "GraspMemory",
+    "GraspGeometryCache",
     "GraspPolygon",
     "GraspQuality",
     "PrimitiveWrenches",

@@ -11,7 +11,7 @@ from rgss.errors import DefinitionError
 from rgss.grasping.contact import Matrix, Vector3
 from rgss.grasping.feasibility import BALANCED, RANK_TOLERANCE, STRICTLY_POSITIVE
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import PrimitiveWrenches, plane_rows, primitive_wrenches
+from rgss.grasping.grasp_matrix import PrimitiveWrenches, plane_rows, primitive_wrenches
 from rgss.grasping.linear import maximise
 from rgss.grasping.screws import Wrench
 

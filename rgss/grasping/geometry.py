@@ -11,7 +11,7 @@ from rgss.grasping.closure import balance, positive_span
 from rgss.grasping.contact import ContactPoint, Matrix
 from rgss.grasping.feasibility import can_balance, positively_span
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import PrimitiveWrenches, partial_wrench_bases, require_cone_edges, wrenches_of
+from rgss.grasping.grasp_matrix import PrimitiveWrenches, partial_wrench_bases, require_cone_edges, wrenches_of
 from rgss.grasping.quality import ball_radius, of_ellipsoid
 
 _SAME = 1e-9
@@ -72,7 +72,7 @@ class GraspGeometry:
         )
 
 
-class GraspMemory:
+class GraspGeometryCache:
     """Remembers the geometry of the grasp that was analysed last.
 
     An object that is held does not move in the hand for most of the time: its contacts stay where they

@@ -11,7 +11,7 @@ from rgss.grasping.closure import require_force_limit
 from rgss.grasping.contact import Matrix
 from rgss.grasping.feasibility import RANK_TOLERANCE, positively_span
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import primitive_wrenches
+from rgss.grasping.grasp_matrix import primitive_wrenches
 from rgss.grasping.polygon import FEWEST_CORNERS, GraspPolygon, internal_angles, worst_deviation
 
 _NEAREST_FACETS = 32

@@ -9,9 +9,9 @@ from dataclasses import dataclass, fields
 from rgss.evidence.records import Metric
 from rgss.grasping.closure import require_force_limit, resistance
 from rgss.grasping.contact import ContactPoint, Vector3
-from rgss.grasping.geometry import GraspMemory
+from rgss.grasping.geometry import GraspGeometryCache
 from rgss.grasping.grasp import Grasp
-from rgss.grasping.grasp_map import net_wrench
+from rgss.grasping.grasp_matrix import net_wrench
 from rgss.grasping.polygon import grasp_polygon
 from rgss.grasping.quality import q_diff_m, q_gpri
 from rgss.grasping.rigid_body import wrench_norm_n
@@ -80,7 +80,7 @@ def analyse_grasp(
     cone_edges: int = 8,
     with_margins: bool = True,
     with_strength: bool = True,
-    memory: GraspMemory | None = None,
+    memory: GraspGeometryCache | None = None,
 ) -> GraspQuality:
     """Analyse the grasp that contacts make.
 
@@ -105,7 +105,7 @@ def analyse_grasp(
     """
     grasp = Grasp.of(contacts, centre_of_mass_m, characteristic_length_m)
     require_force_limit(finger_force_limit_n)
-    geometry = (memory or GraspMemory()).geometry(grasp, cone_edges=cone_edges, with_margins=with_margins)
+    geometry = (memory or GraspGeometryCache()).geometry(grasp, cone_edges=cone_edges, with_margins=with_margins)
     polygon = grasp_polygon(grasp, grasp_axis)
     load = (
         resistance(grasp, geometry.edges, external_wrench, finger_force_limit_n=finger_force_limit_n)

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
+from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import Part, collision_parts
-from rgss.kinematics.situation import Situation
 from rgss.scenes import GripperGeometry, Scene
 
 Vector = NDArray[np.float64]
@@ -68,7 +68,7 @@ class CollisionModel:
     """
 
     def __init__(
-        self, scene: Scene, gripper: GripperGeometry, situation: Situation, *, clearance_m: float = 0.0
+        self, scene: Scene, gripper: GripperGeometry, situation: CollisionContext, *, clearance_m: float = 0.0
     ) -> None:
         import pinocchio
 
@@ -209,7 +209,7 @@ class CollisionModel:
 
 
 def _uprightness(
-    model: Any, scene: Scene, gripper: GripperGeometry, situation: Situation
+    model: Any, scene: Scene, gripper: GripperGeometry, situation: CollisionContext
 ) -> tuple[float | None, Vector]:
     """Least vertical part of the carried workpiece's axis, and that axis in the frame of the last joint."""
     if situation.carried is None or situation.largest_tilt_rad is None:
@@ -234,7 +234,7 @@ def _forget_history(request: Any) -> None:
             request.enable_cached_gjk_guess = False
 
 
-def _checked_pairs(situation: Situation, scene: Scene, parts: Sequence[Part]) -> set[frozenset[str]]:
+def _checked_pairs(situation: CollisionContext, scene: Scene, parts: Sequence[Part]) -> set[frozenset[str]]:
     known = {part.name for part in parts} | {scene.workpiece.id}
     unknown = sorted({name for pair in situation.allowed for name in pair} - known)
     if unknown:

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.errors import DefinitionError
+from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import transform
-from rgss.kinematics.situation import Situation
-from rgss.scenes import Box, GripperGeometry, Scene, Shape
-from rgss.scenes.assembly import GRIPPER_BASE_LINK, finger_link
+from rgss.scenes import GRIPPER_BASE_LINK, Box, GripperGeometry, Scene, Shape, finger_link
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -39,7 +38,9 @@ class Part:
         return abs(self.chain - other.chain) > 1
 
 
-def collision_parts(model: Any, scene: Scene, gripper: GripperGeometry, situation: Situation) -> tuple[Part, ...]:
+def collision_parts(
+    model: Any, scene: Scene, gripper: GripperGeometry, situation: CollisionContext
+) -> tuple[Part, ...]:
     """List the solids of arm, gripper, workpiece and scene.
 
     Args:

@@ -1,6 +1,6 @@
 """Measures of performance and effectiveness: definitions, expressions, estimates, verdicts."""
 
-from rgss.measures.definition_digest import definition_digest
+from rgss.measures.definition_digests import definition_digest
 from rgss.measures.definitions import (
     Assumption,
     Constant,
@@ -16,13 +16,20 @@ from rgss.measures.definitions import (
     Summary,
 )
 from rgss.measures.document import MeasuresDocument
-from rgss.measures.estimates import Estimate
-from rgss.measures.evaluation import design_values, evaluate, trial_values
+from rgss.measures.estimates import Estimate, proportion_estimate
+from rgss.measures.evaluation import COMPLETE, design_values, evaluate, trial_values
+from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
+from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
-from rgss.measures.verdicts import StaleCause, Verdict, judge, meets
+from rgss.measures.verdicts import RELATIVE_TOLERANCE, StaleCause, Verdict, judge, meets
 
 __all__ = [
+    "COMPLETE",
+    "FUNCTIONS",
+    "RELATIVE_TOLERANCE",
     "Assumption",
+    "Binary",
+    "Call",
     "Constant",
     "Direction",
     "Equation",
@@ -34,9 +41,15 @@ __all__ = [
     "MeasureKind",
     "MeasureSet",
     "MeasuresDocument",
+    "Name",
+    "Negative",
+    "Node",
+    "Number",
     "Population",
+    "Power",
     "StaleCause",
     "Summary",
+    "Value",
     "Verdict",
     "definition_digest",
     "design_values",
@@ -44,5 +57,6 @@ __all__ = [
     "judge",
     "load_measures",
     "meets",
+    "proportion_estimate",
     "trial_values",
 ]

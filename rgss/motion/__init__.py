@@ -1,6 +1,6 @@
 """Motion: planning by random trees on a counted clock, shortening, smoothing and timing of paths."""
 
-from rgss.motion.blending import BlendedPath, blend
+from rgss.motion.blending import BlendedPath, SmoothPath, blend
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.limits import MotionLimits
 from rgss.motion.paths import JointPath, path_length, segment_states
@@ -20,6 +20,7 @@ __all__ = [
     "PlanResult",
     "PlanningClock",
     "PlanningProblem",
+    "SmoothPath",
     "StateValidity",
     "TimedMove",
     "TimingOutcome",

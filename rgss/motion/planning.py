@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from rgss.errors import MotionError
-from rgss.evidence.outcomes import PlanOutcome
+from rgss.evidence.records import PlanOutcome
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.engine import load_engine
 from rgss.motion.paths import JointPath

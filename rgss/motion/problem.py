@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from rgss.errors import MotionError
-from rgss.evidence.outcomes import PlanOutcome
+from rgss.evidence.records import PlanOutcome
 from rgss.motion.paths import JointPath
 
 

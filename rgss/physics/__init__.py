@@ -1,9 +1,27 @@
 """Headless rigid-body physics: world, actuation, contacts."""
 
+from rgss.physics.camera import VIEWS, Camera, View
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
-from rgss.physics.settings import MOST_ITERATIONS, PhysicsSettings
+from rgss.physics.rendering import Picture
+from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, MOST_ITERATIONS, PhysicsSettings
+from rgss.physics.stage import Posture
 from rgss.physics.torque_arm import TorqueArm
 from rgss.physics.world import World
 
-__all__ = ["MOST_ITERATIONS", "Contacts", "FingerContact", "HandView", "PhysicsSettings", "TorqueArm", "World"]
+__all__ = [
+    "LEAST_ITERATIONS_HZ",
+    "LEAST_RATE_HZ",
+    "MOST_ITERATIONS",
+    "VIEWS",
+    "Camera",
+    "Contacts",
+    "FingerContact",
+    "HandView",
+    "PhysicsSettings",
+    "Picture",
+    "Posture",
+    "TorqueArm",
+    "View",
+    "World",
+]

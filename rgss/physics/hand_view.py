@@ -41,7 +41,7 @@ class HandView(NamedTuple):
     @property
     def held(self) -> Pose:
         """Transform of the workpiece to the grasp centre."""
-        return Pose(position_m=self.workpiece_m, quaternion_xyzw=self.workpiece_xyzw).seen_from(self.tool)
+        return Pose(position_m=self.workpiece_m, quaternion_xyzw=self.workpiece_xyzw).relative_to(self.tool)
 
     @property
     def held_at_m(self) -> Triple:

@@ -16,8 +16,18 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.solids import Surface, box_surface, cup_surface, cylinder_surface
-from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene, Shape
-from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
+from rgss.scenes import (
+    GRIPPER_BASE_LINK,
+    Box,
+    Cylinder,
+    Gripper,
+    Pose,
+    Scene,
+    Shape,
+    assembled_urdf,
+    finger_joint,
+    finger_link,
+)
 
 Colour = Sequence[float]
 

@@ -8,8 +8,7 @@ from types import TracebackType
 from rgss.errors import SimulationError
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Gripper, Pose, Robot, Workpiece
-from rgss.scenes.assembly import assembled_urdf, finger_joint
+from rgss.scenes import Gripper, Pose, Robot, Workpiece, assembled_urdf, finger_joint
 
 
 class TorqueArm:

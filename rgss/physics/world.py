@@ -19,9 +19,7 @@ from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.hand_view import HandView
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Box, Gripper, Pose, Scene, Shape
-from rgss.scenes.assembly import assembled_urdf, finger_joint
-from rgss.scenes.pad_ribs import RIBS, pad_ribs
+from rgss.scenes import RIBS, Box, Gripper, Pose, Scene, Shape, assembled_urdf, finger_joint, pad_ribs
 
 _ARM_POSITION_GAIN = 0.2
 _GEAR_FORCE_N = 1.0e4

@@ -1,1 +1,75 @@
 """Guarding metrics against a baseline: the statistics, the baseline's file, and what is said of both."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.regression.baseline import (
+        Baseline,
+        BaselineOrigin,
+        BaselineRun,
+        Change,
+        DecisionState,
+        baseline_to_text,
+        read_baseline,
+    )
+    from rgss.regression.comparing import WHOLE_TRIAL, Candidate, Comparison, Guard, Outcome, Subject
+    from rgss.regression.comparing_baselines import (
+        changed_trials,
+        decision_changes,
+        run_failings,
+        schema_failings,
+        unchanged_phases,
+    )
+    from rgss.regression.input_changes import InputChange, InputKind, Inputs, origin_changes, value_changes
+    from rgss.regression.looking import settle
+    from rgss.regression.observing import OF_PHASES, SUCCESS, fingerprint, observed
+    from rgss.regression.power import MEAN_LOSS, MOST_SEEDS, TARGET, Power, powers
+    from rgss.regression.report import Behaviour, ChangedTrial, Failing, FailureCause, RegressionReport
+    from rgss.regression.sign_flips import FEWEST_SEEDS, adjusted_p_values
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "FEWEST_SEEDS",
+    "MEAN_LOSS",
+    "MOST_SEEDS",
+    "OF_PHASES",
+    "SUCCESS",
+    "TARGET",
+    "WHOLE_TRIAL",
+    "Baseline",
+    "BaselineOrigin",
+    "BaselineRun",
+    "Behaviour",
+    "Candidate",
+    "Change",
+    "ChangedTrial",
+    "Comparison",
+    "DecisionState",
+    "Failing",
+    "FailureCause",
+    "Guard",
+    "InputChange",
+    "InputKind",
+    "Inputs",
+    "Outcome",
+    "Power",
+    "RegressionReport",
+    "Subject",
+    "adjusted_p_values",
+    "baseline_to_text",
+    "changed_trials",
+    "decision_changes",
+    "fingerprint",
+    "observed",
+    "origin_changes",
+    "powers",
+    "read_baseline",
+    "run_failings",
+    "schema_failings",
+    "settle",
+    "unchanged_phases",
+    "value_changes",
+]

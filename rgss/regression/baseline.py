@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rgss.errors import EvidenceError
-from rgss.evidence.codec import plain_json, read_plain
+from rgss.evidence.records import plain_json, read_plain
 
 SCHEMA = 3
 """The form of the file."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from rgss.regression.baseline import Baseline, BaselineRun, DecisionState
 from rgss.regression.comparing import WHOLE_TRIAL
 from rgss.regression.observing import first_difference
-from rgss.regression.report import ChangedTrial, Failing, Trouble
+from rgss.regression.report import ChangedTrial, Failing, FailureCause
 
 
 def schema_failings(baseline: Baseline, units: Mapping[str, str], record: Mapping[str, str]) -> Iterator[Failing]:
@@ -20,17 +20,19 @@ def schema_failings(baseline: Baseline, units: Mapping[str, str], record: Mappin
     """
     for name, unit in sorted(baseline.units.items()):
         if name not in units:
-            yield Failing(trouble=Trouble.MISSING_METRIC, text=f"the baseline guards {name}, the study no longer does")
+            yield Failing(
+                trouble=FailureCause.MISSING_METRIC, text=f"the baseline guards {name}, the study no longer does"
+            )
         elif units[name] != unit:
-            yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"{name} was in {unit} and is in {units[name]}")
+            yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"{name} was in {unit} and is in {units[name]}")
     for name in sorted(units.keys() - baseline.units.keys()):
-        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"the study guards {name}, the baseline does not")
+        yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"the study guards {name}, the baseline does not")
     gone = sorted(baseline.record.keys() - record.keys())
     new = sorted(record.keys() - baseline.record.keys())
     other = sorted(name for name in record.keys() & baseline.record.keys() if record[name] != baseline.record[name])
     for names, said in ((gone, "no longer have"), (new, "newly have"), (other, "have another unit for")):
         if names:
-            yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"trials {said} {', '.join(names)}")
+            yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"trials {said} {', '.join(names)}")
 
 
 def run_failings(
@@ -46,24 +48,24 @@ def run_failings(
         seeds: All seeds that it may take now.
     """
     if before is None:
-        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=f"run {name} is not in the baseline")
+        yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"run {name} is not in the baseline")
         return
     if before.fidelity != fidelity:
         text = f"run {name} was {before.fidelity} and is {fidelity}"
-        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=text)
+        yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=text)
     gone = sorted(set(before.variants) - set(variants))
     new = sorted(set(variants) - set(before.variants))
     for which, said in ((gone, "no longer tries"), (new, "newly tries")):
         if which:
             numbers = ", ".join(map(str, which))
-            trouble = Trouble.FEWER_REPLICATES if which is gone else Trouble.CHANGED_SCHEMA
+            trouble = FailureCause.FEWER_REPLICATES if which is gone else FailureCause.CHANGED_SCHEMA
             yield Failing(trouble=trouble, text=f"run {name} {said} variant{'s' if len(which) > 1 else ''} {numbers}")
     if len(seeds) < len(before.seeds):
         text = f"run {name} takes up to {len(seeds)} seeds; the baseline has {len(before.seeds)}"
-        yield Failing(trouble=Trouble.FEWER_REPLICATES, text=text)
+        yield Failing(trouble=FailureCause.FEWER_REPLICATES, text=text)
     elif tuple(seeds) != before.seeds:
         text = f"run {name} takes other seeds than the baseline, which has {len(before.seeds)}"
-        yield Failing(trouble=Trouble.CHANGED_SCHEMA, text=text)
+        yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=text)
 
 
 def changed_trials(
@@ -168,7 +170,7 @@ def decision_changes(
         elif share > error_rate:
             notes.append(f"{text}; within the noise, which has it as it was in {share:.0%} of the resamples")
         else:
-            failing.append(Failing(trouble=Trouble.UNSTABLE, text=text))
+            failing.append(Failing(trouble=FailureCause.UNSTABLE, text=text))
     return tuple(failing), tuple(notes)
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from rgss.documents.digests import digest
+from rgss.documents import digest
 from rgss.evidence import Phase, PhaseOutcome, PhaseRecord, TrialRecord
-from rgss.evidence.digests import record_digest
+from rgss.evidence.records import record_digest
 from rgss.regression.comparing import WHOLE_TRIAL
 
 SUCCESS = "success"

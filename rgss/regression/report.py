@@ -11,7 +11,7 @@ from rgss.regression.input_changes import InputChange, InputKind
 from rgss.regression.power import Power
 
 
-class Trouble(str, Enum):
+class FailureCause(str, Enum):
     """Why the guard fails beside a metric that is worse."""
 
     MISSING_METRIC = "missing metric"
@@ -30,7 +30,7 @@ class Failing:
         text: What is wrong, in one line.
     """
 
-    trouble: Trouble
+    trouble: FailureCause
     text: str
 
 
@@ -116,7 +116,7 @@ class RegressionReport:
     @property
     def incomplete(self) -> bool:
         """Whether a trial could not be run, so that something was not compared at all."""
-        return any(one.trouble is Trouble.NOT_RUN for one in self.failing)
+        return any(one.trouble is FailureCause.NOT_RUN for one in self.failing)
 
     @property
     def has_changes(self) -> bool:

@@ -1,1 +1,15 @@
 """Pure renderers of evidence and decisions."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.reports.study_page import TrialPictures, study_report_to_html
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "TrialPictures",
+    "study_report_to_html",
+]

@@ -9,7 +9,7 @@ import zipfile
 from collections.abc import Sequence
 from typing import Any
 
-from rgss.documents.spreadsheet_cells import neutralised, printable, starts_like_a_formula
+from rgss.documents import neutralised, printable, starts_like_a_formula
 from rgss.errors import DefinitionError
 from rgss.reports.tables import Cell, Table, cell_text
 

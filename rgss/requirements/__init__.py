@@ -1,14 +1,7 @@
 """Needs, requirements, criteria and architecture: what is asked for, and what is to satisfy it."""
 
-from rgss.requirements.activity import Flow, FlowEdge, FlowNode, FlowNodeKind
-from rgss.requirements.architecture import (
-    Architecture,
-    Behaviour,
-    BehaviourKind,
-    Block,
-    BlockLevel,
-    BlockRelation,
-)
+from rgss.requirements.architecture import Architecture, Behaviour, BehaviourKind, Block, BlockLevel, BlockRelation
+from rgss.requirements.architecture_files import ArchitectureFile, BehaviourFile, BlockFile
 from rgss.requirements.attributes import (
     NeedKind,
     Priority,
@@ -17,24 +10,39 @@ from rgss.requirements.attributes import (
     VerificationMethod,
     VerificationPhase,
 )
+from rgss.requirements.behaviour import (
+    Flow,
+    FlowEdge,
+    FlowNode,
+    FlowNodeKind,
+    Interaction,
+    Message,
+    State,
+    StateKind,
+    StateMachine,
+    TimingConstraint,
+    Transition,
+)
 from rgss.requirements.content import Element, content_digest_of
 from rgss.requirements.criterion import Comparison, Criterion, Statistic
 from rgss.requirements.exemption import Exemption
-from rgss.requirements.interaction import Interaction, Message, TimingConstraint
+from rgss.requirements.files import NeedFile, RequirementFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.requirements.links import LinkKind, TraceLink
 from rgss.requirements.loading import load_requirements
 from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.requirement import Requirement
-from rgss.requirements.requirement_set import Place, RequirementSet
+from rgss.requirements.requirement_set import Place, RequirementSet, nearest
 from rgss.requirements.review import Review
 from rgss.requirements.rule_settings import RuleSetting
-from rgss.requirements.state_machine import State, StateKind, StateMachine, Transition
 
 __all__ = [
     "Architecture",
+    "ArchitectureFile",
     "Behaviour",
+    "BehaviourFile",
     "BehaviourKind",
     "Block",
+    "BlockFile",
     "BlockLevel",
     "BlockRelation",
     "Comparison",
@@ -48,20 +56,26 @@ __all__ = [
     "Interaction",
     "LinkKind",
     "Message",
+    "NeedFile",
     "NeedKind",
     "Place",
     "Priority",
     "Requirement",
+    "RequirementFile",
     "RequirementGroup",
     "RequirementSet",
     "Review",
+    "ReviewsFile",
     "RuleSetting",
+    "RulesFile",
+    "StakeholderFile",
     "StakeholderNeed",
     "State",
     "StateKind",
     "StateMachine",
     "Statistic",
     "Status",
+    "SystemFile",
     "TimingConstraint",
     "TraceLink",
     "Transition",
@@ -69,4 +83,5 @@ __all__ = [
     "VerificationPhase",
     "content_digest_of",
     "load_requirements",
+    "nearest",
 ]

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from rgss.requirements.activity import Flow
+from rgss.requirements.behaviour import Flow, Interaction, StateMachine
 from rgss.requirements.exemption import Exemption
-from rgss.requirements.interaction import Interaction
-from rgss.requirements.state_machine import StateMachine
 
 
 class BlockLevel(str, Enum):

@@ -7,10 +7,9 @@ from typing import Any
 from pydantic import model_validator
 
 from rgss.documents import DocumentModel, Identifier, Text
-from rgss.requirements.activity import FlowNodeKind
 from rgss.requirements.architecture import BehaviourKind, BlockLevel, BlockRelation
+from rgss.requirements.behaviour import FlowNodeKind, StateKind
 from rgss.requirements.files import Entries, ExemptionFile
-from rgss.requirements.state_machine import StateKind
 
 
 class BlockFile(DocumentModel):

@@ -5,9 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from types import MappingProxyType
 
-from rgss.requirements.activity import Flow, FlowEdge, FlowNode
 from rgss.requirements.architecture import Behaviour, Block
 from rgss.requirements.architecture_files import BehaviourFile, BlockFile, FlowFile, InteractionFile, MachineFile
+from rgss.requirements.behaviour import (
+    Flow,
+    FlowEdge,
+    FlowNode,
+    Interaction,
+    Message,
+    State,
+    StateMachine,
+    TimingConstraint,
+    Transition,
+)
 from rgss.requirements.criterion import Criterion
 from rgss.requirements.exemption import Exemption
 from rgss.requirements.files import (
@@ -19,12 +29,10 @@ from rgss.requirements.files import (
     RuleSettingFile,
     split_quantity,
 )
-from rgss.requirements.interaction import Interaction, Message, TimingConstraint
 from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.requirement import Requirement
 from rgss.requirements.review import Review
 from rgss.requirements.rule_settings import RuleSetting
-from rgss.requirements.state_machine import State, StateMachine, Transition
 
 
 def build_need(item: NeedFile) -> StakeholderNeed:

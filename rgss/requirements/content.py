@@ -6,7 +6,7 @@ import dataclasses
 from enum import Enum
 from typing import Any
 
-from rgss.documents.digests import digest
+from rgss.documents import digest
 from rgss.requirements.architecture import Behaviour, Block
 from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.requirement import Requirement

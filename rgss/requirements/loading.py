@@ -10,7 +10,6 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.requirements.architecture import Architecture
 from rgss.requirements.architecture_files import ArchitectureFile
-from rgss.requirements.behaviour_checks import check_behaviours
 from rgss.requirements.building import (
     build_behaviour,
     build_block,
@@ -19,7 +18,7 @@ from rgss.requirements.building import (
     build_review,
     build_setting,
 )
-from rgss.requirements.declarations import declared_elements, declared_needs, declared_requirements
+from rgss.requirements.checks import check_behaviours, declared_elements, declared_needs, declared_requirements
 from rgss.requirements.files import ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.requirements.hints import Hints
 from rgss.requirements.reading import FolderReader

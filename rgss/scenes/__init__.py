@@ -1,8 +1,11 @@
 """Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
 
+from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
+from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.gripper import Gripper, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper
 from rgss.scenes.pose import Pose
+from rgss.scenes.rib_geometry import RIBS, pad_ribs
 from rgss.scenes.robot import Joint, Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
@@ -12,23 +15,32 @@ from rgss.scenes.waypoints import Waypoint, waypoint_poses
 
 __all__ = [
     "FORCE_WINDOW_S",
+    "GRIPPER_BASE_LINK",
     "LANDING_LIMIT_M_S",
+    "RIBS",
     "Box",
     "Cylinder",
     "Gripper",
+    "GripperDocument",
     "GripperGeometry",
     "Joint",
     "PlaceRegion",
     "Pose",
     "Robot",
+    "RobotDocument",
     "Scene",
     "SceneBody",
+    "SceneDocument",
     "Shape",
     "Task",
     "Waypoint",
     "Workpiece",
+    "assembled_urdf",
+    "finger_joint",
+    "finger_link",
     "load_gripper",
     "load_robot",
     "load_scene",
+    "pad_ribs",
     "waypoint_poses",
 ]

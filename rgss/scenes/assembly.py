@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from rgss.scenes.gripper import Gripper
-from rgss.scenes.pad_ribs import PadRibs
 from rgss.scenes.pose import Pose
+from rgss.scenes.rib_geometry import PadRibs
 from rgss.scenes.robot import Robot
 from rgss.scenes.shapes import Box
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from rgss.documents import Document
-from rgss.documents.project_files import FilePlace, place_of
+from rgss.documents import Document, FilePlace, place_of
 from rgss.findings import Finding, shown
 
 Location = tuple["str | int", ...]

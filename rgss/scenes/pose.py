@@ -38,7 +38,7 @@ class Pose:
         x, y, z, w = self.quaternion_xyzw
         return _turned(x, y, z, w, vector)
 
-    def turned_back(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
+    def inverse_rotate(self, vector: tuple[float, float, float]) -> tuple[float, float, float]:
         """Express a direction of the outer frame in this frame."""
         x, y, z, w = self.quaternion_xyzw
         return _turned(-x, -y, -z, w, vector)
@@ -62,10 +62,10 @@ class Pose:
     def inverse(self) -> Pose:
         """The transform the other way round."""
         x, y, z, w = self.quaternion_xyzw
-        px, py, pz = self.turned_back(self.position_m)
+        px, py, pz = self.inverse_rotate(self.position_m)
         return Pose(position_m=(-px, -py, -pz), quaternion_xyzw=(-x, -y, -z, w))
 
-    def seen_from(self, frame: Pose) -> Pose:
+    def relative_to(self, frame: Pose) -> Pose:
         """``frame.inverse() @ self``, in one go: this pose in another frame that is given in the same outer frame."""
         x, y, z, w = frame.quaternion_xyzw
         (ax, ay, az), (bx, by, bz) = self.position_m, frame.position_m

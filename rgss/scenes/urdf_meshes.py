@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from xml.parsers import expat
 
-from rgss.documents.project_files import FilePlace, content_digest, place_of
+from rgss.documents import FilePlace, content_digest, place_of
 from rgss.findings import Finding, Severity, shown
 from rgss.scenes.robot import RobotFile
 

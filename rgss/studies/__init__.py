@@ -1,1 +1,65 @@
 """Studies: from a project folder to trials, evidence, estimates and a decision."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.studies.bench_check import bench_findings
+    from rgss.studies.document import MOST_REPLICATES, StudyDocument
+    from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind
+    from rgss.studies.expansion import trial_specs
+    from rgss.studies.finding_suppression import without_consequences
+    from rgss.studies.impact_check import impact_findings
+    from rgss.studies.input_names import CODE, named_inputs
+    from rgss.studies.project import (
+        DEFAULT_STUDY,
+        EVIDENCE,
+        FOLDERS,
+        Project,
+        find_project,
+        load_project,
+        project_of_study,
+    )
+    from rgss.studies.promotion import Promotion, Screening
+    from rgss.studies.regression_section import GuardedMetric, RegressionGuard, WatchedRun
+    from rgss.studies.scaffolding import write_scaffold
+    from rgss.studies.scene_findings import check_scene
+    from rgss.studies.schema_headers import write_headers, write_schemas
+    from rgss.studies.source_text import invisible_findings
+    from rgss.studies.study import ValueAnchors
+    from rgss.studies.unread_files import unread_findings
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "CODE",
+    "DEFAULT_STUDY",
+    "DOCUMENT_KINDS",
+    "EVIDENCE",
+    "FOLDERS",
+    "MOST_REPLICATES",
+    "GuardedMetric",
+    "Project",
+    "Promotion",
+    "RegressionGuard",
+    "Screening",
+    "StudyDocument",
+    "ValueAnchors",
+    "WatchedRun",
+    "bench_findings",
+    "check_scene",
+    "document_kind",
+    "find_project",
+    "impact_findings",
+    "invisible_findings",
+    "load_project",
+    "named_inputs",
+    "project_of_study",
+    "trial_specs",
+    "unread_findings",
+    "without_consequences",
+    "write_headers",
+    "write_scaffold",
+    "write_schemas",
+]

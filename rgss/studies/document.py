@@ -19,7 +19,7 @@ from rgss.documents import (
 )
 from rgss.findings import shown
 from rgss.studies.regression_section import RegressionEntry
-from rgss.studies.trade_off_document import TradeOffEntry
+from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
 
 MOST_REPLICATES = 10_000

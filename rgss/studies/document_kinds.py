@@ -9,14 +9,12 @@ from importlib import resources
 from pathlib import PurePosixPath
 from typing import Any
 
-from rgss.designs.catalogue import CatalogueModel
-from rgss.designs.document import DesignSpaceModel
+from rgss.designs import CatalogueModel, DesignSpaceModel
 from rgss.documents import DocumentModel, json_schema, read_document
 from rgss.errors import DefinitionError
-from rgss.measures.document import MeasuresDocument
-from rgss.requirements.architecture_files import ArchitectureFile
-from rgss.requirements.files import ReviewsFile, RulesFile, StakeholderFile, SystemFile
-from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
+from rgss.measures import MeasuresDocument
+from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
+from rgss.scenes import GripperDocument, RobotDocument, SceneDocument
 from rgss.studies.document import StudyDocument
 
 

@@ -24,8 +24,8 @@ from rgss.studies.task_parameters import (
     PLANNING_LIMIT,
     TOOL_SPEED,
 )
-from rgss.trials.settings import PlanningSettings, TrialSettings
-from rgss.trials.spec import TrialSpec
+from rgss.trials import PlanningSettings, TrialSettings
+from rgss.trials.pieces import TrialSpec
 
 
 def trial_specs(

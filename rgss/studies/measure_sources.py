@@ -9,7 +9,7 @@ from rgss.documents import Document
 from rgss.findings import Finding
 from rgss.measures import InputSymbol
 from rgss.quantities import dimension
-from rgss.trials.metrics import METRICS
+from rgss.trials import METRICS
 
 _LONGEST_LIST = 12
 

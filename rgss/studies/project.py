@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from rgss.designs import DesignSpace, load_catalogue, load_design_space
-from rgss.documents import read_document
-from rgss.documents.project_files import FilePlace, place_of
+from rgss.documents import FilePlace, place_of, read_document
 from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, Severity, shown
@@ -18,7 +17,7 @@ from rgss.measures import MeasureSet, load_measures
 from rgss.quantities import same_dimension
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes import GripperGeometry, Scene, load_gripper, load_scene
-from rgss.studies.consequences import without_consequences
+from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import source_findings
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.task_parameters import GRIPPER, task_findings

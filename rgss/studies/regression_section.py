@@ -12,9 +12,8 @@ from rgss.errors import QuantityError
 from rgss.evidence import Fidelity, Phase
 from rgss.findings import Finding, shown
 from rgss.quantities import parse_quantity
-from rgss.regression.comparing import WHOLE_TRIAL, Guard
-from rgss.regression.observing import OF_PHASES, SUCCESS
-from rgss.trials.metrics import METRICS
+from rgss.regression import OF_PHASES, SUCCESS, WHOLE_TRIAL, Guard
+from rgss.trials import METRICS
 
 MOST_SEEDS = 200
 """Seeds of a variant that a guard may take."""

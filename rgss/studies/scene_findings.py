@@ -14,7 +14,7 @@ from rgss.studies.project import Project
 from rgss.studies.task_parameters import GRIPPER
 
 if TYPE_CHECKING:
-    from rgss.trials.scene_check import SceneProblem
+    from rgss.trials import SceneProblem
 
 _AT_GRASP = (Waypoint.GRASP_APPROACH, Waypoint.GRASP, Waypoint.LIFT, Waypoint.GRASP_DEPARTURE)
 
@@ -39,7 +39,7 @@ def check_scene(project: Project) -> SceneCheck:
         project: The project.
     """
     try:
-        from rgss.trials.scene_check import reach_problems, scene_problems
+        from rgss.trials import reach_problems, scene_problems
 
         of_bodies = scene_problems(project.scene)
         of_reach: dict[SceneProblem, list[str]] = {}
@@ -79,7 +79,7 @@ class _Places:
 
     def finding(self, problem: SceneProblem, grippers: Sequence[str]) -> Finding:
         """A problem at the place of its first body, with the place of the other in the message."""
-        from rgss.trials.scene_check import SceneProblemKind
+        from rgss.trials import SceneProblemKind
 
         first, second = problem.first, self._named(problem.second)
         millimetres = f"{problem.distance_m * 1e3:.3g} mm"
@@ -126,7 +126,7 @@ class _Places:
 
 
 def _remedy(problem: SceneProblem) -> str:
-    from rgss.trials.goal_reasons import Obstacle
+    from rgss.trials import Obstacle
 
     if problem.reason is None or problem.reason.obstacle in (Obstacle.OUT_OF_REACH, Obstacle.ORIENTATION):
         return "move it nearer to the robot, or lower the task's heights"

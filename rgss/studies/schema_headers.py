@@ -7,8 +7,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from rgss.documents import read_document
-from rgss.documents.output_files import replaced_file
+from rgss.documents import read_document, replaced_file
 from rgss.errors import DefinitionError, DocumentError
 from rgss.findings import Finding
 from rgss.studies.document_kinds import DOCUMENT_KINDS, DocumentKind, kind_of

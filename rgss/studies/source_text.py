@@ -8,11 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from rgss.documents import read_document
-from rgss.documents.output_files import DATA_FOLDERS
-from rgss.documents.reader import LARGEST_FILE_BYTES
-from rgss.documents.refusals import cut_short
-from rgss.documents.regular_file import chunks_of
+from rgss.documents import DATA_FOLDERS, LARGEST_FILE_BYTES, chunks_of, cut_short, read_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity
 from rgss.invisible_characters import code_point, invisible_places

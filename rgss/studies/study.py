@@ -7,20 +7,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
-from rgss.documents import Document, load_document
-from rgss.documents.project_files import FilePlace, place_of
+from rgss.documents import Document, FilePlace, load_document, place_of
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
-from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
+from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.studies.document import StudyDocument
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression_section import RegressionGuard, read_regression
-from rgss.studies.trade_off import TradeOff
-from rgss.studies.trade_off_places import TradeOffPlaces
-from rgss.studies.trade_off_reading import read_trade_off
+from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
 from rgss.tradeoff.sequential import SequentialRule
 

@@ -11,10 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from rgss.documents import read_document
-from rgss.documents.output_files import DATA_FOLDERS
-from rgss.documents.reader import LARGEST_FILE_BYTES
-from rgss.documents.regular_file import open_regular
+from rgss.documents import DATA_FOLDERS, LARGEST_FILE_BYTES, open_regular, read_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity, shown
 from rgss.studies.document_kinds import document_kind

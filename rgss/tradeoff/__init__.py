@@ -1,17 +1,5 @@
 """Trade-off: values, weights and thresholds in; a certified and explained decision out."""
 
-from rgss.tradeoff.certificate import Certificate, ConstraintResidual, StageCertificate
-from rgss.tradeoff.checks import Agreement, Check, CheckKind
-from rgss.tradeoff.conditions import ChanceBound, Comparison, Condition, Risk, TailBound, Threshold
-from rgss.tradeoff.conflicts import (
-    Conflicts,
-    ConflictSurvival,
-    JointRepair,
-    LimitChange,
-    NearestAlternative,
-    Repair,
-    RequirementCount,
-)
 from rgss.tradeoff.deciding import best_alternatives, decide
 from rgss.tradeoff.decision import (
     Contribution,
@@ -21,27 +9,71 @@ from rgss.tradeoff.decision import (
     InfeasibleAlternative,
     RankedAlternative,
 )
-from rgss.tradeoff.evidence_table import Alternative, EvidenceTable, Samples
-from rgss.tradeoff.export import certificate_to_json, checks_to_json, decision_to_json, fleet_to_json
-from rgss.tradeoff.fleet import Assignment, FleetDecision, FleetProblem, FleetTask, decide_fleet
-from rgss.tradeoff.fleet_checks import FleetAim
-from rgss.tradeoff.fleet_work import Cut
-from rgss.tradeoff.hierarchy import CriterionNode, weighting_of, weights_of_criteria
-from rgss.tradeoff.independent_solver import SolverCheck, independent_run
-from rgss.tradeoff.level_problem import LevelDecision, LevelProblem, decide_levels
-from rgss.tradeoff.level_selection import LevelTable, smallest_table
-from rgss.tradeoff.level_space import Incompatibility, LevelFactor, LevelSpace, LevelStructure
-from rgss.tradeoff.lexicographic import Aim, EpsilonConstraint, Lexicographic
-from rgss.tradeoff.minimax_regret import MinimaxRegret, Scenarios
-from rgss.tradeoff.overlap import Overlap, SharedPart, overlapping_measures, shared_parts
-from rgss.tradeoff.problem import TradeProblem
-from rgss.tradeoff.program import AdditiveValue, Program
-from rgss.tradeoff.stage import SolverRun
-from rgss.tradeoff.status import DecisionStatus
-from rgss.tradeoff.tchebycheff import Tchebycheff
-from rgss.tradeoff.values import ExponentialValue, PiecewiseValue, TargetValue, ValueFunction
-from rgss.tradeoff.weight_bounds import ElicitedInterval, ElicitedOrder, WeightBounds
-from rgss.tradeoff.weighting import RankRule, Weighting, weights_from_points, weights_from_ranks
+from rgss.tradeoff.export import certificate_to_json, checks_to_json, decision_to_json, portfolio_to_json
+from rgss.tradeoff.infeasibility import (
+    Conflicts,
+    ConflictSurvival,
+    JointRepair,
+    LimitChange,
+    NearestAlternative,
+    Repair,
+    RequirementCount,
+)
+from rgss.tradeoff.levels import LevelDecision, LevelProblem, LevelTable, decide_levels, smallest_table
+from rgss.tradeoff.milp import Agreement, Check, CheckKind, DecisionStatus, SolverCheck, SolverRun, independent_run
+from rgss.tradeoff.portfolio import (
+    Assignment,
+    Cut,
+    PortfolioAim,
+    PortfolioDecision,
+    PortfolioProblem,
+    PortfolioTask,
+    decide_portfolio,
+)
+from rgss.tradeoff.problem import (
+    Alternative,
+    ChanceBound,
+    Comparison,
+    Condition,
+    CriterionNode,
+    ElicitedInterval,
+    ElicitedOrder,
+    EvidenceTable,
+    ExponentialValue,
+    Incompatibility,
+    LevelFactor,
+    LevelSpace,
+    LevelStructure,
+    PiecewiseValue,
+    RankRule,
+    Risk,
+    Samples,
+    TailBound,
+    TargetValue,
+    Threshold,
+    ValueFunction,
+    WeightBounds,
+    Weighting,
+    weighting_of,
+    weights_from_points,
+    weights_from_ranks,
+    weights_of_criteria,
+)
+from rgss.tradeoff.programs import (
+    AdditiveValue,
+    Aim,
+    Certificate,
+    ConstraintResidual,
+    EpsilonConstraint,
+    Lexicographic,
+    MinimaxRegret,
+    Program,
+    Scenarios,
+    StageCertificate,
+    Tchebycheff,
+    TradeProblem,
+)
+from rgss.tradeoff.robustness import Overlap, SharedPart, overlapping_measures, shared_parts
 
 __all__ = [
     "AdditiveValue",
@@ -70,10 +102,6 @@ __all__ = [
     "EvidenceTable",
     "ExponentialValue",
     "FlatMeasure",
-    "FleetAim",
-    "FleetDecision",
-    "FleetProblem",
-    "FleetTask",
     "Incompatibility",
     "InfeasibleAlternative",
     "JointRepair",
@@ -89,6 +117,10 @@ __all__ = [
     "NearestAlternative",
     "Overlap",
     "PiecewiseValue",
+    "PortfolioAim",
+    "PortfolioDecision",
+    "PortfolioProblem",
+    "PortfolioTask",
     "Program",
     "RankRule",
     "RankedAlternative",
@@ -113,12 +145,12 @@ __all__ = [
     "certificate_to_json",
     "checks_to_json",
     "decide",
-    "decide_fleet",
     "decide_levels",
+    "decide_portfolio",
     "decision_to_json",
-    "fleet_to_json",
     "independent_run",
     "overlapping_measures",
+    "portfolio_to_json",
     "shared_parts",
     "smallest_table",
     "weighting_of",

@@ -7,13 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.columns import value_column
-from rgss.tradeoff.enumeration import violations
-from rgss.tradeoff.evidence_table import EvidenceTable, tabulated
-from rgss.tradeoff.noise import resampled_tables
-from rgss.tradeoff.problem import TradeProblem
-from rgss.tradeoff.resampling import Resamples
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff.infeasibility import resampled_tables
+from rgss.tradeoff.problem import EvidenceTable, Resamples, tabulated
+from rgss.tradeoff.programs import TradeProblem, value_column, violations
+from rgss.tradeoff.weights import WeightSet
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -8,18 +8,24 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.certificate import Certificate, certify
-from rgss.tradeoff.checks import Agreement, Check, CheckKind
-from rgss.tradeoff.conflicts import Conflicts, find_conflicts
 from rgss.tradeoff.decision import Counts, Decision
-from rgss.tradeoff.problem import TradeProblem
-from rgss.tradeoff.selection import Selection, VariantSelection
-from rgss.tradeoff.stage import RUNS, SolverRun, StageSolver
-from rgss.tradeoff.terms import Exclusion
+from rgss.tradeoff.infeasibility import Conflicts, find_conflicts
+from rgss.tradeoff.milp import (
+    RUNS,
+    Agreement,
+    Check,
+    CheckKind,
+    Exclusion,
+    Selection,
+    SolverRun,
+    StageSolver,
+    VariantSelection,
+)
+from rgss.tradeoff.programs import Certificate, TradeProblem, certify
 
 if TYPE_CHECKING:
-    from rgss.tradeoff.enumeration import Enumeration
-    from rgss.tradeoff.evidence_table import Alternative
+    from rgss.tradeoff.problem import Alternative
+    from rgss.tradeoff.programs import Enumeration
 
 MOST_DRAWN = 20_000_000
 """So many alternatives are looked at in all when replicates are drawn anew to test a conflict."""
@@ -55,7 +61,6 @@ def decide(
             infeasibility, or contradicts enumeration. No decision is made then.
     """
     # Imported here so that the package itself loads without NumPy.
-    from rgss.tradeoff.enumeration import enumerate_alternatives
     from rgss.tradeoff.explanation import (
         contributions,
         excluded_better,
@@ -65,6 +70,7 @@ def decide(
         near_ties,
         rank,
     )
+    from rgss.tradeoff.programs import enumerate_alternatives
 
     if not (math.isfinite(margin) and margin >= 0.0):
         raise TradeoffError(f"the practical margin is {margin:g}", hint="give a value from 0 on, such as 0.01")
@@ -115,7 +121,7 @@ def best_alternatives(problem: TradeProblem, count: int) -> tuple[Certificate, .
     Raises:
         TradeoffError: As for `decide`.
     """
-    from rgss.tradeoff.enumeration import enumerate_alternatives
+    from rgss.tradeoff.programs import enumerate_alternatives
 
     found: list[Certificate] = []
     excluded: tuple[Alternative, ...] = ()
@@ -145,7 +151,7 @@ def _certified(
         select: Callable[[], Selection] = lambda: VariantSelection.of(considered)  # noqa: E731
         exclusions = tuple(Exclusion(alternative=one) for one in excluded if one.variant in left)
     else:
-        from rgss.tradeoff.level_selection import LevelModel, LevelSelection
+        from rgss.tradeoff.levels import LevelModel, LevelSelection
 
         considered = tuple(enumeration.table)
         model = LevelModel.of(problem.levels, considered, tuple(problem.measures_named))
@@ -201,8 +207,7 @@ def _explained(problem: TradeProblem, enumeration: Enumeration, seed: int, resam
     conflicts = find_conflicts(enumeration)
     if conflicts is None:
         return None
-    from rgss.tradeoff.noise import RESAMPLES, conflict_survival
-    from rgss.tradeoff.repair import find_joint_repairs, find_repairs
+    from rgss.tradeoff.infeasibility import RESAMPLES, conflict_survival, find_joint_repairs, find_repairs
 
     conflicts = replace(
         conflicts,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rgss.tradeoff.certificate import Certificate
-from rgss.tradeoff.conflicts import Conflicts, RequirementCount
-from rgss.tradeoff.status import DecisionStatus
+from rgss.tradeoff.infeasibility import Conflicts, RequirementCount
+from rgss.tradeoff.milp import DecisionStatus
+from rgss.tradeoff.programs import Certificate
 
 LONGEST_LIST = 10_000
 """The longest list of alternatives that a decision holds."""

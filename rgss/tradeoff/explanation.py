@@ -6,15 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rgss.tradeoff.columns import value_column
-from rgss.tradeoff.conflicts import RequirementCount, excluded_counts
 from rgss.tradeoff.decision import LONGEST_LIST, Contribution, FlatMeasure, InfeasibleAlternative, RankedAlternative
+from rgss.tradeoff.infeasibility import RequirementCount, excluded_counts
+from rgss.tradeoff.programs import value_column
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from rgss.tradeoff.enumeration import Enumeration
-    from rgss.tradeoff.problem import TradeProblem
+    from rgss.tradeoff.programs import Enumeration, TradeProblem
 
 
 def rank(enumeration: Enumeration) -> tuple[RankedAlternative, ...]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from rgss.tradeoff.certificate import Certificate
-from rgss.tradeoff.checks import Check
-from rgss.tradeoff.conflicts import Conflicts, LimitChange, RequirementCount
 from rgss.tradeoff.decision import Contribution, Decision, InfeasibleAlternative
-from rgss.tradeoff.fleet import FleetDecision
+from rgss.tradeoff.infeasibility import Conflicts, LimitChange, RequirementCount
+from rgss.tradeoff.milp import Check
+from rgss.tradeoff.portfolio import PortfolioDecision
+from rgss.tradeoff.programs import Certificate
 
 
 def decision_to_json(decision: Decision) -> dict[str, object]:
@@ -96,7 +96,7 @@ def checks_to_json(checks: Iterable[Check]) -> list[dict[str, object]]:
     return [{"kind": check.kind.value, "agrees": check.agrees, "detail": check.detail} for check in checks]
 
 
-def fleet_to_json(decision: FleetDecision) -> dict[str, object]:
+def portfolio_to_json(decision: PortfolioDecision) -> dict[str, object]:
     """Turn the choice of a fleet into plain values."""
     return {
         "status": decision.status.value,

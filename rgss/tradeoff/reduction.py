@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rgss.tradeoff.dominance import nondominated
+from rgss.tradeoff.problem import nondominated
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from rgss.tradeoff.enumeration import Enumeration
+    from rgss.tradeoff.programs import Enumeration
 
 LARGEST_UNREDUCED = 2_000
 """Up to so many alternatives the program takes them all, and the solver itself finds the infeasible."""

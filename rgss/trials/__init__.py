@@ -1,1 +1,35 @@
 """Trials: one design variant through the eight states of the task."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.trials.filming import Film
+    from rgss.trials.goal_reasons import Obstacle
+    from rgss.trials.impact import ClosingImpact, closing_impact
+    from rgss.trials.metrics import AT_GRASP, METRICS, MetricKind
+    from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
+    from rgss.trials.settings import PlanningSettings, TrialSettings
+    from rgss.trials.tracing import run_traced_trial
+    from rgss.trials.trial_spec import TrialSpec
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "AT_GRASP",
+    "METRICS",
+    "ClosingImpact",
+    "Film",
+    "MetricKind",
+    "Obstacle",
+    "PlanningSettings",
+    "SceneProblem",
+    "SceneProblemKind",
+    "TrialSettings",
+    "TrialSpec",
+    "closing_impact",
+    "reach_problems",
+    "run_traced_trial",
+    "scene_problems",
+]

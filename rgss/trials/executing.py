@@ -6,11 +6,10 @@ from collections.abc import Callable
 
 from rgss.evidence import Fidelity, Phase
 from rgss.physics import TorqueArm, World
-from rgss.trials.dynamic_plant import DynamicPlant
 from rgss.trials.execution import Execution
-from rgss.trials.kinematic_plant import KinematicPlant
-from rgss.trials.observer import StepObserver
+from rgss.trials.monitors import StepObserver
 from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants import DynamicPlant, KinematicPlant
 from rgss.trials.program import run_program
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import TaskTiming

@@ -6,21 +6,24 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from rgss.evidence import Failure, Metric, Phase
-from rgss.grasping import GraspMemory, configuration_distance_m
+from rgss.grasping import GraspGeometryCache, configuration_distance_m
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
-from rgss.trials.arm_watch import ToolKinematics
-from rgss.trials.control import ControlSettings
-from rgss.trials.drag_monitor import DragMonitor
-from rgss.trials.force_sensor import ForceSensor
-from rgss.trials.grasp_record import grasp_metrics
-from rgss.trials.hand_motion import HandWatch
-from rgss.trials.observer import StepObserver
+from rgss.trials.monitors import (
+    DragMonitor,
+    ForceSensor,
+    InHandMotionTracker,
+    LandingMonitor,
+    PhaseMonitor,
+    PlacedObjectMonitor,
+    StepObserver,
+    ToolKinematics,
+    grasp_metrics,
+)
 from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants import ControlSettings
 from rgss.trials.program import run_program
 from rgss.trials.reference import Array, Reference
-from rgss.trials.release_monitor import LandingMonitor, PlacedObjectMonitor
-from rgss.trials.watch import Watch
 
 CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 _OPEN_TOLERANCE_M = 5.0e-4
@@ -59,7 +62,7 @@ class Execution:
         self._is_alone = observer is None and checkpoint is None
         self._step_s = world.settings.step_s
         self._held_at: Pose | None = None
-        self._memory = GraspMemory()
+        self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
         self._grip_n = control.holding_share * world.gripper.finger_force_n
         self._since_tightening_s = 0.0
@@ -122,7 +125,7 @@ class Execution:
             self._judge_move(phase, watch, metrics)
         return self._result(phase, watch, steps, metrics)
 
-    def _judge_move(self, phase: Phase, watch: Watch, metrics: dict[str, Metric]) -> None:
+    def _judge_move(self, phase: Phase, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
         """After a move: the object must stand where it stood, or at the end in its place."""
         if phase is Phase.MOVE_TO_GRASP:
             start = self._world.scene.workpiece.pose
@@ -169,7 +172,10 @@ class Execution:
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
         world.drive_fingers(gripper.finger_velocity_m_s, self._grip_n)
         self._tightenings = 0
-        hand, look_every = HandWatch(world), max(1, round(world.settings.rate_hz / control.observation_rate_hz))
+        hand, look_every = (
+            InHandMotionTracker(world),
+            max(1, round(world.settings.rate_hz / control.observation_rate_hz)),
+        )
         firm_s, touching_s, steps = 0.0, 0.0, 0
         forces: tuple[float, ...] = (0.0,) * fingers
         while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
@@ -250,7 +256,7 @@ class Execution:
         moved_m = configuration_distance_m(stood_at, stands_at, shape.half_height_m)
         return moved_m > control.settled_speed_m_s * control.settled_s
 
-    def _judge_place(self, watch: Watch, metrics: dict[str, Metric]) -> None:
+    def _judge_place(self, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
         scene, pose = self._world.scene, self._world.workpiece_pose()
         x, y, z = pose.position_m
         centre = scene.place.centre_m
@@ -291,8 +297,8 @@ class Execution:
         resting_on: str,
         path_m: Sequence[Sequence[float]] | Array = (),
         placed: PlacedObjectMonitor | None = None,
-    ) -> Watch:
-        return Watch(
+    ) -> PhaseMonitor:
+        return PhaseMonitor(
             self._world,
             self._kinematics,
             self._control,
@@ -304,14 +310,14 @@ class Execution:
             sensor=self._sensor,
         )
 
-    def _observe(self, phase: Phase, watch: Watch, load_m_s2: float) -> Contacts:
+    def _observe(self, phase: Phase, watch: PhaseMonitor, load_m_s2: float) -> Contacts:
         """Look at a step in which the arm is held."""
         contacts = watch.after_step(load_m_s2, None)
         if not self._is_alone:
             self._show(phase, watch, contacts)
         return contacts
 
-    def _show(self, phase: Phase, watch: Watch, contacts: Contacts) -> None:
+    def _show(self, phase: Phase, watch: PhaseMonitor, contacts: Contacts) -> None:
         """Let others look at the step, and wait or end the task."""
         if self._observer is not None:
             force_n = self._grip_n if phase is Phase.GRASP or phase in CARRYING else None
@@ -319,7 +325,7 @@ class Execution:
         if self._checkpoint is not None:
             self._checkpoint()
 
-    def _result(self, phase: Phase, watch: Watch, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
+    def _result(self, phase: Phase, watch: PhaseMonitor, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
         pose = self._world.workpiece_pose()
         metrics["workpiece_position_m"] = pose.position_m
         metrics["workpiece_tilt_rad"] = pose.tilt_rad

@@ -7,12 +7,10 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from types import TracebackType
 
-from rgss.evidence.trial_trace import PhaseSpan, TrialTrace
-from rgss.physics.camera import Camera, View
-from rgss.physics.rendering import Picture
-from rgss.physics.stage import Posture
+from rgss.evidence.records import PhaseSpan, TrialTrace
+from rgss.physics import Camera, Picture, Posture, View
 from rgss.scenes import Pose
-from rgss.trials.spec import TrialSpec
+from rgss.trials.pieces import TrialSpec
 
 _INSET_SHARE = 0.35
 _INSET_MARGIN_SHARE = 0.02

@@ -8,9 +8,8 @@ from types import TracebackType
 
 from rgss.errors import SimulationError
 from rgss.evidence import TrialRecord
-from rgss.trials.observer import StepObserver
-from rgss.trials.run import Pieces
-from rgss.trials.spec import TrialSpec
+from rgss.trials.monitors import StepObserver
+from rgss.trials.pieces import Pieces, TrialSpec
 
 
 class SimulationState(str, Enum):

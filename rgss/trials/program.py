@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from rgss.evidence import Phase
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plant import Plant
+from rgss.trials.plants import Plant
 from rgss.trials.reference import Reference
 
 

@@ -16,8 +16,8 @@ from rgss.evidence import (
     PlanOutcome,
     TrialRecord,
 )
-from rgss.trials.grasp_record import GREATEST, LEAST, worst_of
 from rgss.trials.metrics import AT_GRASP
+from rgss.trials.monitors import GREATEST, LEAST, worst_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import PlannedMove, TaskPlan
 from rgss.trials.trial_spec import TrialSpec

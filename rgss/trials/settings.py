@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from rgss.motion import PlanningClock
 from rgss.physics import PhysicsSettings
-from rgss.trials.control import ControlSettings
+from rgss.trials.plants import ControlSettings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

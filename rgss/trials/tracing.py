@@ -8,11 +8,10 @@ from collections.abc import Collection
 import numpy as np
 
 from rgss.evidence import Phase, TrialRecord
-from rgss.evidence.trial_trace import PhaseSpan, TrialTrace
+from rgss.evidence.records import PhaseSpan, TrialTrace
 from rgss.kinematics import Arm
 from rgss.physics import Contacts, World
-from rgss.trials.run import run_trial
-from rgss.trials.spec import TrialSpec
+from rgss.trials.pieces import TrialSpec, run_trial
 
 TRACE_RATE_HZ = 240.0
 

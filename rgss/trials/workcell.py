@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from rgss.evidence import Phase
-from rgss.kinematics import Arm, CollisionModel, Situation
+from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import GripperGeometry, Scene
 from rgss.trials.trial_spec import TrialSpec
 
@@ -65,12 +65,12 @@ def cell_of(spec: TrialSpec) -> Workcell:
     return workcell_of(spec.scene, spec.gripper.geometry, spec.settings.planning.clearance_m)
 
 
-def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, Situation]:
+def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, CollisionContext]:
     """What the hand holds and where the object stands in each move."""
     workpiece = scene.workpiece
     opening = geometry.largest_opening_m
     held = scene.grasp.inverse() @ workpiece.pose
-    carrying = Situation(
+    carrying = CollisionContext(
         opening_m=workpiece.shape.radius_m,
         carried=held,
         largest_tilt_rad=scene.task.largest_carry_tilt_rad,
@@ -78,10 +78,10 @@ def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, Situation
     leaving = replace(carrying, allowed=frozenset({(workpiece.id, scene.support)}))
     placed = (scene.place_pose @ held).raised(-scene.task.place_clearance_m)
     return {
-        Phase.MOVE_TO_GRASP: Situation(opening_m=opening, standing=workpiece.pose),
+        Phase.MOVE_TO_GRASP: CollisionContext(opening_m=opening, standing=workpiece.pose),
         Phase.LIFT: leaving,
         Phase.MOVE_TO_GRASP_DEPARTURE: carrying,
         Phase.MOVE_TO_PLACE_APPROACH: carrying,
         Phase.MOVE_TO_PLACE: carrying,
-        Phase.MOVE_TO_GRASP_APPROACH: Situation(opening_m=opening, standing=placed),
+        Phase.MOVE_TO_GRASP_APPROACH: CollisionContext(opening_m=opening, standing=placed),
     }

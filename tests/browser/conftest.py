@@ -15,6 +15,11 @@ from typing import Any
 import pytest
 from selenium import webdriver
 
+from rgss.assessment.evidence_status import evidence_state
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose
+from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.tracing import trace_evidence
 from rgss.evidence import (
     PLANNED_PHASES,
     EvidenceStore,
@@ -27,18 +32,13 @@ from rgss.evidence import (
     Provenance,
     TrialRecord,
 )
-from rgss.reports.report_page import TrialPictures, study_report_to_html
-from rgss.reports.trace_report import trace_report
-from rgss.studies.choosing import choose
-from rgss.studies.evidence_state import evidence_state
+from rgss.reports.study.document import report_document
+from rgss.reports.study_page import TrialPictures, study_report_to_html
+from rgss.reports.trace.report import trace_report
 from rgss.studies.expansion import trial_specs
-from rgss.studies.measuring import measure_variants
 from rgss.studies.project import FOLDERS, load_project
-from rgss.studies.report_document import report_document
-from rgss.studies.robustness import analyse_robustness
-from rgss.studies.sweep import key_of
-from rgss.studies.trace_evidence import trace_evidence
-from rgss.trace.model import build_trace_model
+from rgss.sweep.running import key_of
+from rgss.trace.model.model import build_trace_model
 from rgss.trials.metrics import METRICS
 
 REPOSITORY = Path(__file__).parents[2]

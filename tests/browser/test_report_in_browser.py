@@ -10,7 +10,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 from rgss.invisible_characters import visible
-from rgss.reports.report_page import parted, study_report_to_html
+from rgss.reports.study_page import parted, study_report_to_html
 
 pytestmark = pytest.mark.browser
 

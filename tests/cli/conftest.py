@@ -26,7 +26,7 @@ from rgss.evidence import (
 )
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, load_project
-from rgss.studies.sweep import key_of
+from rgss.sweep.running import key_of
 from rgss.trials.metrics import METRICS
 
 REPOSITORY = Path(__file__).parents[2]

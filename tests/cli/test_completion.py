@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
-from rgss.cli.completion_verb import SHELLS
 from rgss.cli.main import VERBS
+from rgss.cli.verbs.completion import SHELLS
 
 ASK = """
 source "$1"

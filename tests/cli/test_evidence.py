@@ -15,7 +15,7 @@ import pytest
 from rgss.evidence import EvidenceStore, Provenance, RunFailure, RunFailureKind
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import EVIDENCE, load_project
-from rgss.studies.sweep import key_of
+from rgss.sweep.running import key_of
 
 STUDY = "studies/pick_place.yaml"
 FAILED = RunFailure(key="e" * 64, what="execution", kind=RunFailureKind.TIMED_OUT, detail="60 s", attempts=2)
@@ -355,7 +355,7 @@ def test_a_study_that_cannot_be_read_keeps_everything(rgss, spoilt):
 
 
 def test_a_store_in_use_is_not_cleared_up(rgss, spoilt, monkeypatch):
-    monkeypatch.setattr("rgss.evidence.collection._PATIENCE_MS", 50)
+    monkeypatch.setattr("rgss.evidence.store.collection._PATIENCE_MS", 50)
     edit(spoilt, "scenes/restaurant.yaml", "mass: 0.25 kg", "mass: 0.26 kg")
     with EvidenceStore.open(spoilt / EVIDENCE) as store:
         told = rgss("evidence", "gc", "--apply", "--project", spoilt)

@@ -7,7 +7,7 @@ import shlex
 
 import pytest
 
-from rgss.cli.main import VERBS, command_line
+from rgss.cli.main import VERBS, command_line, module_name
 
 _SIGNS = (">", ">>", "|", "<")
 
@@ -15,7 +15,7 @@ _SIGNS = (">", ">>", "|", "<")
 def examples() -> list[tuple[str, str, str]]:
     found = []
     for verb in VERBS:
-        module = importlib.import_module(f"rgss.cli.{verb}_verb")
+        module = importlib.import_module(f"rgss.cli.verbs.{module_name(verb)}")
         found += [
             (verb, command, purpose)
             for command, purpose in [(module.EXAMPLE, "–"), *getattr(module, "MORE_EXAMPLES", ())]

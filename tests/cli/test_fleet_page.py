@@ -7,16 +7,16 @@ from types import SimpleNamespace
 
 import pytest
 
-from rgss.cli.trade_document import _fleet
-from rgss.cli.trade_page import print_certificate, print_fleet
-from rgss.cli.trade_verb import is_settled, seconds_of
+from rgss.api.trade_frames import portfolio_frame
+from rgss.cli.trade.decision import print_certificate, print_portfolio
+from rgss.cli.trade.json_document import _fleet
+from rgss.cli.verbs.trade import is_settled, seconds_of
 from rgss.errors import DefinitionError
-from rgss.studies.frames_trade import fleet_frame
-from rgss.studies.report_decision import _fleet as fleet_sentence
+from rgss.reports.study.decision import _fleet as fleet_sentence
 from rgss.tradeoff import Agreement, Assignment, Check, CheckKind, Cut, DecisionStatus
-from rgss.tradeoff.fleet import FleetDecision
+from rgss.tradeoff.portfolio.portfolio import PortfolioDecision
 
-PROVEN = FleetDecision(
+PROVEN = PortfolioDecision(
     status=DecisionStatus.OPTIMAL,
     members=("7",),
     assignments=(Assignment(task="s.yaml", member="7", variant=7, value=0.8),),
@@ -64,7 +64,7 @@ UNDECIDED = dataclasses.replace(
     ids=["proven", "best found", "undecided"],
 )
 def test_on_the_page(capsys, fleet, lines):
-    print_fleet(fleet)
+    print_portfolio(fleet)
     assert capsys.readouterr().out.splitlines()[-len(lines) :] == lines
 
 
@@ -83,7 +83,7 @@ def test_in_the_document_and_the_frame():
     assert (document["status"], document["gap"], document["cut"]) == ("best found", 0.05, "time limit")
     assert (document["enumeration_agrees"], document["by_size_gap"]) == ("not enumerated", [0.05])
     assert document["checks"] == [{"kind": "second run", "agrees": False, "detail": "no portfolio instead of 0.8"}]
-    assert fleet_frame(FOUND)[["status", "gap"]].to_numpy().tolist() == [["best found", 0.05]]
+    assert portfolio_frame(FOUND)[["status", "gap"]].to_numpy().tolist() == [["best found", 0.05]]
 
 
 @pytest.mark.parametrize(

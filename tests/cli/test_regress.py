@@ -9,9 +9,9 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rgss.evidence import EvidenceStore, Provenance
+from rgss.guard.runs import guard_of, watched_trials
 from rgss.studies.project import load_project
-from rgss.studies.regressing_runs import guard_of, watched_trials
-from rgss.studies.sweep import key_of
+from rgss.sweep.running import key_of
 
 from .conftest import made_record
 

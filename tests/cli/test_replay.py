@@ -14,11 +14,11 @@ from rgss.errors import SimulationError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, load_project
-from rgss.studies.sweep import key_of
-from rgss.trials.numerics import fixed_numerics
-from rgss.trials.run import run_trial
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import versions
+from rgss.sweep.running import key_of
+from rgss.trials.code.numeric_probe import fixed_numerics
+from rgss.trials.code.piece_versions import versions
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.pieces.run import run_trial
 
 REPOSITORY = Path(__file__).parents[2]
 TRIAL = "65/2"
@@ -150,7 +150,7 @@ def test_of_many_differences_the_first_are_shown(capsys, folder):
 @pytest.mark.engine
 def test_other_versions_are_named_even_if_the_bits_are_the_same(capsys, folder, key, monkeypatch):
     now = {**versions(), "ompl": "9.9.9"}
-    monkeypatch.setattr("rgss.studies.replaying.versions", lambda: now)
+    monkeypatch.setattr("rgss.sweep.replaying.versions", lambda: now)
     assert replay(folder, key) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[1] == f"  version of ompl: {versions()['ompl']} then, 9.9.9 now"
@@ -196,7 +196,7 @@ def test_a_run_that_fails_is_told_as_such(capsys, folder, monkeypatch):
     def fail(spec):
         raise SimulationError("the engine gave up", hint="try again")
 
-    monkeypatch.setattr("rgss.studies.replaying.run_trial", fail)
+    monkeypatch.setattr("rgss.sweep.replaying.run_trial", fail)
     assert replay(folder, TRIAL) == 3
     assert capsys.readouterr().err == "rgss: the engine gave up (try again)\n"
 

@@ -12,17 +12,17 @@ from io import StringIO
 import numpy as np
 import pytest
 
-from rgss.cli import report_pictures
+from rgss.assessment.measuring import measure_variants
 from rgss.cli.main import main
+from rgss.cli.pictures import report as report_pictures
+from rgss.decision.choosing import choose
+from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.evidence import EvidenceStore
-from rgss.studies.choosing import choose
+from rgss.reports.study.trials import NotableTrial
 from rgss.studies.expansion import trial_specs
-from rgss.studies.measuring import measure_variants
-from rgss.studies.planning_runs import planning_runs
 from rgss.studies.project import load_project
-from rgss.studies.report_trials import NotableTrial
-from rgss.studies.robustness import analyse_robustness
-from rgss.trials.run import run_trial
+from rgss.sweep.planning_history import planning_runs
+from rgss.trials.pieces.run import run_trial
 
 
 @pytest.fixture(scope="module")

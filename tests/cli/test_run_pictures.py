@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from rgss.cli.main import main
-from rgss.cli.picture_options import captioned, made_pictures
+from rgss.cli.pictures.options import captioned, made_pictures
 from rgss.evidence import Failure, Phase
 
 REPOSITORY = Path(__file__).parents[2]
@@ -35,7 +35,7 @@ def no_trial(monkeypatch):
     def run(*arguments, **options):
         raise AssertionError("a trial was run")
 
-    monkeypatch.setattr("rgss.trials.run.run_trial", run)
+    monkeypatch.setattr("rgss.trials.pieces.run.run_trial", run)
     monkeypatch.setattr("rgss.trials.tracing.run_traced_trial", run)
 
 

@@ -23,7 +23,7 @@ def verb(monkeypatch):
     """Lets the verb ``schema`` do something else."""
 
     def let(handler):
-        from rgss.cli import schema_verb
+        from rgss.cli.verbs import schema as schema_verb
 
         monkeypatch.setattr(schema_verb, "run", handler)
         return main(["schema"])

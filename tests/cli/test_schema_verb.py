@@ -7,12 +7,12 @@ import json
 import pytest
 from jsonschema import Draft7Validator
 
-from rgss.cli.schema_verb import DOCUMENTS
+from rgss.cli.verbs.schema import DOCUMENTS
 from rgss.documents import read_document
 from rgss.studies.document_kinds import DOCUMENT_KINDS
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.studies.sweep import key_of
+from rgss.sweep.running import key_of
 
 
 def test_the_choices_are_the_kinds():

@@ -6,10 +6,10 @@ import json
 
 import pytest
 
-from rgss.cli.sweep_output import lost_line, result_lines, shown_trials
-from rgss.cli.sweep_progress import SweepProgress, course_of
+from rgss.cli.sweep.output import lost_line, result_lines, shown_trials
+from rgss.cli.sweep.progress import SweepProgress, course_of
 from rgss.evidence import RunFailure, RunFailureKind
-from rgss.studies.sweep import LostTrials, SweepResult, SweepState
+from rgss.sweep.running import LostTrials, SweepResult, SweepState
 
 SCENE = "scenes/restaurant.yaml"
 

@@ -14,10 +14,11 @@ import time
 import pytest
 from distributed import LocalCluster
 
+from rgss.decision import until_decided
 from rgss.errors import EvidenceError
-from rgss.evidence.origin import machine
-from rgss.studies import dask_cluster, until_decided
+from rgss.evidence.records.origin import machine
 from rgss.studies.expansion import trial_specs
+from rgss.sweep.dask import cluster as dask_cluster
 
 
 @pytest.fixture(scope="module")

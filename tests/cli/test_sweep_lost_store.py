@@ -7,8 +7,8 @@ import json
 import pytest
 
 from rgss.evidence import EvidenceStore
-from rgss.evidence.run_failures import LONGEST_DETAIL
-from rgss.studies.workers import Ended, Trouble
+from rgss.evidence.records.run_failures import LONGEST_DETAIL
+from rgss.sweep.workers import Ended, TaskError
 
 WORDS = ("--fidelity", "kinematic", "--only", "57", "--jobs", "1", "--replicates", 2)
 
@@ -71,7 +71,7 @@ class Hostile:
     def wait(self, timeout_s):
         from rgss.evidence import RunFailureKind
 
-        trouble = Trouble(kind=RunFailureKind.RAISED, detail=self.DETAIL, may_pass=False)
+        trouble = TaskError(kind=RunFailureKind.RAISED, detail=self.DETAIL, may_pass=False)
         ended = [Ended(key=key, result=None, trouble=trouble, took_s=0.0) for key in self.keys]
         self.keys = []
         return ended
@@ -82,7 +82,9 @@ class Hostile:
 
 @pytest.mark.parametrize("as_json", [False, True])
 def test_details_are_cut_and_steer_nothing_wherever_they_are_shown(rgss, folder, monkeypatch, as_json):
-    monkeypatch.setattr("rgss.studies.lasting_pool.LastingPool.workers", lambda self, function: Hostile(function))
+    monkeypatch.setattr(
+        "rgss.sweep.persistent_pool.PersistentWorkerPool.workers", lambda self, function: Hostile(function)
+    )
     more = ("--json",) if as_json else ()
     told = rgss("sweep", "--project", folder, *WORDS, *more)
     assert told.status == 3

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-import rgss.studies.until_decided as until
+import rgss.decision.until_decided as until
 from rgss.evidence import RunFailure, RunFailureKind
 from rgss.measures import Verdict
-from rgss.studies.sweep import LostTrials, SweepResult
-from rgss.tradeoff.sequential import Reason, SequentialRule
+from rgss.sweep.running import LostTrials, SweepResult
+from rgss.tradeoff.sequential.sequential import Reason, SequentialRule
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypat
 def test_trials_that_cannot_be_run_are_a_failure_of_the_run(rgss, folder, monkeypatch):
     failure = RunFailure(key="a" * 64, what="plan", kind=RunFailureKind.CRASHED, detail="killed", attempts=2)
     result = SweepResult(made={}, reused={}, lost=(LostTrials(failure=failure, trials=((1, 1),)),))
-    monkeypatch.setattr("rgss.studies.sweep.sweep", lambda *_, **__: result)
+    monkeypatch.setattr("rgss.sweep.running.sweep", lambda *_, **__: result)
 
     told = rgss("sweep", "--until", "decided", "--project", folder)
 

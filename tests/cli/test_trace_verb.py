@@ -11,7 +11,7 @@ import pytest
 from openpyxl import load_workbook
 
 from rgss.evidence import EvidenceStore
-from rgss.reports.trace_json import json_schema
+from rgss.reports.trace.json_document import json_schema
 from rgss.studies.project import load_project
 
 TABLES = ["coverage", "gaps", "stakeholder-moe", "system-stakeholder", "system-architecture", "verification"]

@@ -10,21 +10,21 @@ from pathlib import Path
 
 import pytest
 
-from rgss.cli.trade_effects_page import print_effects
-from rgss.cli.trade_robustness_page import print_robustness
-from rgss.cli.trade_section import BEGIN, END, decision_section
-from rgss.cli.trade_words import amount, ids_text, moved_limit, moves_text, percent, variants_text
+from rgss.assessment.measuring import measure_variants
+from rgss.cli.trade.effects import print_effects
+from rgss.cli.trade.markdown import BEGIN, END, decision_section
+from rgss.cli.trade.robustness import print_robustness
+from rgss.cli.trade.words import amount, ids_text, moved_limit, moves_text, percent, variants_text
+from rgss.decision.choosing import choose
+from rgss.decision.robustness import robustness
+from rgss.decision.robustness.effects import MeasureEffects, StudyEffects
+from rgss.decision.robustness.parts import NotComputed, Part
+from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.errors import TradeoffError
 from rgss.evidence import EvidenceStore
-from rgss.studies import robustness
-from rgss.studies.choosing import choose
-from rgss.studies.measuring import measure_variants
 from rgss.studies.project import load_project
-from rgss.studies.robustness import analyse_robustness
-from rgss.studies.robustness_effects import MeasureEffects, StudyEffects
-from rgss.studies.robustness_parts import NotComputed, Part
-from rgss.tradeoff.pareto import ParetoFront
-from rgss.tradeoff.sampled_effects import SampledIndex
+from rgss.tradeoff.robustness.pareto import ParetoFront
+from rgss.tradeoff.robustness.sampled_effects import SampledIndex
 
 REPOSITORY = Path(__file__).parents[2]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rgss.trials.bench_range import VALIDATED
+from rgss.trials.payload_bench.range import VALIDATED
 
 PAGE = Path(__file__).parents[2] / "docs" / "grasping.md"
 

@@ -10,9 +10,9 @@ import pytest
 
 from rgss.documents.regular_file import chunks_of, open_regular
 from rgss.errors import EvidenceError
-from rgss.evidence import origin
-from rgss.evidence.origin import file_digests
-from rgss.trace.software_evidence import _text_digest
+from rgss.evidence.records import origin
+from rgss.evidence.records.origin import file_digests
+from rgss.trace.evidence.software import _text_digest
 
 MIB = 1024 * 1024
 

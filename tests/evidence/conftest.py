@@ -26,7 +26,7 @@ from rgss.evidence import (
     record_to_json,
     trial_key,
 )
-from rgss.evidence.ledger import write_ledger
+from rgss.evidence.store.ledger import write_ledger
 
 
 def make_record(variant: int = 1, seed: int = 7, **changes: object) -> TrialRecord:

@@ -16,7 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from rgss.evidence import EvidenceStore, Piece, PieceKind, Provenance, record_from_json, text_digest, trial_key
-from rgss.evidence.verification import verify
+from rgss.evidence.store.verification import verify
 
 PIECES = 3
 

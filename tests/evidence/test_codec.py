@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from rgss.errors import EvidenceError
 from rgss.evidence import Fidelity, Phase, record_digest, record_from_json, record_to_json, trial_key
-from rgss.evidence.codec import read_json
+from rgss.evidence.records.codec import read_json
 
 
 @given(data=st.data())

@@ -8,10 +8,10 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind, inputs_digest, text_digest
-from rgss.evidence import collection as collecting
-from rgss.evidence.collection import collect_garbage, find_garbage
-from rgss.evidence.contents import contents_of
-from rgss.evidence.verification import verify
+from rgss.evidence.store import collection as collecting
+from rgss.evidence.store.collection import collect_garbage, find_garbage
+from rgss.evidence.store.contents import contents_of
+from rgss.evidence.store.verification import verify
 
 TRIALS = 40
 

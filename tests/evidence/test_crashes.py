@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from rgss.evidence import EvidenceStore, record_to_json
-from rgss.evidence.verification import verify
+from rgss.evidence.store.verification import verify
 
 ROUNDS = 60
 PROGRAM = Path(__file__).with_name("kill_rounds.py")
@@ -108,7 +108,7 @@ def test_a_process_killed_while_it_gives_space_back_loses_nothing(path, record, 
     with EvidenceStore.open(path) as store:
         store.put_many(trials=[(key(number), record(variant=number), provenance) for number in range(60)])
     program = (
-        "import os, signal, sys; from pathlib import Path; import rgss.evidence.collection as collection\n"
+        "import os, signal, sys; from pathlib import Path; import rgss.evidence.store.collection as collection\n"
         "from rgss.evidence import trial_key; keep = {trial_key({'trial': number}) for number in range(50)}\n"
         "give_back = collection._give_back\n"
         "def killed(connection):\n"

@@ -7,7 +7,7 @@ import pytest
 
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, trial_key
-from rgss.evidence.verification import verify
+from rgss.evidence.store.verification import verify
 
 HINT = "(remove what is left of evidence.sqlite, rename {0} to evidence.sqlite and run the sweep again)"
 
@@ -180,6 +180,6 @@ def test_a_store_that_was_only_read_is_not_read_back(place, put, monkeypatch):
     with EvidenceStore.open(place) as store:
         put(store, 0)
     with EvidenceStore.open(place) as store:
-        monkeypatch.setattr("rgss.evidence.writing.connect", lambda path: pytest.fail("it was read back"))
+        monkeypatch.setattr("rgss.evidence.store.writing.connect", lambda path: pytest.fail("it was read back"))
         assert len(store.all()) == 1
         store.confirm()

@@ -22,8 +22,8 @@ from rgss.evidence import (
     StoredTrial,
     record_digest,
 )
-from rgss.evidence.exporting import export_trials, require_exportable
-from rgss.evidence.trial_table import trial_frame
+from rgss.evidence.store.exporting import export_trials, require_exportable
+from rgss.evidence.store.trial_table import trial_frame
 
 AWKWARD = (0.1 + 0.2, 1e-308, 5e-324, 1.7976931348623157e308, -0.0, 1 / 3, 2**53, -123456789.123456789)
 

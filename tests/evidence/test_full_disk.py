@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from rgss.evidence import EvidenceStore, record_to_json
-from rgss.evidence.verification import verify
+from rgss.evidence.store.verification import verify
 
 LIMITED = """\
 import resource, sys
@@ -14,8 +14,8 @@ from dataclasses import replace
 from pathlib import Path
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, Provenance, record_from_json, trial_key
-from rgss.evidence.exporting import export_trials
-from rgss.evidence.collection import collect_garbage
+from rgss.evidence.store.exporting import export_trials
+from rgss.evidence.store.collection import collect_garbage
 
 path, record = Path(sys.argv[1]), record_from_json(sys.argv[2])
 hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]

@@ -12,10 +12,10 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, record_to_json
-from rgss.evidence.connection import LARGEST_ROW
-from rgss.evidence.contents import contents_of
-from rgss.evidence.packing import LARGEST_TEXT
-from rgss.evidence.verification import verify
+from rgss.evidence.records.packing import LARGEST_TEXT
+from rgss.evidence.store.connection import LARGEST_ROW
+from rgss.evidence.store.contents import contents_of
+from rgss.evidence.store.verification import verify
 
 DAMAGED = (
     "evidence.sqlite: trial {} is damaged: {} "

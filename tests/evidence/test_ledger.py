@@ -12,8 +12,8 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind, trial_key
-from rgss.evidence.collection import collect_garbage
-from rgss.evidence.verification import verify
+from rgss.evidence.store.collection import collect_garbage
+from rgss.evidence.store.verification import verify
 
 COLUMNS = {
     "trials": ["key", "variant", "seed", "fidelity", "content_digest", "seal", "record", "provenance"],

@@ -11,7 +11,7 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Fidelity, Provenance, record_digest
-from rgss.evidence.verification import verify
+from rgss.evidence.store.verification import verify
 
 
 @pytest.fixture
@@ -134,7 +134,7 @@ def raw_version(path):
 PROGRAM = """\
 import os, signal, sys
 from pathlib import Path
-import rgss.evidence.migration as migration
+import rgss.evidence.store.migration as migration
 from rgss.evidence import EvidenceStore
 
 left = int(sys.argv[2])

@@ -8,7 +8,7 @@ import pytest
 
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import EvidenceStore
-from rgss.evidence import connection as connecting
+from rgss.evidence.store import connection as connecting
 
 
 def raising(number):

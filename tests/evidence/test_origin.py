@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 
 from rgss.errors import EvidenceError
-from rgss.evidence import Provenance, origin
-from rgss.evidence.origin import code_revision, file_digests, machine
-from rgss.evidence.provenance import provenance_from_json, provenance_to_json
+from rgss.evidence import Provenance
+from rgss.evidence.records import origin
+from rgss.evidence.records.origin import code_revision, file_digests, machine
+from rgss.evidence.records.provenance import provenance_from_json, provenance_to_json
 
 GIT = [
     shutil.which("git") or "git",
@@ -159,7 +160,7 @@ def test_a_provenance_is_read_as_it_was_written():
 
 def test_this_code_knows_where_it_comes_from():
     known = subprocess.run(
-        [sys.executable, "-c", "from rgss.evidence.origin import code_revision; print(code_revision())"],
+        [sys.executable, "-c", "from rgss.evidence.records.origin import code_revision; print(code_revision())"],
         capture_output=True,
         text=True,
         check=True,

@@ -18,7 +18,7 @@ from rgss.evidence import (
     inputs_digest,
     text_digest,
 )
-from rgss.evidence.packing import LARGEST_TEXT
+from rgss.evidence.records.packing import LARGEST_TEXT
 
 PLAN = Piece(digest="a" * 64, kind=PieceKind.PLAN, text='{"path":[0.1,0.2]}')
 TIMING = Piece(digest="b" * 64, kind=PieceKind.TIMING, text="[]")

@@ -9,7 +9,7 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, record_digest, record_to_json, trial_key
-from rgss.evidence.verification import verify
+from rgss.evidence.store.verification import verify
 
 WRITER = """\
 import sys
@@ -102,7 +102,7 @@ def test_processes_that_disagree_are_found_out(tmp_path, record):
 
 def test_a_store_half_made_by_a_process_that_died_is_completed(tmp_path):
     program = (
-        "import os, sys; from pathlib import Path; import rgss.evidence.creation as creation\n"
+        "import os, sys; from pathlib import Path; import rgss.evidence.store.creation as creation\n"
         "creation.make = lambda connection: (connection.execute('BEGIN IMMEDIATE'),"
         " connection.execute('CREATE TABLE trials (key TEXT)'), os._exit(9))\n"
         "from rgss.evidence import EvidenceStore; EvidenceStore.open(Path(sys.argv[1]))"

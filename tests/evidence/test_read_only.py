@@ -9,9 +9,9 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore
-from rgss.evidence.migration import FIRST_TABLE
-from rgss.evidence.schema import APPLICATION_ID
-from rgss.evidence.verification import verify
+from rgss.evidence.store.migration import FIRST_TABLE
+from rgss.evidence.store.schema import APPLICATION_ID
+from rgss.evidence.store.verification import verify
 
 Freeze = Callable[[], Path]
 

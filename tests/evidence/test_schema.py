@@ -6,8 +6,9 @@ import sqlite3
 import pytest
 
 from rgss.errors import EvidenceError
-from rgss.evidence import EvidenceStore, creation, schema
-from rgss.evidence import connection as connecting
+from rgss.evidence import EvidenceStore
+from rgss.evidence.store import connection as connecting
+from rgss.evidence.store import creation, schema
 
 
 class BusyConnection:

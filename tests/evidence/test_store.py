@@ -11,7 +11,7 @@ import pytest
 
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence import EvidenceStore, Provenance, StoredTrial, record_digest
-from rgss.evidence.schema import APPLICATION_ID, SCHEMA_VERSION
+from rgss.evidence.store.schema import APPLICATION_ID, SCHEMA_VERSION
 from rgss.findings import shown
 
 
@@ -224,7 +224,7 @@ def test_a_full_disk_is_named(store, record, provenance, key):
 
 def test_a_store_that_another_process_keeps_locked_is_named(path, record, provenance, monkeypatch, key):
     EvidenceStore.open(path).close()
-    monkeypatch.setattr("rgss.evidence.connection.BUSY_TIMEOUT_S", 0.05)
+    monkeypatch.setattr("rgss.evidence.store.connection.BUSY_TIMEOUT_S", 0.05)
     other = sqlite3.connect(path, isolation_level=None)
     other.execute("BEGIN IMMEDIATE")
     with EvidenceStore.open(path, label="evidence.sqlite") as store, pytest.raises(StorageError) as caught:

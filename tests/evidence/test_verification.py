@@ -7,7 +7,7 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind
-from rgss.evidence.verification import Damage, salvage, take_away, verify
+from rgss.evidence.store.verification import Damage, salvage, take_away, verify
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import pytest
 
 from rgss.errors import EvidenceError
 from rgss.evidence import PlanOutcome
-from rgss.evidence.planning_runs import PlanningRun
+from rgss.evidence.records.planning_runs import PlanningRun
 from rgss.exchange.ompl_database import STATUSES, write_ompl_database
 from rgss.motion.engine import load_engine
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.grasping import ContactKind, Grasp, GraspMemory, Wrench, analyse_grasp
+from rgss.grasping import ContactKind, Grasp, GraspGeometryCache, Wrench, analyse_grasp
 
 CENTRE = (0.0, 0.0, 0.0)
 Z = (0.0, 0.0, 1.0)
@@ -49,7 +49,7 @@ def analyses(monkeypatch):
 def test_what_is_remembered_is_what_would_be_worked_out(ring, analyses):
     """Over a carry: the forces always change, the contacts stay, move, are lost and come back."""
     rng = np.random.default_rng(3)
-    memory, contacts, moves = GraspMemory(), pair(ring), 0
+    memory, contacts, moves = GraspGeometryCache(), pair(ring), 0
     for step in range(60):
         contacts = [
             replace(
@@ -83,7 +83,7 @@ def test_what_is_remembered_is_what_would_be_worked_out(ring, analyses):
     ids=lambda change: next(iter(change)),
 )
 def test_a_contact_that_is_another_is_analysed_anew(ring, analyses, change):
-    memory, contacts = GraspMemory(), pair(ring)
+    memory, contacts = GraspGeometryCache(), pair(ring)
     looked_at(contacts, memory)
     moved = [replace(contacts[0], **change), *contacts[1:]]
 
@@ -93,14 +93,14 @@ def test_a_contact_that_is_another_is_analysed_anew(ring, analyses, change):
 
 @pytest.mark.parametrize("asked", [{"cone_edges": 5}, {"with_margins": False}, {"centre_of_mass_m": (0.0, 0.0, 1e-3)}])
 def test_what_is_asked_otherwise_is_analysed_anew(ring, asked):
-    memory, contacts = GraspMemory(), pair(ring)
+    memory, contacts = GraspGeometryCache(), pair(ring)
     looked_at(contacts, memory)
 
     assert looked_at(contacts, memory, **asked) == looked_at(contacts, **asked)
 
 
 def test_rounding_is_no_motion(ring):
-    memory, contacts = GraspMemory(), pair(ring)
+    memory, contacts = GraspGeometryCache(), pair(ring)
     shaken = [replace(each, position_m=tuple(value + 1e-12 for value in each.position_m)) for each in contacts]
     grasps = [Grasp.of(points, CENTRE, 0.035) for points in (contacts, shaken)]
 

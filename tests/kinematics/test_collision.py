@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.kinematics import Arm, CollisionModel, Situation
+from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import Box, Pose
 
 FREE = (0.0, -1.5, 1.5, -1.5, -1.5, 0.0)
@@ -27,7 +27,7 @@ def held(scene):
 @pytest.fixture
 def empty(scene):
     """Nothing in the hand, nothing on the counter."""
-    return Situation(opening_m=0.07)
+    return CollisionContext(opening_m=0.07)
 
 
 def reaching(inverse, position_m, yaw_rad=0.0, near=ELBOW_UP):
@@ -59,12 +59,12 @@ def test_the_fingers_in_the_counter(scene, gripper, empty, inverse):
 
 
 def test_the_cup_on_the_counter_between_the_open_fingers(scene, gripper, inverse):
-    model = CollisionModel(scene, gripper, Situation(opening_m=0.07, standing=scene.workpiece.pose))
+    model = CollisionModel(scene, gripper, CollisionContext(opening_m=0.07, standing=scene.workpiece.pose))
     assert model.is_valid(reaching(inverse, (0.70, -0.30, 0.95)))
 
 
 def test_a_finger_that_comes_down_on_the_cup(scene, gripper, inverse):
-    model = CollisionModel(scene, gripper, Situation(opening_m=0.07, standing=scene.workpiece.pose))
+    model = CollisionModel(scene, gripper, CollisionContext(opening_m=0.07, standing=scene.workpiece.pose))
     beside = reaching(inverse, (0.70 - 0.07 - 0.006, -0.30, 0.95))
     assert not model.is_valid(beside)
     assert ("cup", "finger_1") in model.contacts(beside)
@@ -72,7 +72,7 @@ def test_a_finger_that_comes_down_on_the_cup(scene, gripper, inverse):
 
 def test_closed_fingers_touch_the_cup_unless_that_is_allowed(scene, gripper, inverse):
     at_grasp = reaching(inverse, (0.70, -0.30, 0.95))
-    closed = Situation(opening_m=0.0345, standing=scene.workpiece.pose)
+    closed = CollisionContext(opening_m=0.0345, standing=scene.workpiece.pose)
     assert {pair[0] for pair in CollisionModel(scene, gripper, closed).contacts(at_grasp)} == {"cup"}
     allowed = frozenset({("cup", "finger_1"), ("finger_2", "cup"), ("cup", "finger_3")})
     assert CollisionModel(scene, gripper, replace(closed, allowed=allowed)).is_valid(at_grasp)
@@ -81,8 +81,8 @@ def test_closed_fingers_touch_the_cup_unless_that_is_allowed(scene, gripper, inv
 def test_the_carried_cup_in_the_shelf(scene, gripper, held, inverse):
     # Held below the shelf's front edge, the hand in front of it and the cup's rim in the board.
     at_the_edge = reaching(inverse, (0.70, 0.09, 1.45))
-    without = CollisionModel(scene, gripper, Situation(opening_m=0.036))
-    carrying = CollisionModel(scene, gripper, Situation(opening_m=0.036, carried=held))
+    without = CollisionModel(scene, gripper, CollisionContext(opening_m=0.036))
+    carrying = CollisionModel(scene, gripper, CollisionContext(opening_m=0.036, carried=held))
     contacts = set(carrying.contacts(at_the_edge)) - set(without.contacts(at_the_edge))
     assert contacts == {("cup", "shelf")}
     assert not carrying.is_valid(at_the_edge)
@@ -90,14 +90,14 @@ def test_the_carried_cup_in_the_shelf(scene, gripper, held, inverse):
 
 def test_the_carried_cup_against_the_counter_is_allowed_when_asked_for(scene, gripper, held, inverse):
     at_grasp = reaching(inverse, (0.70, -0.30, 0.9499))
-    carrying = Situation(opening_m=0.036, carried=held)
+    carrying = CollisionContext(opening_m=0.036, carried=held)
     assert CollisionModel(scene, gripper, carrying).contacts(at_grasp) == (("counter", "cup"),)
     lifting = replace(carrying, allowed=frozenset({("cup", "counter")}))
     assert CollisionModel(scene, gripper, lifting).is_valid(at_grasp)
 
 
 def test_what_is_held_is_not_checked_against_the_hand(scene, gripper, held):
-    squeezed = Situation(opening_m=0.02, carried=held)
+    squeezed = CollisionContext(opening_m=0.02, carried=held)
     assert CollisionModel(scene, gripper, squeezed).is_valid(FREE)
 
 
@@ -136,7 +136,7 @@ def test_clearance_keeps_the_hand_from_the_scene(scene, gripper, empty, inverse)
 
 
 def test_clearance_is_not_asked_of_the_cup_above_what_it_stands_on(scene, gripper, held, inverse):
-    placing = Situation(opening_m=0.036, carried=held)
+    placing = CollisionContext(opening_m=0.036, carried=held)
     just_above = reaching(inverse, (0.70, -0.30, 0.953))
     model = CollisionModel(scene, gripper, placing, clearance_m=0.01)
     assert model.is_valid(just_above)
@@ -153,7 +153,7 @@ def test_clearance_is_not_asked_between_links(scene, gripper, empty, configurati
 
 
 def test_an_allowed_contact_with_what_is_not_there(scene, gripper):
-    situation = Situation(opening_m=0.07, allowed=frozenset({("cup", "tabel"), ("fingers", "cup")}))
+    situation = CollisionContext(opening_m=0.07, allowed=frozenset({("cup", "tabel"), ("fingers", "cup")}))
     with pytest.raises(DefinitionError) as caught:
         CollisionModel(scene, gripper, situation)
     assert caught.value.message == "a contact is allowed with fingers, tabel, which is not in the scene bench"
@@ -261,8 +261,8 @@ def test_contacts_equal_those_of_every_pair_on_its_own(
     kind, scene, gripper, held, configurations, link_frames, matrix_of
 ):
     situation = {
-        "standing": Situation(opening_m=0.07, standing=scene.workpiece.pose),
-        "carried": Situation(opening_m=0.036, carried=held),
+        "standing": CollisionContext(opening_m=0.07, standing=scene.workpiece.pose),
+        "carried": CollisionContext(opening_m=0.036, carried=held),
     }[kind]
     model = CollisionModel(scene, gripper, situation)
     every_pair = EveryPair(scene, gripper, situation, link_frames, matrix_of)
@@ -285,13 +285,15 @@ def test_the_tool_of_arm_and_collision_model_is_the_same(scene, gripper, robot, 
     x, y, z = arm.tool_pose(q).position_m
     probe = replace(scene.bodies[2], id="probe", shape=Box(size_m=(0.002,) * 3), pose=Pose(position_m=(x, y, z)))
     model = CollisionModel(
-        replace(scene, bodies=(*scene.bodies, probe)), gripper, Situation(opening_m=0.07, carried=Pose())
+        replace(scene, bodies=(*scene.bodies, probe)), gripper, CollisionContext(opening_m=0.07, carried=Pose())
     )
     assert ("cup", "probe") in model.contacts(q)
 
 
 def test_the_first_invalid_of_many_is_the_first_that_is_invalid(scene, gripper, held):
-    carrying = Situation(opening_m=scene.workpiece.shape.radius_m, carried=held, largest_tilt_rad=math.radians(45.0))
+    carrying = CollisionContext(
+        opening_m=scene.workpiece.shape.radius_m, carried=held, largest_tilt_rad=math.radians(45.0)
+    )
     model = CollisionModel(scene, gripper, carrying, clearance_m=0.008)
     rng = np.random.default_rng(2)
     lower, upper = (

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import MotionError
-from rgss.evidence.outcomes import PlanOutcome
+from rgss.evidence.records.outcomes import PlanOutcome
 from rgss.motion import PLANNERS, ClockKind, PlanningClock, outcome_within, plan
 from rgss.motion.paths import path_states
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import MotionError
-from rgss.evidence.outcomes import PlanOutcome
+from rgss.evidence.records.outcomes import PlanOutcome
 from rgss.motion import JointPath, MotionLimits, PlanningProblem, PlanResult, outcome_within
 
 

@@ -8,22 +8,22 @@ import runpy
 import pytest
 
 import rgss
+from rgss.api.column import Kind
+from rgss.api.column_reference import reference_table, with_reference_tables
+from rgss.api.columns import FRAMES
+from rgss.api.metric_columns import phase_metric_columns, trial_metric_columns
+from rgss.api.study import Study
+from rgss.api.trade import Trade
+from rgss.api.trial import Trial
 from rgss.errors import DefinitionError, RgssError, TradeoffError
 from rgss.quantities import conversion_factor
-from rgss.studies.analysis import Study
-from rgss.studies.analysis_trade import Trade
-from rgss.studies.analysis_trial import Trial
-from rgss.studies.frame_column import Kind
-from rgss.studies.frame_columns import FRAMES
-from rgss.studies.frame_metrics import phase_metric_columns, trial_metric_columns
-from rgss.studies.frame_reference import reference_table, with_reference_tables
 from rgss.trials.metrics import METRICS
 
 from .conftest import REPOSITORY
 
 PAGE = REPOSITORY / "docs/api.md"
 WRITE = (
-    'python -c "from pathlib import Path; from rgss.studies.frame_reference import with_reference_tables as w; '
+    'python -c "from pathlib import Path; from rgss.api.column_reference import with_reference_tables as w; '
     "p = Path('docs/api.md'); p.write_text(w(p.read_text()))\""
 )
 ENDINGS = {

@@ -14,9 +14,9 @@ import nbformat
 import pytest
 
 import rgss
+from rgss.decision.named_trials import naming_studies
 from rgss.requirements import load_requirements
-from rgss.studies.named_trials import naming_studies
-from rgss.trace.software_evidence import run_properties
+from rgss.trace.evidence.software import run_properties
 
 from .conftest import ASKED, REPOSITORY, copied
 

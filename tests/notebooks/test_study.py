@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import rgss
+from rgss.api import sweep as analysis_sweep
+from rgss.api.columns import FRAMES
+from rgss.assessment.recorded_verdicts import read_record, study_key
 from rgss.errors import DefinitionError, DocumentError, EvidenceError, SimulationError
 from rgss.evidence import EvidenceStore, RunFailure, RunFailureKind
-from rgss.studies import analysis_sweep
-from rgss.studies.frame_columns import FRAMES
-from rgss.studies.recorded_verdicts import read_record, study_key
-from rgss.studies.sweep import LostTrials, SweepResult
-from rgss.trials.versions import ENTRIES, source_of
+from rgss.sweep.running import LostTrials, SweepResult
+from rgss.trials.code.piece_versions import ENTRIES, source_of
 
 from .conftest import ASKED
 

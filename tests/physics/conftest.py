@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rgss.kinematics import Arm, CollisionModel, InverseKinematics, Situation
+from rgss.kinematics import Arm, CollisionContext, CollisionModel, InverseKinematics
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, Pose, Scene, load_gripper, load_scene
 
@@ -107,7 +107,7 @@ def cell_with(fingers: int) -> Cell:
     )
     arm = Arm(scene.robot, geometry.grasp_centre)
     inverse = InverseKinematics(arm)
-    situation = Situation(opening_m=geometry.largest_opening_m, standing=scene.workpiece.pose)
+    situation = CollisionContext(opening_m=geometry.largest_opening_m, standing=scene.workpiece.pose)
     collision = CollisionModel(scene, geometry, situation)
     free = [q for q in inverse.solve(scene.grasp) if collision.is_valid(q)]
     home = np.array(scene.robot.home_rad)

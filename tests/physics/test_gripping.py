@@ -176,10 +176,10 @@ def test_every_rib_touches_in_one_point_and_is_found_again_at_once(cell):
         up = cell.lift(world)
         assert len(world.finger_contacts()) == count
         world.renew_contacts()
-        held = world.workpiece_pose().seen_from(world.tool_pose())
+        held = world.workpiece_pose().relative_to(world.tool_pose())
         cell.hold(world, 1, up)
         assert len(world.finger_contacts()) == count
-        moved = world.workpiece_pose().seen_from(world.tool_pose()).seen_from(held)
+        moved = world.workpiece_pose().relative_to(world.tool_pose()).relative_to(held)
     assert math.hypot(*moved.position_m) < 2e-5
     assert moved.tilt_rad < 1e-4
 
@@ -189,11 +189,11 @@ def test_a_carried_cup_stays_where_it_was_gripped_while_it_is_turned(cell):
     for rate_hz in (240.0, 1000.0):
         with cell.world(rate_hz=rate_hz) as world:
             up = cell.lift(world, height_m=0.1)
-            held = world.workpiece_pose().seen_from(world.tool_pose())
+            held = world.workpiece_pose().relative_to(world.tool_pose())
             there = up + np.array([-0.6, 0.0, 0.0, 0.0, 0.3, -1.5])
             for path in (cell.path(up, there, 1.5, rate_hz), cell.path(there, up, 1.5, rate_hz)):
                 cell.follow(world, path)
-            moved = world.workpiece_pose().seen_from(world.tool_pose()).seen_from(held)
+            moved = world.workpiece_pose().relative_to(world.tool_pose()).relative_to(held)
         assert math.hypot(*moved.position_m) < 2.5e-4
         assert moved.tilt_rad < math.radians(0.3)
 

@@ -7,7 +7,7 @@ import pytest
 
 from rgss.physics.engine import pybullet
 from rgss.scenes.assembly import assembled_urdf, finger_link
-from rgss.scenes.pad_ribs import pad_ribs
+from rgss.scenes.rib_geometry import pad_ribs
 
 pytestmark = pytest.mark.engine
 

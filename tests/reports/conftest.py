@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rgss.evidence import Failure, Fidelity, Phase, PhaseOutcome, PhaseRecord, TrialRecord
-from rgss.evidence.trial_trace import PhaseSpan, TrialTrace
+from rgss.evidence.records.trial_trace import PhaseSpan, TrialTrace
 
 PHASES = list(Phase)
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rgss.reports.diagram_text import shortened, text_width, wrapped
+from rgss.reports.diagrams.text import shortened, text_width, wrapped
 
 
 @pytest.mark.parametrize("bold", [False, True])

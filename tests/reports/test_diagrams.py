@@ -14,12 +14,14 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.reports import diagram_requirements, diagram_trees, diagrams
-from rgss.reports.diagram_drawing import draw_graph
-from rgss.reports.diagram_graph import Cluster, Edge, Graph, Node, Shape
-from rgss.reports.diagram_layout import layout
-from rgss.reports.diagram_text import text_width
-from rgss.reports.diagrams import diagrams_of, file_stem, missing_diagrams, write_diagrams
+from rgss.reports.diagrams import diagrams
+from rgss.reports.diagrams import requirements as diagram_requirements
+from rgss.reports.diagrams import trees as diagram_trees
+from rgss.reports.diagrams.diagrams import diagrams_of, file_stem, missing_diagrams, write_diagrams
+from rgss.reports.diagrams.drawing import draw_graph
+from rgss.reports.diagrams.graph import Cluster, Edge, Graph, Node, Shape
+from rgss.reports.diagrams.layout import layout
+from rgss.reports.diagrams.text import text_width
 from rgss.requirements import BehaviourKind, load_requirements
 
 ROOT = Path(__file__).parents[2]
@@ -179,7 +181,7 @@ def test_texts_stay_within_their_boxes(drawings):
 def test_the_same_model_gives_the_same_drawings_in_another_process(shipped, drawings):
     script = (
         "import hashlib, sys; from pathlib import Path\n"
-        "from rgss.reports.diagrams import diagrams_of; from rgss.requirements import load_requirements\n"
+        "from rgss.reports.diagrams.diagrams import diagrams_of; from rgss.requirements import load_requirements\n"
         "for one in diagrams_of(load_requirements(Path(sys.argv[1]))): sys.stdout.write(one.to_svg())"
     )
     environment = {"PYTHONHASHSEED": "7", "PATH": "", "FONTCONFIG_FILE": "none", "LANG": "C"}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rgss.reports.film import CaptionedPicture, captioned_image, write_film
+from rgss.reports.trials.film import CaptionedPicture, captioned_image, write_film
 
 SIZE = (90, 64)
 

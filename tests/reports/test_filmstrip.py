@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from rgss.evidence import Failure, Phase
-from rgss.reports.filmstrip import filmstrip, write_filmstrip
+from rgss.reports.trials.filmstrip import filmstrip, write_filmstrip
 
 WIDTH, HEIGHT = 200, 150
 PHASES = list(Phase)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rgss.reports.lettering import font, headline, words
+from rgss.reports.trials.lettering import font, headline, words
 
 
 def test_names_become_words():

@@ -11,9 +11,9 @@ import pytest
 from rgss.regression.comparing import Comparison, Guard, Outcome, Subject
 from rgss.regression.input_changes import InputChange, InputKind
 from rgss.regression.power import Power
-from rgss.regression.report import Behaviour, ChangedTrial, Failing, RegressionReport, Trouble
-from rgss.reports.regression_files import report_to_json, report_to_junit, report_to_markdown
-from rgss.reports.regression_terminal import report_lines
+from rgss.regression.report import Behaviour, ChangedTrial, Failing, FailureCause, RegressionReport
+from rgss.reports.regression.files import report_to_json, report_to_junit, report_to_markdown
+from rgss.reports.regression.terminal import report_lines
 
 INPUTS = (
     InputChange(kind=InputKind.VALUE, name="workpiece.friction", then="1.0", now="0.98", where="contact 3"),
@@ -60,7 +60,7 @@ def report():
             compared(Outcome.INCONCLUSIVE, phase="move_to_grasp", pairs=0, worsening=None, low=None, high=None),
         ),
         behaviour=Behaviour(compared=8, changed=(ChangedTrial(run="contact", variant=3, seed=1, phase="grasp"),)),
-        failing=(Failing(trouble=Trouble.UNSTABLE, text="decision: variant 3 was chosen, now no variant"),),
+        failing=(Failing(trouble=FailureCause.UNSTABLE, text="decision: variant 3 was chosen, now no variant"),),
         notes=("decision: variant 3 left the Pareto front; within the noise",),
         looks=2,
         trials={"contact": 4},
@@ -235,7 +235,7 @@ def test_as_junit(report):
 
 def test_a_trial_that_could_not_be_run_is_an_error_in_junit(report):
     text = "run contact: the trial of variant 3 with seed 2 could not be run"
-    lost = replace(report, failing=(Failing(trouble=Trouble.NOT_RUN, text=text),))
+    lost = replace(report, failing=(Failing(trouble=FailureCause.NOT_RUN, text=text),))
     suite = ET.fromstring(report_to_junit(lost))  # noqa: S314 - our own text
     (case,) = [case for case in suite.iter("testcase") if case.find("error") is not None]
 
@@ -253,7 +253,7 @@ def test_as_markdown(report):
 
 def test_hostile_text_shows_as_text(report):
     hostile = replace(
-        report, study=HOSTILE, notes=(HOSTILE,), failing=(Failing(trouble=Trouble.UNSTABLE, text=HOSTILE),)
+        report, study=HOSTILE, notes=(HOSTILE,), failing=(Failing(trouble=FailureCause.UNSTABLE, text=HOSTILE),)
     )
     suite = ET.fromstring(report_to_junit(hostile))  # noqa: S314 - our own text
     assert any("<img src=x>" in case.get("name") and "𝔘" in case.get("name") for case in suite.iter("testcase"))

@@ -9,13 +9,13 @@ from html.parser import HTMLParser
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.reports import trace_html
-from rgss.reports.diagrams import diagrams_of, drawings_for_page
+from rgss.reports.diagrams.diagrams import diagrams_of, drawings_for_page
 from rgss.reports.page import script_hash
-from rgss.reports.trace_files import found_file, report_file
-from rgss.reports.trace_report import trace_report
-from rgss.trace.chain import chain_of
-from rgss.trace.impact import impact_of
+from rgss.reports.trace import html as trace_html
+from rgss.reports.trace.files import found_file, report_file
+from rgss.reports.trace.report import trace_report
+from rgss.trace.views.chain import chain_of
+from rgss.trace.views.impact import impact_of
 
 HOSTILE = "</title><script>alert(1)</script><img src=x onerror=alert(2)> \" ' & {{ 7 * 7 }} 🤖"
 VOID = {"meta", "input", "br", "link", "img", "hr"}

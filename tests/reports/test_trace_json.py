@@ -8,12 +8,12 @@ import jsonschema
 import pytest
 
 from rgss.measures import StaleCause
-from rgss.reports.trace_files import found_file, report_file
-from rgss.reports.trace_json import json_schema
-from rgss.reports.trace_report import trace_report
-from rgss.trace.chain import chain_of
-from rgss.trace.impact import impact_of
-from rgss.trace.verdict_evidence import TraceEvidence
+from rgss.reports.trace.files import found_file, report_file
+from rgss.reports.trace.json_document import json_schema
+from rgss.reports.trace.report import trace_report
+from rgss.trace.evidence.verdict_evidence import TraceEvidence
+from rgss.trace.views.chain import chain_of
+from rgss.trace.views.impact import impact_of
 
 
 @pytest.fixture

@@ -6,12 +6,12 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.measures import StaleCause
-from rgss.reports.trace_report import trace_report
-from rgss.reports.trace_tables import chain_table, impact_table, matrix_table, report_tables
-from rgss.reports.trace_terminal import chain_lines, impact_lines, table_lines, terminal_tables
-from rgss.trace.chain import chain_of
-from rgss.trace.impact import impact_of
-from rgss.trace.verdict_evidence import TraceEvidence
+from rgss.reports.trace.report import trace_report
+from rgss.reports.trace.tables import chain_table, impact_table, matrix_table, report_tables
+from rgss.reports.trace.terminal import chain_lines, impact_lines, table_lines, terminal_tables
+from rgss.trace.evidence.verdict_evidence import TraceEvidence
+from rgss.trace.views.chain import chain_of
+from rgss.trace.views.impact import impact_of
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from matplotlib._pylab_helpers import Gcf
 from matplotlib.colors import to_hex
 from PIL import Image
 
-from rgss.reports.trial_plots import trial_figure, write_trial_plots
+from rgss.reports.trials.trial_plots import trial_figure, write_trial_plots
 
 JOINTS = [f"{name}_joint" for name in ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")]
 

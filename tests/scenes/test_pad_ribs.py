@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rgss.scenes import Box, Cylinder, Gripper, load_gripper, load_scene
 from rgss.scenes.assembly import assembled_urdf
-from rgss.scenes.pad_ribs import pad_ribs
+from rgss.scenes.rib_geometry import pad_ribs
 
 
 @pytest.fixture(scope="module")

@@ -95,5 +95,5 @@ def test_a_rounded_quaternion_does_not_break_the_tilt():
 @given(poses, poses)
 def test_a_pose_seen_from_another_is_in_that_ones_frame(pose, frame):
     expected = np.linalg.inv(matrix(frame)) @ matrix(pose)
-    assert np.allclose(matrix(pose.seen_from(frame)), expected, atol=1e-10)
-    assert pose.seen_from(frame).quaternion_xyzw == pytest.approx((frame.inverse() @ pose).quaternion_xyzw, abs=1e-12)
+    assert np.allclose(matrix(pose.relative_to(frame)), expected, atol=1e-10)
+    assert pose.relative_to(frame).quaternion_xyzw == pytest.approx((frame.inverse() @ pose).quaternion_xyzw, abs=1e-12)

@@ -10,12 +10,12 @@ from rgss.scenes import Scene
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 from rgss.trials.phase_result import PhaseResult
+from rgss.trials.pieces.input_digests import TrialSpec
+from rgss.trials.pieces.run import execute
 from rgss.trials.plan import TaskPlan, plan_task
 from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference, reference_of
-from rgss.trials.run import execute
-from rgss.trials.spec import TrialSpec
 from rgss.trials.timing import TaskTiming, time_task
 from rgss.trials.workcell import Workcell
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from rgss.evidence import Failure, Phase
 from rgss.scenes import Gripper, Scene
-from rgss.trials.control import ControlSettings
 from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import Reference
 
 from .machine import add_arm, add_cup, add_hand, add_scene, empty_model, finger_names, machine_shapes

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.trials.bench import bench_spec, run_bench
+from rgss.trials.payload_bench.bench import bench_spec, run_bench
 
 pytestmark = pytest.mark.engine
 

@@ -25,12 +25,12 @@ from rgss.evidence import (
     RunFailureKind,
     TrialRecord,
 )
+from rgss.guard.guard import compare_with_baseline, make_baseline
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, Project, load_project
-from rgss.studies.regressing import compare_with_baseline, make_baseline
 from rgss.studies.study import read_study
-from rgss.studies.sweep import key_of
-from rgss.studies.workers import Trouble
+from rgss.sweep.running import key_of
+from rgss.sweep.workers import TaskError
 from rgss.trials.metrics import METRICS
 
 REPOSITORY = Path(__file__).parents[2]
@@ -212,22 +212,22 @@ def carried_out():
 
 
 @pytest.fixture(scope="session")
-def troubles_of_tasks() -> dict[str, Trouble]:
+def troubles_of_tasks() -> dict[str, TaskError]:
     """What becomes of the troubled tasks of `worker_doubles.act`, whoever carries them out within 5 s."""
     return {
-        "die": Trouble(
+        "die": TaskError(
             kind=RunFailureKind.CRASHED,
             detail="the worker was killed by SIGSEGV: free(): invalid next size",
             may_pass=True,
         ),
-        "exit": Trouble(kind=RunFailureKind.CRASHED, detail="the worker ended with status 7", may_pass=True),
-        "fail": Trouble(kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True),
-        "refuse": Trouble(
+        "exit": TaskError(kind=RunFailureKind.CRASHED, detail="the worker ended with status 7", may_pass=True),
+        "fail": TaskError(kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True),
+        "refuse": TaskError(
             kind=RunFailureKind.RAISED,
             detail="the workpiece cannot have the mass 0 (give it some)",
             may_pass=False,
         ),
-        "hang": Trouble(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True),
+        "hang": TaskError(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True),
     }
 
 

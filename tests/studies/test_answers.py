@@ -10,12 +10,12 @@ import pytest
 
 from rgss.errors import SimulationError
 from rgss.evidence import EvidenceStore, Phase, RunFailureKind
-from rgss.evidence.verification import verify
-from rgss.studies.answers import answer_problem, is_end_of, wrong_answer
+from rgss.evidence.store.verification import verify
 from rgss.studies.expansion import trial_specs
-from rgss.studies.sweep import key_of, sweep, trials_of
-from rgss.studies.workers import Ended, Trouble
-from rgss.trials.making import TrialTask, tasks_of
+from rgss.sweep.answers import answer_problem, is_end_of, wrong_answer
+from rgss.sweep.running import key_of, sweep, trials_of
+from rgss.sweep.workers import Ended, TaskError
+from rgss.trials.pieces.pieces import TrialTask, tasks_of
 
 DOUBLES = Path(__file__).parent / "doubles"
 
@@ -156,8 +156,10 @@ def test_every_right_answer_is_one(liars, specs_of):
         Ended(key="k", result=1, trouble=None, took_s=-1.0),
         Ended(key="k", result=1, trouble=None, took_s="1"),
         Ended(key="k", result=1, trouble="trouble", took_s=1.0),
-        Ended(key="k", result=1, trouble=Trouble(kind="crashed", detail="x", may_pass=True), took_s=1.0),
-        Ended(key="k", result=1, trouble=Trouble(kind=RunFailureKind.CRASHED, detail=None, may_pass=True), took_s=1.0),
+        Ended(key="k", result=1, trouble=TaskError(kind="crashed", detail="x", may_pass=True), took_s=1.0),
+        Ended(
+            key="k", result=1, trouble=TaskError(kind=RunFailureKind.CRASHED, detail=None, may_pass=True), took_s=1.0
+        ),
     ],
 )
 def test_what_is_not_the_end_of_a_task(ended):

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from rgss.findings import Severity
-from rgss.studies.bench_findings import bench_findings
+from rgss.studies.bench_check import bench_findings
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.trials.spec import bench_of, digests_of
-from rgss.trials.versions import versions
+from rgss.trials.code.piece_versions import versions
+from rgss.trials.pieces.input_digests import bench_of, digests_of
 
 REPOSITORY = Path(__file__).parents[2]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rgss.studies.changes import Change, changes_between
+from rgss.sweep.input_changes import Change, changes_between
 
 
 @pytest.mark.parametrize(

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
+from rgss.assessment.measuring import measure_variants, requirements_with_criteria
+from rgss.decision.choosing import choose, double_counting, trade_problem
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.requirements import Comparison, Statistic
-from rgss.studies.choosing import choose, double_counting, trade_problem
-from rgss.studies.measuring import measure_variants, requirements_with_criteria
 
 
 @pytest.fixture(scope="module")

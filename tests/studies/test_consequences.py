@@ -7,7 +7,7 @@ import re
 import pytest
 
 from rgss.findings import Finding, Severity
-from rgss.studies.consequences import without_consequences
+from rgss.studies.finding_suppression import without_consequences
 
 SCENE, SPACE, CATALOGUE = "scenes/restaurant.yaml", "designs/grasping_system.yaml", "designs/catalogue.yaml"
 MEASURES, STAKEHOLDER = "requirements/measures.yaml", "requirements/stakeholder.yaml"

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from rgss.evidence import RunFailureKind
-from rgss.studies.dask_tasks import Order
-from rgss.studies.dask_workers import DaskWorkers
-from rgss.studies.workers import Ended
+from rgss.sweep.dask.tasks import Order
+from rgss.sweep.dask.workers import DaskWorkers
+from rgss.sweep.workers import Ended
 
 
 class AnsweringClient:

@@ -15,12 +15,12 @@ from distributed import LocalCluster
 
 from rgss.errors import DefinitionError, SimulationError
 from rgss.evidence import EvidenceStore, RunFailureKind
-from rgss.studies import dask_cluster as dask_cluster_module
-from rgss.studies.dask_cluster import dask_cluster, difference
-from rgss.studies.dask_tasks import Differs, Engines, Order, are_alike, environment
 from rgss.studies.expansion import trial_specs
-from rgss.studies.sweep import sweep, trials_of
-from rgss.studies.workers import Trouble
+from rgss.sweep.dask import cluster as dask_cluster_module
+from rgss.sweep.dask.cluster import dask_cluster, difference
+from rgss.sweep.dask.tasks import Differs, Engines, Order, are_alike, environment
+from rgss.sweep.running import sweep, trials_of
+from rgss.sweep.workers import TaskError
 
 DOUBLES = Path(__file__).parent / "doubles"
 GIB = 1024**3
@@ -102,7 +102,7 @@ def test_a_task_that_costs_one_dask_worker_after_another_is_given_up(local, doub
         ended = carried_out(workers, {"rob": ("rob",)})
         again = carried_out(workers, {"who": ("who",)})
 
-    assert ended["rob"].trouble == Trouble(
+    assert ended["rob"].trouble == TaskError(
         kind=RunFailureKind.CRASHED, detail="2 Dask workers were lost at it", may_pass=True
     )
     assert again["who"].trouble is None

@@ -8,13 +8,13 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, PieceKind, Provenance, RunFailure, RunFailureKind
-from rgss.studies import named_inputs as naming
-from rgss.studies.dry_run import Cause, PieceCount, Reason, dry_run
+from rgss.studies import input_names as naming
 from rgss.studies.expansion import trial_specs
-from rgss.studies.named_inputs import named_inputs
+from rgss.studies.input_names import named_inputs
 from rgss.studies.project import load_project
-from rgss.studies.sweep import sweep, trials_of
-from rgss.trials.versions import versions
+from rgss.sweep.preview import Cause, PieceCount, Reason, dry_run
+from rgss.sweep.running import sweep, trials_of
+from rgss.trials.code.piece_versions import versions
 
 DOUBLES = Path(__file__).parent / "doubles"
 SPACE, SCENE, STUDY = "designs/grasping_system.yaml", "scenes/restaurant.yaml", "studies/pick_place.yaml"
@@ -240,8 +240,8 @@ def with_versions(monkeypatch):
     """Lets other versions and other code be in use."""
 
     def use(found, code=None):
-        monkeypatch.setattr("rgss.studies.dry_run.versions", lambda: found)
-        monkeypatch.setattr("rgss.studies.sweep.versions", lambda: found)
+        monkeypatch.setattr("rgss.sweep.preview.versions", lambda: found)
+        monkeypatch.setattr("rgss.sweep.running.versions", lambda: found)
         naming._inputs_of.cache_clear()
         if code is not None:
             monkeypatch.setattr(naming, "code_of_trials", lambda: code)
@@ -262,12 +262,12 @@ def test_a_changed_engine_is_told_with_its_versions(shipped, swept, with_version
 
 
 def test_changed_code_is_told_by_its_modules(shipped, swept, with_versions):
-    code = {**naming.code_of_trials(), "rgss.trials.watch": "0" * 12}
+    code = {**naming.code_of_trials(), "rgss.trials.monitors.phase_monitor": "0" * 12}
     with_versions({**versions(), "rgss-execution": "0" * 64}, code)
     found = dry_run(trial_specs(shipped, seeds=[1]), swept)
 
     (due,) = found.due
-    assert [(each.reason, each.name) for each in due.causes] == [(Reason.CODE, "rgss.trials.watch")]
+    assert [(each.reason, each.name) for each in due.causes] == [(Reason.CODE, "rgss.trials.monitors.phase_monitor")]
     assert made(found) == {"execution": 24}
 
 

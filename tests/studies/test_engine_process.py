@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from rgss.errors import SimulationError
-from rgss.studies import engine_process
-from rgss.studies.engine_process import EngineProcess, compute
-from rgss.trials.numeric_environment import problem_here
+from rgss.sweep import engine_process
+from rgss.sweep.engine_process import EngineProcess, compute
+from rgss.trials.code.kernel_environment import problem_here
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -67,7 +67,7 @@ def test_it_prints_nothing(process, capfd):
 
 SCRIPT = """
 import os, sys
-from rgss.studies.engine_process import EngineProcess
+from rgss.sweep.engine_process import EngineProcess
 process = EngineProcess()
 print(process.call(os.getpid, ()), flush=True)
 sys.stdin.read()

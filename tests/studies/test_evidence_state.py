@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from rgss.assessment.evidence_status import evidence_state, project_marks, trial_verdicts
+from rgss.assessment.measuring import measure_variants, record_of, requirements_with_criteria
+from rgss.assessment.recorded_verdicts import VerdictRecord
 from rgss.errors import EvidenceError
 from rgss.measures import StaleCause, Verdict
-from rgss.studies.evidence_state import evidence_state, project_marks, trial_verdicts
-from rgss.studies.measuring import measure_variants, record_of, requirements_with_criteria
 from rgss.studies.project import load_project
-from rgss.studies.recorded_verdicts import VerdictRecord
 from rgss.trace import check_trace
 
 TEST = """\

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.studies.lasting_pool import LastingPool
+from rgss.sweep.persistent_pool import PersistentWorkerPool
 
 DOUBLES = Path(__file__).parent / "doubles"
 LIMITS = {"time_limit_s": 60.0, "memory_limit_bytes": 0}
@@ -31,7 +31,7 @@ def is_there(pid: int) -> bool:
 
 def test_a_process_stays_from_one_sweep_to_the_next_and_ends_with_the_last(doubles, carried_out):
     pids = []
-    with LastingPool(size=1, **LIMITS) as lasting:
+    with PersistentWorkerPool(size=1, **LIMITS) as lasting:
         for name in ("one", "two"):
             workers = lasting.workers(doubles.act)
             assert workers.size == 1
@@ -44,7 +44,7 @@ def test_a_process_stays_from_one_sweep_to_the_next_and_ends_with_the_last(doubl
 
 
 def test_a_sweep_that_stops_in_the_middle_leaves_no_process_at_its_task(doubles, carried_out):
-    with LastingPool(size=1, **LIMITS) as lasting:
+    with PersistentWorkerPool(size=1, **LIMITS) as lasting:
         workers = lasting.workers(doubles.act)
         pid = carried_out(workers, {"one": ("who",)})["one"].result
         workers.begin("two", ("hang",))
@@ -57,7 +57,7 @@ def test_a_sweep_that_stops_in_the_middle_leaves_no_process_at_its_task(doubles,
 
 
 def test_another_function_has_another_process(doubles, carried_out):
-    with LastingPool(size=1, **LIMITS) as lasting:
+    with PersistentWorkerPool(size=1, **LIMITS) as lasting:
         first = carried_out(lasting.workers(doubles.act), {"one": ("who",)})["one"].result
         other = carried_out(lasting.workers(os.getpid), {"two": ()})["two"].result
 

@@ -7,11 +7,11 @@ from statistics import mean
 
 import pytest
 
+from rgss.assessment.measuring import measure_variants, require_complete, requirements_with_criteria
 from rgss.errors import EvidenceError
 from rgss.measures import Verdict
 from rgss.studies.expansion import trial_specs
-from rgss.studies.measuring import measure_variants, require_complete, requirements_with_criteria
-from rgss.studies.sweep import key_of
+from rgss.sweep.running import key_of
 
 Z_95 = 1.959963984540054
 

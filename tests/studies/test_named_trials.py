@@ -2,13 +2,13 @@
 
 import pytest
 
+from rgss.decision.named_trials import naming_studies
 from rgss.errors import DefinitionError, DocumentError
 from rgss.studies.expansion import trial_specs
-from rgss.studies.named_trials import naming_studies
 from rgss.studies.project import load_project
-from rgss.studies.sweep import key_of
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import versions
+from rgss.sweep.running import key_of
+from rgss.trials.code.piece_versions import versions
+from rgss.trials.pieces.input_digests import digests_of
 
 STUDY = "studies/pick_place.yaml"
 

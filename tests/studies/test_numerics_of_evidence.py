@@ -9,12 +9,12 @@ import pytest
 
 from rgss.errors import EvidenceError, SimulationError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, Provenance
-from rgss.evidence.provenance import provenance_from_json, provenance_to_json
+from rgss.evidence.records.provenance import provenance_from_json, provenance_to_json
 from rgss.studies.expansion import trial_specs
-from rgss.studies.keeping import Keeper, Origin
-from rgss.studies.sweep import key_of, sweep
-from rgss.studies.workers import WorkerPool
-from rgss.trials.numerics import numerics
+from rgss.sweep.evidence_writer import Origin, TrialWriter
+from rgss.sweep.running import key_of, sweep
+from rgss.sweep.workers import WorkerPool
+from rgss.trials.code.numeric_probe import numerics
 
 OTHERS = {**numerics(), "libm": "another library 0123456789ab"}
 
@@ -61,7 +61,7 @@ def test_a_piece_that_another_sweep_has_put_with_other_numerics_is_told_as_such(
     digest = "a" * 64
     store.put(key_of(specs[0]), record_of(specs[0]), Provenance(inputs={"plan": digest}, versions={}, numerics=there))
     store.put_piece(Piece(digest=digest, kind=PieceKind.PLAN, text="{}"))
-    keeper = Keeper(store, Origin, on_kept=lambda *_: None, numerics=numerics)
+    keeper = TrialWriter(store, Origin, on_kept=lambda *_: None, numerics=numerics)
     keeper.keep_piece(Piece(digest=digest, kind=PieceKind.PLAN, text="[]"))
     with pytest.raises(EvidenceError, match=expected) as caught:
         keeper.flush()
@@ -89,7 +89,7 @@ def test_a_sweep_says_with_what_it_computed_and_goes_on_only_with_the_same(store
 
 
 def test_a_worker_that_was_started_with_other_kernels_refuses_to_begin(monkeypatch):
-    monkeypatch.setattr("rgss.studies.workers.numeric_environment_of_children", nullcontext)
+    monkeypatch.setattr("rgss.sweep.workers.numeric_environment_of_children", nullcontext)
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "8")
     with WorkerPool(divmod, size=1) as pool:
         pool.want(1)

@@ -10,15 +10,15 @@ import pytest
 
 from rgss.errors import DefinitionError, DocumentError, EvidenceError
 from rgss.evidence import PieceKind, Provenance
+from rgss.guard.guard import baseline_name, compare_with_baseline, make_baseline
+from rgss.guard.inputs import constants_of, origin_of_trials
+from rgss.guard.runs import guard_of, watched_trials
 from rgss.regression.baseline import baseline_to_text
 from rgss.regression.comparing import Outcome
 from rgss.regression.input_changes import InputKind, origin_changes
-from rgss.regression.report import Trouble
+from rgss.regression.report import FailureCause
 from rgss.studies.project import load_project
-from rgss.studies.regressing import baseline_name, compare_with_baseline, make_baseline
-from rgss.studies.regressing_inputs import constants_of, origin_of_trials
-from rgss.studies.regressing_runs import guard_of, watched_trials
-from rgss.studies.sweep import sweep, trials_of
+from rgss.sweep.running import sweep, trials_of
 from rgss.trials import execution
 
 from .conftest import REASON, SECTION, STUDY, without_section
@@ -379,4 +379,4 @@ regression:
     assert [str(one.subject) for one in report.of(Outcome.WORSE)] == ["success at grasp"]
     assert {one.subject.phase for one in report.of(Outcome.MISSING)} >= {"lift", "place"}
     assert {(one.run, one.phase) for one in report.behaviour.changed} == {("grasp", "grasp")}
-    assert all(failing.trouble is not Trouble.CHANGED_SCHEMA for failing in report.failing)
+    assert all(failing.trouble is not FailureCause.CHANGED_SCHEMA for failing in report.failing)

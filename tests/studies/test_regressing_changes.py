@@ -8,15 +8,15 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import EvidenceStore
+from rgss.guard.guard import compare_with_baseline, make_baseline
 from rgss.physics import world
 from rgss.regression.comparing import Outcome
 from rgss.regression.input_changes import InputKind
 from rgss.studies import expansion
 from rgss.studies.project import FOLDERS, load_project
-from rgss.studies.regressing import compare_with_baseline, make_baseline
-from rgss.studies.sweep import sweep
-from rgss.trials import versions as versions_module
-from rgss.trials.control import ControlSettings
+from rgss.sweep.running import sweep
+from rgss.trials.code import piece_versions as versions_module
+from rgss.trials.plants.control import ControlSettings
 
 from .conftest import REASON, REPOSITORY, STUDY, without_section
 

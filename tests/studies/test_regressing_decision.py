@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.studies.choosing import choose
-from rgss.studies.regressing_decision import decision_of, explained_by_noise, measured_of
-from rgss.studies.regressing_runs import guard_of, watched_trials
+from rgss.decision.choosing import choose
+from rgss.guard.decision import decision_of, explained_by_noise, measured_of
+from rgss.guard.runs import guard_of, watched_trials
 
 from .conftest import SECTION
 

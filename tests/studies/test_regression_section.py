@@ -8,10 +8,10 @@ import pytest
 
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
+from rgss.guard.designs import guard_findings
+from rgss.guard.runs import watched_trials
 from rgss.regression.comparing import Guard
 from rgss.studies.project import load_project
-from rgss.studies.regressing_designs import guard_findings
-from rgss.studies.regressing_runs import watched_trials
 from rgss.studies.study import read_study
 
 STUDY = "studies/pick_place.yaml"

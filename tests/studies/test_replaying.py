@@ -8,15 +8,15 @@ import pytest
 
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore, Fidelity, PhaseRecord, Provenance, record_digest
-from rgss.studies.changes import Change
 from rgss.studies.expansion import trial_specs
-from rgss.studies.named_inputs import named_inputs
+from rgss.studies.input_names import named_inputs
 from rgss.studies.project import load_project
-from rgss.studies.replaying import find_trial, replay
-from rgss.studies.sweep import key_of
-from rgss.trials.run import run_trial
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import versions
+from rgss.sweep.input_changes import Change
+from rgss.sweep.replaying import find_trial, replay
+from rgss.sweep.running import key_of
+from rgss.trials.code.piece_versions import versions
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.pieces.run import run_trial
 
 NOTHING = Provenance(inputs={}, versions={})
 
@@ -155,7 +155,7 @@ def test_versions_that_differ_are_named(kinematic, stored):
 def test_a_difference_is_found_wherever_it_is(kinematic, stored, monkeypatch):
     trial = stored(kinematic)
     record = trial.record
-    monkeypatch.setattr("rgss.studies.replaying.run_trial", lambda spec: record)
+    monkeypatch.setattr("rgss.sweep.replaying.run_trial", lambda spec: record)
     first, *others = record.phases
     emptied = PhaseRecord(phase=first.phase, outcome=first.outcome, duration_s=first.duration_s, metrics={})
     planned = (replace(record.planning[0], checks=record.planning[0].checks + 1), *record.planning[1:])

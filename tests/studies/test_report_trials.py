@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from rgss.evidence import Failure, Phase, PhaseOutcome
-from rgss.studies.report_trials import notable_trials
+from rgss.reports.study.trials import notable_trials
 
 
 def trial(variant, seed, failure=None, ended=8):

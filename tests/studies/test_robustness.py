@@ -9,21 +9,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.studies.choosing import choose, trade_problem
-from rgss.studies.measuring import measure_variants
-from rgss.studies.robustness import analyse_robustness
-from rgss.studies.robustness_assumptions import assumption_findings, cost_box
-from rgss.studies.robustness_effects import leading_factors
-from rgss.studies.robustness_export import robustness_to_json, scenario_to_json
-from rgss.studies.robustness_remeasuring import Remeasuring
-from rgss.studies.trade_off import AimChoice, ProgramChoice
-from rgss.studies.what_if import measured_in, suppose
-from rgss.studies.what_if_numbers import assumed_numbers, model_numbers
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.robustness.assumptions import assumption_findings, cost_box
+from rgss.decision.robustness.effects import leading_factors
+from rgss.decision.robustness.export import robustness_to_json, scenario_to_json
+from rgss.decision.robustness.remeasuring import Remeasuring
+from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.what_if.numbers import assumed_numbers, model_numbers
+from rgss.decision.what_if.what_if import measured_in, suppose
+from rgss.studies.trade_off.sections import AimChoice, ProgramChoice
 from rgss.tradeoff import ElicitedInterval
-from rgss.tradeoff.evidence_table import tabulated
-from rgss.tradeoff.pareto import Support
-from rgss.tradeoff.price_list import changes_of_best, step_at
-from rgss.tradeoff.resampling import bootstrap
+from rgss.tradeoff.problem.evidence_table import tabulated
+from rgss.tradeoff.problem.resampling import bootstrap
+from rgss.tradeoff.robustness.pareto import Support
+from rgss.tradeoff.robustness.prices import changes_of_best, step_at
 
 
 @pytest.fixture(scope="module")

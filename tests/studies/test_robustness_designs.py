@@ -6,15 +6,15 @@ import json
 
 import pytest
 
-from rgss.studies.choosing import choose, trade_problem
-from rgss.studies.measuring import measure_variants
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.robustness.assumptions import assumption_findings
+from rgss.decision.robustness.effects import study_effects
+from rgss.decision.robustness.export import robustness_to_json
+from rgss.decision.robustness.remeasuring import Remeasuring
+from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.studies.project import load_project
-from rgss.studies.robustness import analyse_robustness
-from rgss.studies.robustness_assumptions import assumption_findings
-from rgss.studies.robustness_effects import study_effects
-from rgss.studies.robustness_export import robustness_to_json
-from rgss.studies.robustness_remeasuring import Remeasuring
-from rgss.tradeoff.evidence_table import tabulated
+from rgss.tradeoff.problem.evidence_table import tabulated
 
 
 def test_effects_without_levels_that_never_succeed(shipped, filled, record_of):

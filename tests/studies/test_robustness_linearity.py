@@ -6,9 +6,9 @@ import itertools
 
 import pytest
 
+from rgss.decision.robustness.linearity import AFFINE, CONSTANT, OTHER, _degree, is_affine
 from rgss.measures import design_values
 from rgss.measures.parsing import parse_expression
-from rgss.studies.robustness_linearity import AFFINE, CONSTANT, OTHER, _degree, is_affine
 
 
 @pytest.mark.parametrize(

@@ -6,14 +6,14 @@ import json
 
 import pytest
 
+from rgss.api.trade_frames import acceptability_frame, computed_effects, weights_frame
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose
+from rgss.decision.robustness import robustness
+from rgss.decision.robustness.export import robustness_to_json
+from rgss.decision.robustness.parts import Part, PartComputer, not_computed_lines
+from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.errors import TradeoffError
-from rgss.studies import robustness
-from rgss.studies.choosing import choose
-from rgss.studies.frames_trade import acceptability_frame, computed_effects, weights_frame
-from rgss.studies.measuring import measure_variants
-from rgss.studies.robustness import analyse_robustness
-from rgss.studies.robustness_export import robustness_to_json
-from rgss.studies.robustness_parts import Part, PartComputer, not_computed_lines
 
 FUNCTIONS = {
     Part.PARETO: "pareto_front",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from rgss.decision.level_structure import level_structure
 from rgss.errors import DefinitionError
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.studies.structure import level_structure
 
 SPACE = "designs/grasping_system.yaml"
 LEVELS = """\

@@ -7,17 +7,17 @@ from dataclasses import replace
 
 import pytest
 
+from rgss.assessment.measuring import measure_variants, record_of, require_complete
+from rgss.assessment.recorded_verdicts import VerdictRecord, read_record, write_record
+from rgss.assessment.recording import record_after_sweep, record_verdicts
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.measures import StaleCause, Verdict
 from rgss.studies.expansion import trial_specs
-from rgss.studies.measuring import measure_variants, record_of, require_complete
-from rgss.studies.named_inputs import CODE, named_inputs
+from rgss.studies.input_names import CODE, named_inputs
 from rgss.studies.project import load_project
-from rgss.studies.recorded_verdicts import VerdictRecord, read_record, write_record
-from rgss.studies.recording import record_after_sweep, record_verdicts
-from rgss.studies.sweep import key_of
-from rgss.trials.versions import versions
+from rgss.sweep.running import key_of
+from rgss.trials.code.piece_versions import versions
 
 REQUIREMENT, MEASURE, MODEL = StaleCause.REQUIREMENT, StaleCause.MEASURE, StaleCause.MODEL
 CODE_CHANGED, ENGINES = StaleCause.CODE, StaleCause.ENGINES

@@ -12,15 +12,15 @@ import pytest
 
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore, Failure, RunFailure, RunFailureKind, record_digest
-from rgss.studies import keeping
 from rgss.studies.expansion import trial_specs
-from rgss.studies.keeping import Origin, origin_of
 from rgss.studies.project import load_project
-from rgss.studies.sweep import LostTrials, key_of, sweep, trials_of
-from rgss.studies.workers import WorkerPool
-from rgss.trials.run import run_trial
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import versions
+from rgss.sweep import evidence_writer as keeping
+from rgss.sweep.evidence_writer import Origin, origin_of
+from rgss.sweep.running import LostTrials, key_of, sweep, trials_of
+from rgss.sweep.workers import WorkerPool
+from rgss.trials.code.piece_versions import versions
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.pieces.run import run_trial
 
 DOUBLES = Path(__file__).parent / "doubles"
 GIB = 1024**3
@@ -365,7 +365,7 @@ def test_every_kind_of_trouble_is_recorded_and_the_sweep_goes_on(specs_of, store
 @pytest.mark.verifies("SYS-021")
 def test_records_depend_on_neither_processes_nor_order_nor_sharing(specs_of, opened, run, doubles, marks):
     """Trials of six designs, with contact, from one worker, from two, and each by itself."""
-    from rgss.trials.making import make
+    from rgss.trials.pieces.pieces import make
 
     specs = specs_of(1, 2, 3, 10, 65, 66)
     stores = {name: opened(name) for name in ("one", "two", "apart")}

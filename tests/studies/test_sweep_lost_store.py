@@ -9,10 +9,10 @@ import pytest
 
 from rgss.errors import StorageError
 from rgss.evidence import EvidenceStore
-from rgss.evidence.verification import verify
-from rgss.studies import keeping
+from rgss.evidence.store.verification import verify
 from rgss.studies.expansion import trial_specs
-from rgss.studies.sweep import sweep, trials_of
+from rgss.sweep import evidence_writer as keeping
+from rgss.sweep.running import sweep, trials_of
 
 DOUBLES = Path(__file__).parent / "doubles"
 

@@ -21,7 +21,7 @@ import pytest
 from rgss.evidence import EvidenceStore
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.studies.sweep import sweep
+from rgss.sweep.running import sweep
 
 pytestmark = pytest.mark.engine
 

@@ -6,13 +6,13 @@ from statistics import mean
 
 import pytest
 
+from rgss.assessment.evidence_status import trial_verdicts
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.tracing import trace_evidence
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore
 from rgss.measures import Verdict
-from rgss.studies.evidence_state import trial_verdicts
-from rgss.studies.measuring import measure_variants
-from rgss.studies.trace_evidence import trace_evidence
-from rgss.trace.evidence_state import EvidenceState
+from rgss.trace.evidence.evidence_state import EvidenceState
 
 
 @pytest.fixture(scope="module")

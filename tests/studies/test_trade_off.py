@@ -6,22 +6,22 @@ from dataclasses import replace
 
 import pytest
 
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
+from rgss.decision.portfolios import choose_portfolio, portfolio_projects
 from rgss.designs.compatibility import Condition, Rule
 from rgss.errors import DefinitionError, TradeoffError
-from rgss.studies.choosing import choose, double_counting, shared_measures, trade_problem
-from rgss.studies.fleets import choose_fleet, fleet_projects
-from rgss.studies.measuring import measure_variants
 from rgss.tradeoff import (
     Comparison,
     ElicitedInterval,
     ElicitedOrder,
     EpsilonConstraint,
     ExponentialValue,
-    FleetAim,
     Incompatibility,
     Lexicographic,
     MinimaxRegret,
     PiecewiseValue,
+    PortfolioAim,
     Scenarios,
     TargetValue,
     Tchebycheff,
@@ -271,8 +271,8 @@ class TestFleets:
     def test_a_fleet(self, shipped, measured, read):
         project = replace(shipped, study=read(*BOTH, self.LINE))
         choice = project.study.trade_off.fleet
-        assert (choice.at_most, choice.aim, choice.member) == (1, FleetAim.MEAN, "component.gripper")
-        decision = choose_fleet(project, {"studies/pick_place.yaml": (project, measured)})
+        assert (choice.at_most, choice.aim, choice.member) == (1, PortfolioAim.MEAN, "component.gripper")
+        decision = choose_portfolio(project, {"studies/pick_place.yaml": (project, measured)})
         alone = choose(project, measured)
         assert decision.objective == pytest.approx(alone.ranking[0].value)
         assert decision.assignments[0].variant == alone.chosen
@@ -284,21 +284,21 @@ class TestFleets:
         edit(STUDY, "trade_off:\n", f"trade_off:\n  {self.LINE}\n")
         from rgss.studies.project import load_project
 
-        projects = fleet_projects(load_project(folder))
+        projects = portfolio_projects(load_project(folder))
         assert list(projects) == ["studies/pick_place.yaml"]
         assert projects["studies/pick_place.yaml"].study.id == "pick_place"
 
     def test_no_fleet_is_asked_for(self, shipped, measured):
         with pytest.raises(DefinitionError, match="study 'pick_place' asks for no fleet"):
-            choose_fleet(shipped, {})
+            choose_portfolio(shipped, {})
 
     def test_an_unknown_member(self, shipped, measured, read):
         project = replace(shipped, study=read(*BOTH, self.LINE.replace("component.gripper", "colour")))
         with pytest.raises(DefinitionError, match="no one knows the member 'colour' of a fleet") as error:
-            choose_fleet(project, {"studies/pick_place.yaml": (project, measured)})
+            choose_portfolio(project, {"studies/pick_place.yaml": (project, measured)})
         assert "fingers" in error.value.hint
         by_factor = replace(shipped, study=read(*BOTH, self.LINE.replace("component.gripper", "fingers")))
-        assert choose_fleet(by_factor, {"studies/pick_place.yaml": (by_factor, measured)}).members in (
+        assert choose_portfolio(by_factor, {"studies/pick_place.yaml": (by_factor, measured)}).members in (
             ("two",),
             ("three",),
         )
@@ -313,4 +313,4 @@ class TestFleets:
             *rest,
         )
         with pytest.raises(DefinitionError, match="variant 1 of b is another design than that of the other studies"):
-            choose_fleet(project, {"a": (project, measured), "b": (project, exchanged)})
+            choose_portfolio(project, {"a": (project, measured), "b": (project, exchanged)})

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from rgss.studies.choosing import choose
-from rgss.studies.fleets import choose_fleet
-from rgss.studies.measuring import measure_variants
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose
+from rgss.decision.portfolios import choose_portfolio
 from rgss.studies.study import read_study
 from rgss.tradeoff import DecisionStatus
 
@@ -61,5 +61,5 @@ def test_an_example(shipped, measured, tmp_path, example):
     assert decision.status is DecisionStatus.OPTIMAL
     assert decision.certificate.enumeration_agrees
     if study.trade_off.fleet is not None:
-        fleet = choose_fleet(project, {name: (project, measured) for name, _ in study.trade_off.fleet.studies})
+        fleet = choose_portfolio(project, {name: (project, measured) for name, _ in study.trade_off.fleet.studies})
         assert fleet.members

@@ -6,8 +6,8 @@ import pytest
 
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.studies.sweep import key_of
-from rgss.tradeoff.sequential import SequentialRule
+from rgss.sweep.running import key_of
+from rgss.tradeoff.sequential.sequential import SequentialRule
 
 STUDY = "studies/pick_place.yaml"
 SECTION = """\

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.what_if.what_if import Change, measured_in, suppose
 from rgss.errors import DefinitionError, EvidenceError, TradeoffError
-from rgss.studies.choosing import choose, trade_problem
-from rgss.studies.measuring import measure_variants
 from rgss.studies.project import load_project
-from rgss.studies.trade_off import RequirementAnchor
-from rgss.studies.what_if import Change, measured_in, suppose
+from rgss.studies.trade_off.sections import RequirementAnchor
 from rgss.tradeoff import CriterionNode, ElicitedInterval
 
 CATALOGUE, STUDY = "designs/catalogue.yaml", "studies/pick_place.yaml"

@@ -7,17 +7,17 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.cli.trade_page import print_decision
-from rgss.cli.trade_robustness_page import print_robustness
+from rgss.assessment.measuring import measure_variants
+from rgss.cli.trade.decision import print_decision
+from rgss.cli.trade.robustness import print_robustness
+from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.robustness import robustness
+from rgss.decision.robustness.export import robustness_to_json
+from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.what_if.numbers import model_numbers
+from rgss.decision.what_if.what_if import suppose
 from rgss.errors import DefinitionError
-from rgss.studies import robustness
-from rgss.studies.choosing import choose, trade_problem
-from rgss.studies.measuring import measure_variants
-from rgss.studies.robustness import analyse_robustness
-from rgss.studies.robustness_export import robustness_to_json
-from rgss.studies.trade_off import AimChoice, BoundChoice, ProgramChoice, RiskChoice
-from rgss.studies.what_if import suppose
-from rgss.studies.what_if_numbers import model_numbers
+from rgss.studies.trade_off.sections import AimChoice, BoundChoice, ProgramChoice, RiskChoice
 from rgss.tradeoff import Comparison, decision_to_json
 
 RISKS = (

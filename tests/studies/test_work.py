@@ -8,11 +8,11 @@ from collections import Counter
 import pytest
 
 from rgss.evidence import PieceKind
-from rgss.studies.durations import Durations
 from rgss.studies.expansion import trial_specs
-from rgss.studies.sweep import trials_of
-from rgss.studies.work import Work
-from rgss.trials.making import TrialTask
+from rgss.sweep.durations import Durations
+from rgss.sweep.running import trials_of
+from rgss.sweep.task_queue import TaskQueue
+from rgss.trials.pieces.pieces import TrialTask
 
 
 @pytest.fixture
@@ -47,7 +47,7 @@ def taken(work, *, took_s=0.1):
     ],
 )
 def test_72_variants_and_a_seed_are_6_plans_12_timings_24_executions_and_4_benches(trials, fidelity, expected):
-    tasks, complete = taken(Work(trials(1, fidelity=fidelity)))
+    tasks, complete = taken(TaskQueue(trials(1, fidelity=fidelity)))
 
     assert Counter(task.kind.value for task in tasks) == expected
     assert len({task.digest for task in tasks}) == len(tasks)
@@ -55,7 +55,7 @@ def test_72_variants_and_a_seed_are_6_plans_12_timings_24_executions_and_4_bench
 
 
 def test_ten_seeds_cost_ten_times_as_much_and_the_same_benches(trials):
-    tasks, complete = taken(Work(trials(*range(1, 11))))
+    tasks, complete = taken(TaskQueue(trials(*range(1, 11))))
 
     assert Counter(task.kind.value for task in tasks) == {"plan": 60, "timing": 120, "execution": 240, "bench": 4}
     assert len(complete) == 720
@@ -63,7 +63,7 @@ def test_ten_seeds_cost_ten_times_as_much_and_the_same_benches(trials):
 
 def test_nothing_is_begun_before_what_it_needs_is_done(trials):
     done = set()
-    work = Work(trials(1, 2))
+    work = TaskQueue(trials(1, 2))
     while work.left:
         task = work.take()
         assert {*task.needs} <= done
@@ -74,12 +74,12 @@ def test_nothing_is_begun_before_what_it_needs_is_done(trials):
 def test_what_is_stored_is_not_made(trials):
     every = trials(1)
     plans = {trial.digests.plan for trial in every}
-    tasks, complete = taken(Work(every, stored=plans))
+    tasks, complete = taken(TaskQueue(every, stored=plans))
     assert Counter(task.kind.value for task in tasks) == {"timing": 12, "execution": 24, "bench": 4}
     assert len(complete) == 72
 
     everything = {digest for trial in every for digest in trial.pieces.values()}
-    work = Work(every, stored=everything)
+    work = TaskQueue(every, stored=everything)
     assert (work.left, work.ready) == (0, 0)
     assert len(list(work.complete())) == 72
     assert list(work.complete()) == []
@@ -88,7 +88,7 @@ def test_what_is_stored_is_not_made(trials):
 def test_a_plan_that_is_missing_is_made_though_what_came_of_it_is_stored(trials):
     every = trials(1, variants=[65])
     stored = {*every[0].pieces.values()} - {every[0].digests.plan}
-    tasks, complete = taken(Work(every, stored=stored))
+    tasks, complete = taken(TaskQueue(every, stored=stored))
 
     assert [task.kind for task in tasks] == [PieceKind.PLAN]
     assert len(complete) == 1
@@ -96,7 +96,7 @@ def test_a_plan_that_is_missing_is_made_though_what_came_of_it_is_stored(trials)
 
 def test_without_sharing_every_trial_is_one_task(trials):
     every = trials(1)
-    tasks, complete = taken(Work(every, share=False))
+    tasks, complete = taken(TaskQueue(every, share=False))
 
     assert {type(task) for task in tasks} == {TrialTask}
     assert {task.digest for task in tasks} == {trial.key for trial in every}
@@ -105,7 +105,7 @@ def test_without_sharing_every_trial_is_one_task(trials):
 
 def test_trials_are_finished_all_the_time_and_few_pieces_are_held(trials):
     """Had all plans come first, 60 plans and 120 timings would be held when the first trial is done."""
-    work = Work(trials(*range(1, 11)))
+    work = TaskQueue(trials(*range(1, 11)))
     held, most, done_at = set(), 0, []
     steps = 0
     while work.left:
@@ -129,14 +129,14 @@ def test_trials_are_finished_all_the_time_and_few_pieces_are_held(trials):
 
 
 def test_the_longest_searches_come_first_and_the_shortest_last(trials):
-    tasks, _ = taken(Work(trials(1, 2, 3)))
+    tasks, _ = taken(TaskQueue(trials(1, 2, 3)))
     planners = [task.spec.planner for task in tasks if task.kind is PieceKind.PLAN]
 
     assert planners == ["STRIDE"] * 6 + ["TRRT"] * 6 + ["RRT"] * 6
 
 
 def test_the_order_follows_what_has_been_measured(trials):
-    work = Work(trials(1, 2, 3, 4))
+    work = TaskQueue(trials(1, 2, 3, 4))
     planners = []
     while work.left:
         task = work.take()
@@ -151,7 +151,7 @@ def test_the_order_follows_what_has_been_measured(trials):
 
 
 def test_of_executions_the_slow_ones_come_first(trials):
-    tasks, _ = taken(Work(trials(1)))
+    tasks, _ = taken(TaskQueue(trials(1)))
     order = [task for task in tasks if task.kind is PieceKind.EXECUTION]
     pairs = [(task.spec.tool_speed_m_s, task.spec.planner) for task in order[:4]]
 
@@ -159,7 +159,7 @@ def test_of_executions_the_slow_ones_come_first(trials):
 
 
 def test_giving_up_a_plan_loses_what_depends_on_it_and_nothing_else(trials):
-    work = Work(trials(1))
+    work = TaskQueue(trials(1))
     while True:
         task = work.take()
         if task.kind is PieceKind.PLAN:
@@ -175,7 +175,7 @@ def test_giving_up_a_plan_loses_what_depends_on_it_and_nothing_else(trials):
 
 
 def test_giving_up_an_execution_loses_its_three_trials(trials):
-    work = Work(trials(1))
+    work = TaskQueue(trials(1))
     while True:
         task = work.take()
         if task.kind is PieceKind.EXECUTION:
@@ -192,7 +192,7 @@ def test_giving_up_an_execution_loses_its_three_trials(trials):
 
 
 def test_a_task_that_is_given_back_is_taken_again(trials):
-    work = Work(trials(1, variants=[65], fidelity="kinematic"))
+    work = TaskQueue(trials(1, variants=[65], fidelity="kinematic"))
     task = work.take()
     assert work.ready == 0
     work.give_back(task)
@@ -201,7 +201,7 @@ def test_a_task_that_is_given_back_is_taken_again(trials):
 
 
 def test_the_remaining_time_falls_to_nothing(trials):
-    work = Work(trials(1))
+    work = TaskQueue(trials(1))
     times = [work.remaining_s()]
     while work.left:
         work.done(work.take().digest, took_s=0.5)
@@ -215,7 +215,7 @@ def test_the_remaining_time_falls_to_nothing(trials):
 def test_a_guess_gives_way_to_what_is_measured(trials):
     (trial,) = trials(1, variants=[65])
     durations = Durations()
-    work = Work([trial])
+    work = TaskQueue([trial])
     task = work.take()
     tasks = durations.class_of(task)
     guess_s = durations.expected_s(tasks)

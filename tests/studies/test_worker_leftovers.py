@@ -21,7 +21,7 @@ tempfile.tempdir = sys.argv[4]
 sys.path.insert(0, sys.argv[1])
 import worker_doubles
 from pathlib import Path
-from rgss.studies.workers import WorkerPool
+from rgss.sweep.workers import WorkerPool
 
 if __name__ == "__main__":
     with WorkerPool(worker_doubles.act, size=1) as pool:

@@ -14,8 +14,8 @@ import pytest
 
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
-from rgss.studies.inline_workers import InlineWorkers
-from rgss.studies.workers import Ended, Trouble, WorkerPool
+from rgss.sweep.inline_workers import InlineWorkers
+from rgss.sweep.workers import Ended, TaskError, WorkerPool
 
 DOUBLES = Path(__file__).parent / "doubles"
 GIB = 1024**3
@@ -69,7 +69,7 @@ def test_one_pool_goes_on_whatever_becomes_of_its_tasks(doubles, carried_out, tr
     troubles = {name: each.trouble for name, each in ended.items() if each.trouble is not None}
     assert troubles == {
         **troubles_of_tasks,
-        "allocate": Trouble(kind=RunFailureKind.OUT_OF_MEMORY, detail="MemoryError", may_pass=True),
+        "allocate": TaskError(kind=RunFailureKind.OUT_OF_MEMORY, detail="MemoryError", may_pass=True),
     }
 
 
@@ -209,7 +209,7 @@ def test_the_beginning_of_an_answer_keeps_nobody_longer_than_the_limit(liars, cl
         (ended,) = pool.wait(60.0)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert ended.trouble == Trouble(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True)
+    assert ended.trouble == TaskError(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True)
     assert peak < 8 * 1024 * 1024
 
 
@@ -261,7 +261,7 @@ def test_processes_that_the_system_does_not_allow_are_done_without(doubles, carr
         def refused():
             raise OSError(errno.EMFILE, "Too many open files")
 
-        monkeypatch.setattr("rgss.studies.workers.WorkerOutput", refused)
+        monkeypatch.setattr("rgss.sweep.workers.WorkerOutput", refused)
         ended = carried_out(pool, {str(number): ("who",) for number in range(4)})
         assert len({each.result for each in ended.values()}) == 1
     with pytest.raises(SimulationError) as caught:
@@ -290,7 +290,7 @@ def test_this_process_can_be_the_one_worker(doubles, carried_out):
 
     assert workers.size == 1
     assert ended["who"] == Ended(key="who", result=os.getpid(), trouble=None, took_s=ended["who"].took_s)
-    assert ended["fail"].trouble == Trouble(
+    assert ended["fail"].trouble == TaskError(
         kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True
     )
     assert not ended["refuse"].trouble.may_pass

@@ -12,8 +12,8 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.requirements import load_requirements
 from rgss.trace import MeasureKind, MeasureTrace, TraceModel, build_trace_model, check_trace
-from rgss.trace.evidence_state import EvidenceState
-from rgss.trace.marked_tests import MarkedTest
+from rgss.trace.evidence.evidence_state import EvidenceState
+from rgss.trace.evidence.test_marks import MarkedTest
 
 FILES = {
     "stakeholder.yaml": """\

@@ -8,10 +8,10 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.measures import StaleCause, load_measures
-from rgss.trace.chain import chain_of
-from rgss.trace.figures import metric_in_words
-from rgss.trace.neighbours import Relation, ThingKind
-from rgss.trace.verdict_evidence import TraceEvidence
+from rgss.trace.evidence.verdict_evidence import TraceEvidence
+from rgss.trace.views.chain import chain_of
+from rgss.trace.views.figures import metric_in_words
+from rgss.trace.views.neighbours import Relation, ThingKind
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rgss.measures import StaleCause, Verdict
-from rgss.trace.evidence_state import EvidenceState, TrialVerdicts
+from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
 
 MET, NOT_MET, OPEN = Verdict.MET, Verdict.NOT_MET, Verdict.INCONCLUSIVE
 NOT_RUN, STALE = Verdict.NOT_RUN, Verdict.STALE

@@ -8,8 +8,8 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.trace import FAMILIES, RULES, rule_of
-from rgss.trace.explaining import rule_as_json, rule_lines, rules_markdown
-from rgss.trace.rule import SentenceRule
+from rgss.trace.rules.explaining import rule_as_json, rule_lines, rules_markdown
+from rgss.trace.rules.rule import SentenceRule
 
 PAGE = Path(__file__).parents[2] / "docs" / "rules.md"
 

@@ -6,8 +6,8 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.measures import Verdict, load_measures
-from rgss.trace.impact import TouchedVerdict, impact_of
-from rgss.trace.verdict_evidence import TraceEvidence
+from rgss.trace.evidence.verdict_evidence import TraceEvidence
+from rgss.trace.views.impact import TouchedVerdict, impact_of
 
 
 @pytest.fixture

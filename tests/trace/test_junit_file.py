@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rgss.errors import EvidenceError
-from rgss.trace.junit_file import DEEPEST_NESTING, TestEnd, read_junit
+from rgss.trace.evidence.junit_file import DEEPEST_NESTING, TestEnd, read_junit
 
 RUN = """\
 <?xml version="1.0" encoding="utf-8"?>
@@ -84,7 +84,7 @@ def test_hostile_and_broken_files(junit, content, problem):
 
 
 def test_a_result_that_is_too_large(junit, monkeypatch):
-    monkeypatch.setattr("rgss.trace.junit_file.LARGEST_FILE_BYTES", 10)
+    monkeypatch.setattr("rgss.trace.evidence.junit_file.LARGEST_FILE_BYTES", 10)
     with pytest.raises(EvidenceError, match="is too large: at most 0 MiB are read"):
         junit(RUN)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rgss.errors import EvidenceError
-from rgss.trace.marked_tests import marked_tests
+from rgss.trace.evidence.test_marks import marked_tests
 
 SOURCE = '''\
 """Tests."""

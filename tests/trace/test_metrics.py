@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rgss.trace.metrics import CoverageMetric, coverage_metrics, trace_matrices
-from rgss.trace.verdict_evidence import TraceEvidence
+from rgss.trace.evidence.verdict_evidence import TraceEvidence
+from rgss.trace.views.metrics import CoverageMetric, coverage_metrics, trace_matrices
 
 
 @pytest.fixture

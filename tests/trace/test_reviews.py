@@ -8,8 +8,8 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.requirements import load_requirements
-from rgss.trace.review_stamps import LONGEST_REVIEWER, expanded, reviews_yaml, stamped, write_reviews
-from rgss.trace.upstream import upstream_of_each
+from rgss.trace.rules.review_stamps import LONGEST_REVIEWER, expanded, reviews_yaml, stamped, write_reviews
+from rgss.trace.rules.upstream import upstream_of_each
 
 SECOND = """\
   - id: SYS-2
@@ -210,7 +210,7 @@ def test_a_write_that_fails_leaves_what_was_there(reviewed, monkeypatch):
 
 
 def test_more_reviews_than_can_be_read_are_not_written(project, monkeypatch):
-    monkeypatch.setattr("rgss.trace.review_stamps.LARGEST_FILE_BYTES", 100)
+    monkeypatch.setattr("rgss.trace.rules.review_stamps.LARGEST_FILE_BYTES", 100)
     with pytest.raises(DefinitionError, match="1 reviews take more than 0 MiB"):
         review(project, "SYS-1")
 

@@ -12,11 +12,11 @@ import pytest
 from rgss.measures import StaleCause, Verdict
 from rgss.requirements import load_requirements
 from rgss.trace import RULES, MeasureKind
-from rgss.trace.evidence_state import EvidenceState, TrialVerdicts
-from rgss.trace.junit_file import TestEnd
-from rgss.trace.marked_tests import MarkedTest
-from rgss.trace.review_stamps import stamped, write_reviews
-from rgss.trace.software_evidence import SoftwareEvidence, TestEvidence
+from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
+from rgss.trace.evidence.junit_file import TestEnd
+from rgss.trace.evidence.software import SoftwareEvidence, TestEvidence
+from rgss.trace.evidence.test_marks import MarkedTest
+from rgss.trace.rules.review_stamps import stamped, write_reviews
 
 TEXT = "The gripper shall lift at least 0.8 kg."
 NEED_NO_HINT = {"trace.idle-element", "trace.unknown-mark", "requirements.wrong-kind", "exempt.unknown-rule"}

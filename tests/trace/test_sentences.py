@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from rgss.trace.condition_words import KEYWORDS, OPENINGS
-from rgss.trace.sentences import ClauseKind, EarsPattern, read_sentence
-from rgss.trace.terms import TermList
+from rgss.trace.sentences.condition_words import KEYWORDS, OPENINGS
+from rgss.trace.sentences.sentences import ClauseKind, EarsPattern, read_sentence
+from rgss.trace.sentences.terms import TermList
 
 
 @pytest.mark.parametrize(

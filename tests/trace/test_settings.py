@@ -6,7 +6,7 @@ import pytest
 
 from rgss.findings import Severity
 from rgss.measures import Verdict
-from rgss.trace.evidence_state import EvidenceState, TrialVerdicts
+from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
 
 VAGUE = "The gripper shall lift several cups of at least 0.8 kg."
 

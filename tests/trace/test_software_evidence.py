@@ -12,17 +12,17 @@ import pytest
 from rgss.errors import EvidenceError
 from rgss.measures import StaleCause, Verdict
 from rgss.requirements import load_requirements
-from rgss.trace.evidence_state import EvidenceState
-from rgss.trace.junit_file import JUnitReport, RunTest, TestEnd, read_junit
-from rgss.trace.marked_tests import MarkedTest, marked_tests
-from rgss.trace.software_evidence import (
+from rgss.trace.evidence.digest import verification_digest
+from rgss.trace.evidence.evidence_state import EvidenceState
+from rgss.trace.evidence.junit_file import JUnitReport, RunTest, TestEnd, read_junit
+from rgss.trace.evidence.software import (
     REQUIREMENT_PREFIX,
     SOFTWARE,
     run_properties,
     software_digest,
     software_evidence,
 )
-from rgss.trace.verification_digest import verification_digest
+from rgss.trace.evidence.test_marks import MarkedTest, marked_tests
 
 ROOT = Path(__file__).parents[2]
 CRITERION = '    criterion: {measure: P, comparison: ">=", threshold: "800 g"}\n'

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rgss.trace.comparison_phrases import (
+from rgss.trace.sentences.bounds import bound_of
+from rgss.trace.sentences.comparison_phrases import (
     BETWEEN,
     LOWER_BEFORE,
     LOWER_BEHIND,
@@ -13,8 +14,7 @@ from rgss.trace.comparison_phrases import (
     UPPER_BEFORE,
     UPPER_BEHIND,
 )
-from rgss.trace.text_bounds import bound_of
-from rgss.trace.text_quantities import quantities_in
+from rgss.trace.sentences.quantities import quantities_in
 
 BEFORE = [(phrase, True) for phrase in LOWER_BEFORE] + [(phrase, False) for phrase in UPPER_BEFORE]
 BEHIND = [(phrase, True) for phrase in LOWER_BEHIND] + [(phrase, False) for phrase in UPPER_BEHIND]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from rgss.trace.text_quantities import quantities_in
+from rgss.trace.sentences.quantities import quantities_in
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,8 @@ import pytest
 
 from rgss.measures import StaleCause, Verdict
 from rgss.requirements import VerificationMethod
-from rgss.trace.verdict_evidence import TraceEvidence
-from rgss.trace.verification import verification_matrix
+from rgss.trace.evidence.verdict_evidence import TraceEvidence
+from rgss.trace.evidence.verification import verification_matrix
 
 
 @pytest.fixture

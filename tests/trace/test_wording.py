@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from rgss.requirements import NeedKind, Priority, StakeholderNeed, Status
 from rgss.trace import RULES
-from rgss.trace.rule import SentenceRule
-from rgss.trace.sentences import EarsPattern, read_sentence
-from rgss.trace.terms import TermList
+from rgss.trace.rules.rule import SentenceRule
+from rgss.trace.sentences.sentences import EarsPattern, read_sentence
+from rgss.trace.sentences.terms import TermList
 
 SENTENCE_RULES = {rule.id: (rule, TermList(rule.terms)) for rule in RULES if isinstance(rule, SentenceRule)}
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff import acceptability
-from rgss.tradeoff.acceptability import Outcomes, smaa2
-from rgss.tradeoff.weight_region import winning_regions
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff.robustness import acceptability
+from rgss.tradeoff.robustness.acceptability import Outcomes, smaa2
+from rgss.tradeoff.weights.weight_region import winning_regions
+from rgss.tradeoff.weights.weight_set import WeightSet
 
 SIMPLEX = WeightSet.simplex(3)
 

@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from rgss.tradeoff import DecisionStatus, best_alternatives, decide, decide_fleet
+from rgss.tradeoff import DecisionStatus, best_alternatives, decide, decide_portfolio
 
 PROGRAMS = ["additive", "lexicographic", "epsilon_constraint", "tchebycheff", "minimax_regret", "risk"]
 
@@ -87,7 +87,7 @@ def test_fleets(cases, oracle, seeded):
     served = 0
     for seed in range(25):
         problem = cases.random_fleet(seeded(f"test fleet {seed}"))
-        decision, best = decide_fleet(problem), oracle.expected_fleet(problem)
+        decision, best = decide_portfolio(problem), oracle.expected_fleet(problem)
         assert decision.enumeration_agrees
         if best is None:
             assert (decision.status, decision.objective) == (DecisionStatus.INFEASIBLE, None)

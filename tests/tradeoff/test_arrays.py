@@ -9,7 +9,7 @@ import pytest
 
 from rgss.tradeoff import Alternative, ElicitedInterval, ElicitedOrder, WeightBounds, decide
 from rgss.tradeoff.arrays import admitted_weights, resampled_arrays, trade_arrays
-from rgss.tradeoff.resampling import bootstrap
+from rgss.tradeoff.problem.resampling import bootstrap
 
 
 def test_arrays_come_to_the_same_choice(payload_and_time):

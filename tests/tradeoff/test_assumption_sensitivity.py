@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from rgss.tradeoff.assumption_sensitivity import Standing, linear_range, scanned_range
+from rgss.tradeoff.robustness.assumption_sensitivity import Standing, linear_range, scanned_range
 
 
 def two_offers(price):

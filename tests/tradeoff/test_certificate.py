@@ -5,9 +5,9 @@ import math
 import pytest
 
 from rgss.tradeoff import DecisionStatus, decide
-from rgss.tradeoff.certificate import certify
-from rgss.tradeoff.enumeration import enumerate_alternatives
-from rgss.tradeoff.stage import StageSolution
+from rgss.tradeoff.milp.stage import StageSolution
+from rgss.tradeoff.programs.certificate import certify
+from rgss.tradeoff.programs.enumeration import enumerate_alternatives
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ import pytest
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff import Alternative, ChanceBound, Comparison, TailBound, Threshold, decide
-from rgss.tradeoff.columns import condition_column
-from rgss.tradeoff.evidence_table import tabulated
+from rgss.tradeoff.problem.evidence_table import tabulated
+from rgss.tradeoff.programs.columns import condition_column
 
 
 def chance(probability, value=25.0, sense=Comparison.AT_MOST):

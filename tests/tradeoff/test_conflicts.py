@@ -5,8 +5,8 @@ import itertools
 import pytest
 
 from rgss.tradeoff import NearestAlternative, RequirementCount
-from rgss.tradeoff.conflicts import find_conflicts, minimal_hitting_sets
-from rgss.tradeoff.enumeration import enumerate_alternatives
+from rgss.tradeoff.infeasibility.conflicts import find_conflicts, minimal_hitting_sets
+from rgss.tradeoff.programs.enumeration import enumerate_alternatives
 
 
 def test_none_where_something_is_feasible(payload_and_time):

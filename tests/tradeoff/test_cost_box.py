@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.cost_box import BoxProblem, box_range
+from rgss.tradeoff.robustness.cost_box import BoxProblem, box_range
 
 LINEAR = np.array([[0.0, 1.0], [100.0, 0.0]])
 """A cost of 0 is worth 1, one of 100 nothing."""

@@ -8,15 +8,15 @@ import time
 import numpy as np
 import pytest
 
-import rgss.tradeoff.cover_bound
-import rgss.tradeoff.fleet_worst
-import rgss.tradeoff.linear
+import rgss.tradeoff.milp.linear
+import rgss.tradeoff.portfolio.cover_bound
+import rgss.tradeoff.portfolio.worst
 from rgss.errors import TradeoffError
-from rgss.tradeoff.cover_bound import CoverBound, masks_of
-from rgss.tradeoff.cover_search import raised
-from rgss.tradeoff.fleet_primal import profits_of, search_portfolio
-from rgss.tradeoff.fleet_work import Cut, Work
-from rgss.tradeoff.fleet_worst import best_worst, worst_of
+from rgss.tradeoff.portfolio.cover_bound import CoverBound, masks_of
+from rgss.tradeoff.portfolio.cover_search import raised
+from rgss.tradeoff.portfolio.primal import profits_of, search_portfolio
+from rgss.tradeoff.portfolio.work import Cut, TaskQueue
+from rgss.tradeoff.portfolio.worst import best_worst, worst_of
 
 
 def excluded(reached, size):
@@ -40,7 +40,7 @@ def no_answer(*_arguments):
 def test_the_bound_never_excludes_a_cover(monkeypatch, answer):
     """Whatever the linear program answers, for its weights are only added up."""
     if answer is not None:
-        monkeypatch.setattr(rgss.tradeoff.linear, "solve_linear", answer)
+        monkeypatch.setattr(rgss.tradeoff.milp.linear, "solve_linear", answer)
     outcomes = set()
     for seed in range(60):
         reached = (np.random.default_rng(seed).random((9, 7)) < 0.4).astype(float)
@@ -61,7 +61,7 @@ def test_the_dual_weights_exclude_what_counting_does_not():
 
 
 def test_a_large_problem_is_bounded_without_a_linear_program(monkeypatch):
-    monkeypatch.setattr(rgss.tradeoff.cover_bound, "LARGEST_PROGRAM", 11)
+    monkeypatch.setattr(rgss.tradeoff.portfolio.cover_bound, "LARGEST_PROGRAM", 11)
     assert CoverBound.of(np.eye(4)[:, :3]).weights.tolist() == [[1.0, 1.0, 1.0]]
     assert len(CoverBound.of(np.eye(4)[:2, :3] + 1.0).weights) == 2
 
@@ -76,25 +76,25 @@ def test_the_search_never_loses_what_it_started_from(seed):
     values = np.where(draw.random((30, 12)) < 0.3, -1.0, draw.random((30, 12)))
     start = tuple(int(row) for row in draw.choice(30, 3, replace=False))
     for most in (1, 1_000, 10**7):
-        rows = raised(values, 4, start, Work(most))
+        rows = raised(values, 4, start, TaskQueue(most))
         assert len(set(rows)) <= 4
         assert worst_of(values, rows) >= worst_of(values, start)
     best = max(float(values[list(one)].max(axis=0).min()) for one in itertools.combinations(range(30), 4))
-    assert worst_of(values, raised(values, 4, (), Work(10**8))) == pytest.approx(best)
+    assert worst_of(values, raised(values, 4, (), TaskQueue(10**8))) == pytest.approx(best)
 
 
 def test_the_search_finds_what_exchanges_of_the_mean_do_not():
     values = np.random.default_rng(1).random((200, 60))
     start = search_portfolio(profits_of(values, np.full(60, 1.0 / 60.0)), 8, ())
-    assert worst_of(values, raised(values, 8, start, Work(10**8))) > worst_of(values, start) + 0.05
+    assert worst_of(values, raised(values, 8, start, TaskQueue(10**8))) > worst_of(values, start) + 0.05
 
 
 def test_no_cover_is_looked_for_once_the_time_is_over(monkeypatch):
     def none_is_made(*_arguments, **_more):
         raise AssertionError("a search was begun")
 
-    monkeypatch.setattr(rgss.tradeoff.fleet_worst, "_CoverSearch", none_is_made)
-    work = Work(None, time.monotonic() - 1.0)
+    monkeypatch.setattr(rgss.tradeoff.portfolio.worst, "_CoverSearch", none_is_made)
+    work = TaskQueue(None, time.monotonic() - 1.0)
     values = np.random.default_rng(2).random((40, 20))
     answer = best_worst(values, 4, (0, 1, 2, 3), 1e-9, work)
     assert work.cut is Cut.TIME

@@ -19,8 +19,8 @@ from rgss.tradeoff import (
     decide,
     decision_to_json,
 )
-from rgss.tradeoff.program import AdditiveValue
-from rgss.tradeoff.stage import StageSolution
+from rgss.tradeoff.milp.stage import StageSolution
+from rgss.tradeoff.programs.program import AdditiveValue
 
 TIE = Fraction(1, 10**9)
 

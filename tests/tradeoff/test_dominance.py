@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.dominance import nondominated
+from rgss.tradeoff.problem.dominance import nondominated
 
 
 def by_pairs(values):

@@ -9,8 +9,8 @@ import pandas as pd
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.effects import factorial_effects, largest_complete_block
-from rgss.tradeoff.resampling import bootstrap
+from rgss.tradeoff.problem.resampling import bootstrap
+from rgss.tradeoff.robustness.effects import factorial_effects, largest_complete_block
 
 BATTERY = np.array(
     [

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rgss.tradeoff.enumeration import enumerate_alternatives
+from rgss.tradeoff.programs.enumeration import enumerate_alternatives
 
 
 def test_hand_worked_values_and_violations(payload_and_time):

@@ -8,7 +8,7 @@ import pytest
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff import Alternative, EvidenceTable, decide
-from rgss.tradeoff.evidence_table import tabulated
+from rgss.tradeoff.problem.evidence_table import tabulated
 
 
 def test_a_table_reads_like_the_alternatives():

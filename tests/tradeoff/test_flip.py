@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.flip import weight_ranges, weight_shifts
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff.robustness.flip import weight_ranges, weight_shifts
+from rgss.tradeoff.weights.weight_set import WeightSet
 
 EVERYONE = np.ones(3, dtype=bool)
 CORNERS = np.eye(3)

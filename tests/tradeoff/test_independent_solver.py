@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-import rgss.tradeoff.level_guard
-import rgss.tradeoff.level_problem
+import rgss.tradeoff.levels.guard
+import rgss.tradeoff.levels.problem
 from rgss.errors import TradeoffError
 from rgss.tradeoff import (
     Agreement,
@@ -19,8 +19,8 @@ from rgss.tradeoff import (
     decide_levels,
     independent_run,
 )
-from rgss.tradeoff.level_bound import interval_bound
-from rgss.tradeoff.stage import RUNS
+from rgss.tradeoff.levels.bound import interval_bound
+from rgss.tradeoff.milp.stage import RUNS
 
 PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
 
@@ -33,9 +33,9 @@ def scip():
 @pytest.fixture
 def runs_alone(monkeypatch):
     """Nothing but runs and the search checks a level problem."""
-    monkeypatch.setattr(rgss.tradeoff.level_problem, "LARGEST_ENUMERATED", 0)
+    monkeypatch.setattr(rgss.tradeoff.levels.problem, "LARGEST_ENUMERATED", 0)
     monkeypatch.setattr(
-        rgss.tradeoff.level_guard,
+        rgss.tradeoff.levels.guard,
         "interval_bound",
         lambda *rest, **more: interval_bound(*rest, **{**more, "most": 0}),
     )
@@ -77,9 +77,9 @@ def test_without_the_option_nothing_is_different(guard_cases, runs_alone):
 
 def doctored(monkeypatch, wrong):
     """The named solvers call everything infeasible."""
-    real = rgss.tradeoff.level_guard.solve_program
+    real = rgss.tradeoff.levels.guard.solve_program
     monkeypatch.setattr(
-        rgss.tradeoff.level_guard,
+        rgss.tradeoff.levels.guard,
         "solve_program",
         lambda problem, run: False if run.solver in wrong else real(problem, run),
     )
@@ -106,16 +106,16 @@ def test_one_opinion_alone_proves_nothing(guard_cases, runs_alone, monkeypatch, 
 
 
 def test_an_independent_solver_that_gives_no_answer(cases, seeded, monkeypatch, scip):
-    import rgss.tradeoff.stage
+    import rgss.tradeoff.milp.stage
 
-    real = rgss.tradeoff.stage.solve_program
+    real = rgss.tradeoff.milp.stage.solve_program
 
     def failing(problem, run):
         if run.solver == "SCIP":
             raise TradeoffError("the solver ended with the status 'user_limit'", hint="")
         return real(problem, run)
 
-    monkeypatch.setattr(rgss.tradeoff.stage, "solve_program", failing)
+    monkeypatch.setattr(rgss.tradeoff.milp.stage, "solve_program", failing)
     decision = decide(cases.random_problem(seeded("no answer"), "additive"), independent=(scip,))
     assert decision.certificate.solver == "HIGHS"
     (check,) = opinions(decision.certificate)

@@ -6,18 +6,18 @@ import cvxpy
 import numpy as np
 import pytest
 
-import rgss.tradeoff.level_guard
-import rgss.tradeoff.level_problem
-import rgss.tradeoff.level_selection
+import rgss.tradeoff.levels.guard
+import rgss.tradeoff.levels.problem
+import rgss.tradeoff.levels.selection
 from rgss.errors import TradeoffError
 from rgss.tradeoff import Agreement, CheckKind, DecisionStatus, certificate_to_json, decide_levels
-from rgss.tradeoff.level_bound import interval_bound
-from rgss.tradeoff.level_grid import LevelGrid, compensated_sum
-from rgss.tradeoff.level_guard import Attempt, GuardedStageSolver, Outcome
-from rgss.tradeoff.level_search import search_levels
-from rgss.tradeoff.level_selection import LevelModel, LevelSelection
-from rgss.tradeoff.program import additive_stage
-from rgss.tradeoff.stage import FIRST_RUN, RUNS, SolverRun, StageSolver
+from rgss.tradeoff.levels.bound import interval_bound
+from rgss.tradeoff.levels.grid import LevelGrid, compensated_sum
+from rgss.tradeoff.levels.guard import Attempt, GuardedStageSolver, Outcome
+from rgss.tradeoff.levels.search import search_levels
+from rgss.tradeoff.levels.selection import LevelModel, LevelSelection
+from rgss.tradeoff.milp.stage import FIRST_RUN, RUNS, SolverRun, StageSolver
+from rgss.tradeoff.programs.program import additive_stage
 
 PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
 
@@ -38,7 +38,7 @@ PINNED = [2, 4, 11, 16]
 @pytest.fixture
 def sums_kept(monkeypatch):
     """Measures stay sums of tables, as they are where there are too many combinations to merge them."""
-    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 100)
+    monkeypatch.setattr(rgss.tradeoff.levels.selection, "LARGEST_TABLE", 100)
 
 
 @pytest.fixture
@@ -47,10 +47,10 @@ def path(monkeypatch):
 
     def choose(name):
         if name != "enumerated":
-            monkeypatch.setattr(rgss.tradeoff.level_problem, "LARGEST_ENUMERATED", 0)
+            monkeypatch.setattr(rgss.tradeoff.levels.problem, "LARGEST_ENUMERATED", 0)
         if name == "runs":
             monkeypatch.setattr(
-                rgss.tradeoff.level_guard,
+                rgss.tradeoff.levels.guard,
                 "interval_bound",
                 lambda *rest, **more: interval_bound(*rest, **{**more, "most": 0}),
             )
@@ -82,7 +82,7 @@ def test_the_options_of_the_solver(guard_cases, sums_kept, seed, run):
 @pytest.mark.parametrize("seed", PINNED)
 def test_the_guard_repairs_what_the_old_options_get_wrong(guard_cases, sums_kept, monkeypatch, path, seed, name):
     path(name)
-    monkeypatch.setattr(rgss.tradeoff.level_guard, "RUNS", (OLD_RUN,) * 3)
+    monkeypatch.setattr(rgss.tradeoff.levels.guard, "RUNS", (OLD_RUN,) * 3)
     case = pinned_case(guard_cases, seed)
     decision = decide_levels(case.problem)
     assert case.missed_by(decision.variant - 1) <= 1e-9
@@ -111,16 +111,16 @@ def doctored(monkeypatch):
     """A solver whose first runs, or all of them, give another answer."""
 
     def make(answer, *, runs):
-        real = rgss.tradeoff.level_guard.solve_program
+        real = rgss.tradeoff.levels.guard.solve_program
         wrong = {run.name for run in RUNS[:runs]}
-        gap = rgss.tradeoff.level_guard.proven_gap
+        gap = rgss.tradeoff.levels.guard.proven_gap
         monkeypatch.setattr(
-            rgss.tradeoff.level_guard,
+            rgss.tradeoff.levels.guard,
             "solve_program",
             lambda problem, run: answer(problem, run) if run.name in wrong else real(problem, run),
         )
         monkeypatch.setattr(
-            rgss.tradeoff.level_guard, "proven_gap", lambda problem: gap(problem) if problem.solver_stats else 0.0
+            rgss.tradeoff.levels.guard, "proven_gap", lambda problem: gap(problem) if problem.solver_stats else 0.0
         )
 
     return make
@@ -165,7 +165,7 @@ def test_a_wrong_first_run_is_outvoted(guard_cases, sums_kept, path, doctored, p
 def test_nothing_found_and_nothing_proved_is_no_decision(guard_cases, path, doctored, monkeypatch):
     path("runs")
     doctored(no_answer, runs=len(RUNS))
-    monkeypatch.setattr(rgss.tradeoff.level_guard, "search_levels", lambda *arguments: None)
+    monkeypatch.setattr(rgss.tradeoff.levels.guard, "search_levels", lambda *arguments: None)
     with pytest.raises(TradeoffError, match="no feasible design was found, and that there is none was not proved"):
         decide_levels(guard_cases.small_case(1, (3, 4, 3), "additive").problem)
 

@@ -18,7 +18,7 @@ from rgss.tradeoff import (
     Weighting,
     decide_levels,
 )
-from rgss.tradeoff.enumeration import enumerate_alternatives
+from rgss.tradeoff.programs.enumeration import enumerate_alternatives
 
 
 def problem_of(count, seed):
@@ -66,7 +66,7 @@ def test_of_many_measures_as_by_enumeration(count):
 def test_weights_that_are_generated_come_to_what_all_corners_do(monkeypatch, seed):
     problem = problem_of(4, seed)
     by_corners = decide_levels(problem).certificate.objective
-    monkeypatch.setattr("rgss.tradeoff.weight_vertices.FEW_CANDIDATES", 0)
+    monkeypatch.setattr("rgss.tradeoff.programs.weight_vertices.FEW_CANDIDATES", 0)
     by_programs = decide_levels(problem).certificate
     assert by_programs.objective == pytest.approx(by_corners, abs=1e-9)
     assert by_programs.enumeration_agrees

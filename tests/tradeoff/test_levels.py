@@ -9,8 +9,8 @@ import math
 import numpy as np
 import pytest
 
-import rgss.tradeoff.level_problem
-import rgss.tradeoff.level_selection
+import rgss.tradeoff.levels.problem
+import rgss.tradeoff.levels.selection
 from rgss.errors import TradeoffError
 from rgss.tradeoff import (
     AdditiveValue,
@@ -39,8 +39,8 @@ from rgss.tradeoff import (
     decide_levels,
     smallest_table,
 )
-from rgss.tradeoff.level_selection import LevelModel, LevelSelection
-from rgss.tradeoff.terms import WeightedValue
+from rgss.tradeoff.levels.selection import LevelModel, LevelSelection
+from rgss.tradeoff.milp.terms import WeightedValue
 
 ARM, HAND, PLANNER = (
     LevelFactor(id="arm", levels=("slow", "fast")),
@@ -158,7 +158,7 @@ PROGRAMS = [
 @pytest.mark.parametrize("listed", [True, False], ids=["tables merged", "sums kept"])
 def test_every_program_agrees_with_the_choice_among_variants(monkeypatch, program, listed):
     if not listed:
-        monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 3)
+        monkeypatch.setattr(rgss.tradeoff.levels.selection, "LARGEST_TABLE", 3)
     for functions in (
         by_hand().value_functions,
         # The cost is cut at both ends and bent in between; the time has a target.
@@ -176,8 +176,8 @@ def test_every_program_agrees_with_the_choice_among_variants(monkeypatch, progra
 
 def test_more_combinations_than_can_be_listed_against_all_of_them_in_numpy(monkeypatch):
     """Six factors of four levels; the answer is held against all 4,096 only here, not by the product."""
-    monkeypatch.setattr(rgss.tradeoff.level_problem, "LARGEST_ENUMERATED", 100)
-    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 100)
+    monkeypatch.setattr(rgss.tradeoff.levels.problem, "LARGEST_ENUMERATED", 100)
+    monkeypatch.setattr(rgss.tradeoff.levels.selection, "LARGEST_TABLE", 100)
     rng = np.random.default_rng(5)
     factors = tuple(LevelFactor(id=f"f{place}", levels=tuple("abcd")) for place in range(6))
     costs = rng.random((6, 4))
@@ -232,7 +232,7 @@ def test_what_is_unknown_is_never_selected(monkeypatch):
         *tables["cost"][2:],
     )
     for largest in (20_000, 3):
-        monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", largest)
+        monkeypatch.setattr(rgss.tradeoff.levels.selection, "LARGEST_TABLE", largest)
         assert decide_levels(by_hand(tables=tables)).levels["hand"] == "two"
 
 
@@ -341,13 +341,13 @@ def curved():
 
 
 def test_a_sum_cannot_be_valued_by_a_curve(monkeypatch):
-    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_CURVED", 3)
+    monkeypatch.setattr(rgss.tradeoff.levels.selection, "LARGEST_CURVED", 3)
     with pytest.raises(TradeoffError, match="'cost' is a sum over too many levels for a value that is not piecewise"):
         decide_levels(curved())
 
 
 def test_a_measure_that_is_valued_by_a_curve_is_merged_beyond_the_others(monkeypatch):
-    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 3)
+    monkeypatch.setattr(rgss.tradeoff.levels.selection, "LARGEST_TABLE", 3)
     decision, others = decide_levels(curved()), decide(curved().enumerated())
     assert decision.variant in others.ties
     assert decision.certificate.objective == pytest.approx(others.certificate.objective, abs=1e-9)
@@ -355,7 +355,7 @@ def test_a_measure_that_is_valued_by_a_curve_is_merged_beyond_the_others(monkeyp
 
 def test_terms_share_the_variables_of_a_sum(monkeypatch):
     """However many scenarios value a measure, its segments are modelled once."""
-    monkeypatch.setattr(rgss.tradeoff.level_selection, "LARGEST_TABLE", 3)
+    monkeypatch.setattr(rgss.tradeoff.levels.selection, "LARGEST_TABLE", 3)
     problem = by_hand()
     selection = LevelSelection(
         LevelModel(
@@ -380,6 +380,6 @@ def test_an_answer_that_violates_a_demand_is_refused(monkeypatch):
     problem = by_hand(thresholds=(threshold("payload", ">=", 5.0),))
     light = Alternative(variant=7, measures={"cost": 0.0, "payload": 0.0, "time": 0.0})
     monkeypatch.setattr(LevelProblem, "alternative", lambda self, levels: light)
-    monkeypatch.setattr(rgss.tradeoff.level_problem, "LARGEST_ENUMERATED", 1)
+    monkeypatch.setattr(rgss.tradeoff.levels.problem, "LARGEST_ENUMERATED", 1)
     with pytest.raises(TradeoffError, match="the stages of the additive program contradict each other"):
         decide_levels(problem)

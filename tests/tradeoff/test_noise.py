@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from rgss.tradeoff import Alternative, ChanceBound, Comparison, TailBound, decide
-from rgss.tradeoff.evidence_table import tabulated
-from rgss.tradeoff.noise import resampled_tables
-from rgss.tradeoff.resampling import bootstrap
+from rgss.tradeoff.infeasibility.noise import resampled_tables
+from rgss.tradeoff.problem.evidence_table import tabulated
+from rgss.tradeoff.problem.resampling import bootstrap
 
 
 def one(variant, rows, **measures):

@@ -18,16 +18,16 @@ from rgss.tradeoff import (
     WeightBounds,
     Weighting,
 )
-from rgss.tradeoff.columns import single_values
-from rgss.tradeoff.evidence_table import tabulated
-from rgss.tradeoff.outcomes import (
+from rgss.tradeoff.problem.evidence_table import tabulated
+from rgss.tradeoff.problem.resampling import bootstrap
+from rgss.tradeoff.programs.columns import single_values
+from rgss.tradeoff.robustness.outcomes import (
     admitted_weights,
     condition_masks,
     noisy_outcomes,
     replicate_number,
 )
-from rgss.tradeoff.resampled_outcomes import ResampledTables
-from rgss.tradeoff.resampling import bootstrap
+from rgss.tradeoff.robustness.resampled_outcomes import ResampledTables
 
 
 def problem_of(samples, **changes):

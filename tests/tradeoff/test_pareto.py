@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.pareto import Support, pareto_front
+from rgss.tradeoff.robustness.pareto import Support, pareto_front
 
 FIRST_COST = np.array([[5, 1, 4, 7], [6, 2, 2, 6], [2, 8, 4, 4], [3, 5, 7, 1]])
 SECOND_COST = np.array([[3, 6, 4, 2], [1, 3, 8, 3], [5, 2, 2, 3], [4, 2, 3, 5]])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from rgss.tradeoff.polygon_extremes import clip, lowest_separable, zonotope
+from rgss.tradeoff.robustness.polygon_extremes import clip, lowest_separable, zonotope
 
 
 @pytest.mark.parametrize("seed", range(6))

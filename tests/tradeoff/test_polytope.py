@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.linear import solve_linear
-from rgss.tradeoff.polytope import Polytope
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff.milp.linear import solve_linear
+from rgss.tradeoff.weights.polytope import Polytope
+from rgss.tradeoff.weights.weight_set import WeightSet
 
 
 @pytest.mark.parametrize("size", [2, 3, 4, 5, 6])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.price_list import changes_of_best, price_list, step_at
+from rgss.tradeoff.robustness.prices import changes_of_best, price_list, step_at
 
 PAYLOADS = np.array([0.8, 1.2, 1.0, 1.2, np.nan, 2.0])
 TOTALS = np.array([0.9, 0.5, 0.7, 0.5, 0.99, 1.0])

@@ -25,7 +25,7 @@ from rgss.tradeoff import (
     WeightBounds,
     decide,
 )
-from rgss.tradeoff.dominance import nondominated
+from rgss.tradeoff.problem.dominance import nondominated
 
 
 def aim(measure, sense=">=", **tolerance):

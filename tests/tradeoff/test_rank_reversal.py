@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rgss.tradeoff import rank_reversal
-from rgss.tradeoff.rank_reversal import RankReversal, rank_reversals, sample_anchored
+from rgss.tradeoff.robustness import rank_reversal
+from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
 
 A, B, C, D = range(4)
 PRIORITIES = np.array([[1.0, 9.0, 8.0], [9.0, 1.0, 9.0], [1.0, 1.0, 1.0], [9.0, 1.0, 9.0]])

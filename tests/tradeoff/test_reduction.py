@@ -7,7 +7,7 @@ import pytest
 
 import rgss.tradeoff.reduction
 from rgss.tradeoff import Agreement, decide
-from rgss.tradeoff.enumeration import enumerate_alternatives
+from rgss.tradeoff.programs.enumeration import enumerate_alternatives
 from rgss.tradeoff.reduction import LARGEST_UNREDUCED, reduced_rows
 
 

@@ -7,15 +7,16 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from rgss.tradeoff import Comparison, PiecewiseValue, Threshold, TradeProblem, Weighting, resampled_outcomes
-from rgss.tradeoff.acceptability import Outcomes, smaa2
-from rgss.tradeoff.columns import single_values
-from rgss.tradeoff.effects import factorial_effects
-from rgss.tradeoff.enumeration import violations
-from rgss.tradeoff.evidence_table import EvidenceTable, Samples
-from rgss.tradeoff.resampled_outcomes import ResampledOutcomes, ResampledTables
-from rgss.tradeoff.resampling import bootstrap
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff import Comparison, PiecewiseValue, Threshold, TradeProblem, Weighting
+from rgss.tradeoff.problem.evidence_table import EvidenceTable, Samples
+from rgss.tradeoff.problem.resampling import bootstrap
+from rgss.tradeoff.programs.columns import single_values
+from rgss.tradeoff.programs.enumeration import violations
+from rgss.tradeoff.robustness import resampled_outcomes
+from rgss.tradeoff.robustness.acceptability import Outcomes, smaa2
+from rgss.tradeoff.robustness.effects import factorial_effects
+from rgss.tradeoff.robustness.resampled_outcomes import ResampledOutcomes, ResampledTables
+from rgss.tradeoff.weights.weight_set import WeightSet
 
 MEASURES = ("a", "b", "c")
 
@@ -118,7 +119,7 @@ def test_acceptability_of_many_alternatives_takes_little_memory(monkeypatch):
     resamples = bootstrap(10, draws=200, generator=np.random.default_rng(1))
     monkeypatch.setattr(resampled_outcomes, "MOST_MEANS_AT_ONCE", 3 * 64 * 2_000)
     monkeypatch.setattr(resampled_outcomes, "MOST_KEPT", 0)
-    monkeypatch.setattr("rgss.tradeoff.acceptability._RANKS_AT_ONCE", 100_000)
+    monkeypatch.setattr("rgss.tradeoff.robustness.acceptability._RANKS_AT_ONCE", 100_000)
     tracemalloc.start()
     try:
         outcomes = ResampledOutcomes.of(problem, problem.alternatives, resamples)
@@ -151,7 +152,7 @@ def test_effects_are_split_block_by_block(monkeypatch):
     probabilities = np.full(50, 1 / 50)
     whole = factorial_effects(estimates, "abc", resampled=source[:], probabilities=probabilities)
     source.largest = 0
-    monkeypatch.setattr("rgss.tradeoff.effects.MOST_AT_ONCE", 7 * 60)
+    monkeypatch.setattr("rgss.tradeoff.robustness.effects.MOST_AT_ONCE", 7 * 60)
     parted = factorial_effects(estimates, "abc", resampled=source, probabilities=probabilities)
 
     assert source.largest == 7

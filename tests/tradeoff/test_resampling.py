@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.resampling import bootstrap, interval
+from rgss.tradeoff.problem.resampling import bootstrap, interval
 
 
 @pytest.mark.parametrize("replicates", [2, 3, 5])

@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import qmc
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.effects import factorial_effects
-from rgss.tradeoff.sampled_effects import classes_of, first_order_indices
+from rgss.tradeoff.robustness.effects import factorial_effects
+from rgss.tradeoff.robustness.sampled_effects import classes_of, first_order_indices
 
 
 def indices_of(classes, values, seed=0, resamples=200):

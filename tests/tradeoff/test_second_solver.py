@@ -6,9 +6,9 @@ import cvxpy
 import pytest
 
 from rgss.tradeoff import DecisionStatus
-from rgss.tradeoff.level_selection import LevelModel, LevelSelection
-from rgss.tradeoff.selection import VariantSelection
-from rgss.tradeoff.stage import StageSolution, StageSolver
+from rgss.tradeoff.levels.selection import LevelModel, LevelSelection
+from rgss.tradeoff.milp.selection import VariantSelection
+from rgss.tradeoff.milp.stage import StageSolution, StageSolver
 
 SOLVERS = {
     "HIGHS": {},

@@ -6,9 +6,9 @@ import pytest
 from rgss.errors import TradeoffError
 from rgss.measures import Verdict
 from rgss.tradeoff import Alternative, ChanceBound, Comparison, Lexicographic
-from rgss.tradeoff.sequential import Allocation, Decided, Progress, Reason, SequentialRule, next_batch
-from rgss.tradeoff.sequential_evidence import SequentialEvidence
-from rgss.tradeoff.sequential_probability import probability_of_good_selection
+from rgss.tradeoff.sequential.evidence import SequentialEvidence
+from rgss.tradeoff.sequential.probability import probability_of_good_selection
+from rgss.tradeoff.sequential.sequential import Allocation, Decided, Progress, Reason, SequentialRule, next_batch
 
 RULE = SequentialRule(batch=20, cap=400, verdict_cap=108)
 

@@ -6,7 +6,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from rgss.tradeoff.sequential_tests import difference_above, mean_above, mean_evidence, proportion_evidence
+from rgss.tradeoff.sequential.tests import difference_above, mean_above, mean_evidence, proportion_evidence
 
 
 def test_evidence_for_a_proportion_is_the_integral_that_it_stands_for():

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.effects import factorial_effects
-from rgss.tradeoff.sobol import sobol_design, sobol_indices
+from rgss.tradeoff.robustness.effects import factorial_effects
+from rgss.tradeoff.robustness.sobol import sobol_design, sobol_indices
 
 TABLE = np.random.default_rng(0).normal(size=(2, 3, 4)) + np.array([0.0, 2.0])[:, None, None]
 

@@ -8,9 +8,9 @@ import pytest
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff import DecisionStatus
-from rgss.tradeoff.program import additive_stage
-from rgss.tradeoff.selection import VariantSelection
-from rgss.tradeoff.stage import StageSolver, solve_program
+from rgss.tradeoff.milp.selection import VariantSelection
+from rgss.tradeoff.milp.stage import StageSolver, solve_program
+from rgss.tradeoff.programs.program import additive_stage
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rgss.tradeoff import Alternative, Comparison, PiecewiseValue, Threshold
-from rgss.tradeoff.selection import VariantSelection
-from rgss.tradeoff.terms import ConditionConstraint, EvidenceConstraint, QuantityRank, WeightedValue, WorstOf
+from rgss.tradeoff.milp.selection import VariantSelection
+from rgss.tradeoff.milp.terms import ConditionConstraint, EvidenceConstraint, QuantityRank, WeightedValue, WorstOf
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import pytest
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff import ExponentialValue, PiecewiseValue, TargetValue, Weighting
-from rgss.tradeoff.columns import value_column
+from rgss.tradeoff.programs.columns import value_column
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from scipy.optimize import linprog
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff import ElicitedInterval, ElicitedOrder, RankRule, WeightBounds, weights_from_ranks
-from rgss.tradeoff.weight_vertices import weight_vertices
+from rgss.tradeoff.programs.weight_vertices import weight_vertices
 
 MEASURES = ("a", "b", "c")
 

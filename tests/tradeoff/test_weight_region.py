@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff import weight_region
-from rgss.tradeoff.flip import weight_shifts
-from rgss.tradeoff.weight_region import RegionKind, winning_regions
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff.robustness.flip import weight_shifts
+from rgss.tradeoff.weights import weight_region
+from rgss.tradeoff.weights.weight_region import RegionKind, winning_regions
+from rgss.tradeoff.weights.weight_set import WeightSet
 
 CORNERS = np.eye(3)
 

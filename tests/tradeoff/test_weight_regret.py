@@ -20,20 +20,19 @@ from rgss.tradeoff import (
     Weighting,
     best_alternatives,
     decide,
-    minimax_regret,
-    weight_region,
-    weight_vertices,
 )
-from rgss.tradeoff.acceptability import Outcomes, smaa2
-from rgss.tradeoff.enumeration import enumerate_alternatives
-from rgss.tradeoff.evidence_table import tabulated
-from rgss.tradeoff.flip import weight_shifts
-from rgss.tradeoff.outcomes import admitted_weights
-from rgss.tradeoff.program_orderings import orderings_of
-from rgss.tradeoff.sampling import Drawing, sample_weights
-from rgss.tradeoff.weight_region import ShareBy, winning_regions
-from rgss.tradeoff.weight_regret import WeightRegret
-from rgss.tradeoff.worst_weights import WeightProgram
+from rgss.tradeoff.problem.evidence_table import tabulated
+from rgss.tradeoff.programs import minimax_regret, weight_vertices
+from rgss.tradeoff.programs.enumeration import enumerate_alternatives
+from rgss.tradeoff.programs.program_orderings import orderings_of
+from rgss.tradeoff.programs.weight_regret import WeightRegret
+from rgss.tradeoff.programs.worst_weights import WeightProgram
+from rgss.tradeoff.robustness.acceptability import Outcomes, smaa2
+from rgss.tradeoff.robustness.flip import weight_shifts
+from rgss.tradeoff.robustness.outcomes import admitted_weights
+from rgss.tradeoff.weights import weight_region
+from rgss.tradeoff.weights.sampling import Drawing, sample_weights
+from rgss.tradeoff.weights.weight_region import ShareBy, winning_regions
 
 
 def problem_of(seed, count, number, *, fixed=False, grouped=False):

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.hit_and_run import walked_weights
-from rgss.tradeoff.polytope import Polytope
-from rgss.tradeoff.sampling import Drawing, sample_weights
-from rgss.tradeoff.weight_set import WeightSet
+from rgss.tradeoff.weights.hit_and_run import walked_weights
+from rgss.tradeoff.weights.polytope import Polytope
+from rgss.tradeoff.weights.sampling import Drawing, sample_weights
+from rgss.tradeoff.weights.weight_set import WeightSet
 
 ORDERED = WeightSet.cut(np.array([[-1.0, 1.0, 0.0], [0.0, -1.0, 1.0]]), np.zeros(2))
 """w1 >= w2 >= w3."""

@@ -13,7 +13,7 @@ import pytest
 from rgss.errors import DefinitionError
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
-from rgss.trials.bench import (
+from rgss.trials.payload_bench.bench import (
     BOUND,
     VALIDATED,
     BenchSettings,
@@ -186,7 +186,7 @@ def test_benches_agree_bit_for_bit_in_this_process_and_in_another():
     environment = {**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(Path(__file__).parents[2])}
     program = (
         "import runpy, sys\n"
-        "from rgss.trials.bench import run_bench\n"
+        "from rgss.trials.payload_bench.bench import run_bench\n"
         "spec_of = runpy.run_path(sys.argv[1])['spec_of']\n"
         "print(*(run_bench(spec_of(fingers)) for fingers in (2, 3)), sep='\\n')\n"
     )

@@ -7,7 +7,7 @@ import pytest
 from rgss.errors import DefinitionError
 from rgss.physics import MOST_ITERATIONS, PhysicsSettings
 from rgss.scenes import Box, Cylinder, Gripper, GripperGeometry
-from rgss.trials.bench import (
+from rgss.trials.payload_bench.bench import (
     BenchSettings,
     BenchSpec,
     PayloadLimit,
@@ -15,7 +15,7 @@ from rgss.trials.bench import (
     outside,
     run_bench,
 )
-from rgss.trials.spec import bench_digest
+from rgss.trials.pieces.input_digests import bench_digest
 
 VERSIONS = {"pybullet": "3.2.7", "rgss-bench": "abc", "ompl": "1.7.0", "rgss-plan": "def"}
 

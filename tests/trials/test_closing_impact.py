@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from rgss.physics import PhysicsSettings
-from rgss.trials.bench_rig import PayloadRig
-from rgss.trials.closing_impact import LEAST_STEPS, closing_impact
-from rgss.trials.trial_bench import payload_bench
+from rgss.trials.impact import LEAST_STEPS, closing_impact
+from rgss.trials.payload_bench.of_trial import payload_bench
+from rgss.trials.payload_bench.rig import PayloadRig
 
 from .spec_changes import with_gripper, with_workpiece
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rgss.kinematics import CollisionModel, Situation
+from rgss.kinematics import CollisionContext, CollisionModel
 from rgss.physics import World
 
 pytestmark = pytest.mark.engine
@@ -20,7 +20,7 @@ def test_collision_verdicts_agree_away_from_touching(spec_of, variant):
     spec = spec_of(variant)
     scene, geometry = spec.scene, spec.gripper.geometry
     coal = CollisionModel(
-        scene, geometry, Situation(opening_m=geometry.largest_opening_m, standing=scene.workpiece.pose)
+        scene, geometry, CollisionContext(opening_m=geometry.largest_opening_m, standing=scene.workpiece.pose)
     )
     outside = {scene.workpiece.id, *(body.id for body in scene.bodies)}
     lower = [joint.lower_rad for joint in scene.robot.joints]

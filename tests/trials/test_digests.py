@@ -16,9 +16,9 @@ from rgss.motion import ClockKind, PlanningClock
 from rgss.scenes import Pose
 from rgss.scenes.robot import RobotFile
 from rgss.studies.expansion import trial_specs
-from rgss.trials.control import ControlSettings
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import ENGINES, ENTRIES, versions
+from rgss.trials.code.piece_versions import ENGINES, ENTRIES, versions
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.plants.control import ControlSettings
 
 PLANNED = {"plan", "timing", "execution", "trial"}
 LATER = PLANNED - {"plan"}
@@ -217,7 +217,7 @@ def test_versions_name_the_engines_and_the_source_of_each_piece():
 
 
 def test_another_process_finds_the_same_versions():
-    script = "import json; from rgss.trials.versions import versions; print(json.dumps(versions()))"
+    script = "import json; from rgss.trials.code.piece_versions import versions; print(json.dumps(versions()))"
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
 
     assert run.stdout.strip() == json.dumps(versions())

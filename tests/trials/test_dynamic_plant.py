@@ -12,11 +12,11 @@ import pytest
 from rgss.evidence import Failure, Fidelity, Phase, PhaseOutcome
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.trials.dynamic_plant import ComputedTorque, DynamicPlant
+from rgss.trials.pieces.run import execute
 from rgss.trials.plan import plan_task
+from rgss.trials.plants.dynamic_plant import ComputedTorque, DynamicPlant
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference, reference_of
-from rgss.trials.run import execute
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell
 

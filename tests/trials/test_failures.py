@@ -13,10 +13,10 @@ from rgss.evidence import Failure, Phase, PhaseOutcome, PlanOutcome, TrialRecord
 from rgss.physics import World
 from rgss.scenes import Cylinder, Pose
 from rgss.trials import timing as timing_module
+from rgss.trials.pieces.input_digests import TrialSpec
+from rgss.trials.pieces.run import execute, run_trial
 from rgss.trials.plan import TaskPlan, plan_task
 from rgss.trials.record import assemble_record
-from rgss.trials.run import execute, run_trial
-from rgss.trials.spec import TrialSpec
 from rgss.trials.timing import TaskTiming, time_task
 from rgss.trials.workcell import Workcell
 

@@ -14,7 +14,7 @@ from rgss.kinematics import Arm
 from rgss.physics import camera
 from rgss.physics.camera import VIEWS, Camera
 from rgss.trials.filming import Film
-from rgss.trials.run import run_trial
+from rgss.trials.pieces.run import run_trial
 from rgss.trials.tracing import run_traced_trial
 
 pytestmark = pytest.mark.engine

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from rgss.trials.force_sensor import ForceSensor
+from rgss.trials.monitors.force_sensor import ForceSensor
 
 RATES_HZ = (120.0, 240.0, 333.0, 500.0, 1000.0, 4000.0)
 WINDOW_S = 0.01

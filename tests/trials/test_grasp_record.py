@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import Fidelity, Phase
-from rgss.trials.grasp_record import GREATEST, LEAST, worst_of
 from rgss.trials.metrics import AT_GRASP
-from rgss.trials.run import run_trial
+from rgss.trials.monitors.grasp_record import GREATEST, LEAST, worst_of
+from rgss.trials.pieces.run import run_trial
 
 pytestmark = pytest.mark.engine
 

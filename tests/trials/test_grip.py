@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from rgss.evidence import Failure, Phase
-from rgss.kinematics import Arm, CollisionModel, InverseKinematics, Situation
+from rgss.kinematics import Arm, CollisionContext, CollisionModel, InverseKinematics
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, load_gripper, load_scene
-from rgss.trials.control import ControlSettings
 from rgss.trials.execution import Execution
+from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import reference_of
 
 pytestmark = pytest.mark.engine
@@ -64,7 +64,7 @@ class Lift:
         self.geometry = load_gripper(SCENES / "grippers" / f"kg-{fingers}.yaml")
         self.arm = Arm(self.scene.robot, self.geometry.grasp_centre)
         self.inverse = InverseKinematics(self.arm)
-        standing = Situation(opening_m=self.geometry.largest_opening_m, standing=self.scene.workpiece.pose)
+        standing = CollisionContext(opening_m=self.geometry.largest_opening_m, standing=self.scene.workpiece.pose)
         free = CollisionModel(self.scene, self.geometry, standing)
         home = np.array(self.scene.robot.home_rad)
         found = [q for q in self.inverse.solve(self.scene.grasp) if free.is_valid(q)]

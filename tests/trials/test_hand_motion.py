@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rgss.physics import HandView, PhysicsSettings
 from rgss.scenes import Pose
-from rgss.trials.hand_motion import HandMotion, HandWatch
+from rgss.trials.monitors.in_hand_motion import HandMotion, InHandMotionTracker
 
 SPAN_S = 0.02
 HELD = Pose.from_roll_pitch_yaw((0.01, -0.02, 0.03), (math.pi, 0.1, 0.4))
@@ -80,7 +80,7 @@ class Hand:
 
 def test_the_last_two_looks_make_a_motion():
     hand = Hand()
-    watch = HandWatch(hand)
+    watch = InHandMotionTracker(hand)
     assert watch.look(0).held.position_m == pytest.approx(HELD.position_m)
     assert watch.motion.closing_m_s == (0.0, 0.0)
     assert watch.motion.before == watch.motion.held
@@ -103,7 +103,7 @@ def test_the_last_two_looks_make_a_motion():
 
 def test_looking_twice_at_the_same_time_changes_nothing():
     hand = Hand()
-    watch = HandWatch(hand)
+    watch = InHandMotionTracker(hand)
     hand.travel = (0.001, 0.001)
     watch.look(5)
     before = watch.motion

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rgss.scenes import Joint
-from rgss.trials.joint_load import JointLoad
+from rgss.trials.plants.joint_load import JointLoad
 
 LIMITS = (300.0, 50.0)
 

@@ -13,10 +13,10 @@ from scipy.integrate import solve_ivp
 from rgss.evidence import Fidelity, Phase
 from rgss.scenes import Cylinder, Pose, Workpiece, load_gripper
 from rgss.scenes.gripper import Gripper
-from rgss.trials.control import ControlSettings
-from rgss.trials.kinematic_plant import JointResponse, KinematicPlant
+from rgss.trials.pieces.run import run_trial
+from rgss.trials.plants.control import ControlSettings
+from rgss.trials.plants.kinematic_plant import JointResponse, KinematicPlant
 from rgss.trials.reference import Reference
-from rgss.trials.run import run_trial
 
 ROOT = Path(__file__).parents[2]
 STEP_S = 1.0 / 240.0

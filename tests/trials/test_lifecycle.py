@@ -13,8 +13,8 @@ from rgss.evidence import Fidelity, record_digest
 from rgss.physics import TorqueArm
 from rgss.physics.engine import pybullet
 from rgss.trials.lifecycle import Simulation, SimulationState
+from rgss.trials.pieces.run import run_trial
 from rgss.trials.plan import plan_task
-from rgss.trials.run import run_trial
 
 pytestmark = pytest.mark.engine
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.trials.run import Pieces
+from rgss.trials.pieces.run import Pieces
 
 pytestmark = pytest.mark.engine
 

@@ -12,17 +12,17 @@ import pytest
 from rgss.errors import EvidenceError, MotionError
 from rgss.evidence import Failure, Fidelity, Phase, Piece, PieceKind, record_digest
 from rgss.motion import PlanningClock
-from rgss.trials.bench_text import bench_from_text, bench_to_text
-from rgss.trials.execution_text import execution_from_text, execution_to_text
-from rgss.trials.float_array import FloatArray
-from rgss.trials.making import PieceTask, TrialTask, make, make_piece, record_of, tasks_of
+from rgss.trials.code.piece_versions import versions
+from rgss.trials.pieces.bench_json import bench_from_json, bench_to_json
+from rgss.trials.pieces.execution_json import execution_from_json, execution_to_json
+from rgss.trials.pieces.float_array import FloatArray
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.pieces.pieces import PieceTask, TrialTask, make, make_piece, record_of, tasks_of
+from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
+from rgss.trials.pieces.run import run_trial
+from rgss.trials.pieces.timing_json import timing_from_json, timing_to_json
 from rgss.trials.plan import TaskPlan, plan_task
-from rgss.trials.plan_text import plan_from_text, plan_to_text
-from rgss.trials.run import run_trial
-from rgss.trials.spec import digests_of
 from rgss.trials.timing import time_task
-from rgss.trials.timing_text import timing_from_text, timing_to_text
-from rgss.trials.versions import versions
 from rgss.trials.workcell import workcell_of
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, -1e-9, 0.1 + 0.2]
@@ -85,7 +85,7 @@ def test_a_plan_and_a_timing_are_read_back_bit_for_bit(spec_of, made):
     cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
     plan = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
     timing = time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
-    read, timed = plan_from_text(made[PieceKind.PLAN].text), timing_from_text(made[PieceKind.TIMING].text)
+    read, timed = plan_from_json(made[PieceKind.PLAN].text), timing_from_json(made[PieceKind.TIMING].text)
 
     assert list(read.moves) == list(plan.moves)
     for phase, move in plan.moves.items():
@@ -106,10 +106,10 @@ def test_a_plan_and_a_timing_are_read_back_bit_for_bit(spec_of, made):
 @pytest.mark.engine
 def test_a_text_that_is_read_and_written_again_is_the_same(made):
     for kind, back in {
-        PieceKind.PLAN: lambda text: plan_to_text(plan_from_text(text)),
-        PieceKind.TIMING: lambda text: timing_to_text(timing_from_text(text)),
-        PieceKind.EXECUTION: lambda text: execution_to_text(execution_from_text(text)),
-        PieceKind.BENCH: lambda text: bench_to_text(bench_from_text(text)),
+        PieceKind.PLAN: lambda text: plan_to_json(plan_from_json(text)),
+        PieceKind.TIMING: lambda text: timing_to_json(timing_from_json(text)),
+        PieceKind.EXECUTION: lambda text: execution_to_json(execution_from_json(text)),
+        PieceKind.BENCH: lambda text: bench_to_json(bench_from_json(text)),
     }.items():
         assert back(made[kind].text) == made[kind].text
 
@@ -133,7 +133,7 @@ def test_a_trial_that_fails_to_plan_or_to_move_has_all_its_pieces(spec_of):
     assert record.failure is Failure.PLANNING_LIMIT
     assert record_digest(record) == record_digest(run_trial(hopeless))
     untimed = '{"motions":[],"untimed":[{"detail":"why","failure":"unreachable_waypoint","phase":"lift"}]}'
-    assert timing_from_text(untimed).failures == {Phase.LIFT: (Failure.UNREACHABLE_WAYPOINT, "why")}
+    assert timing_from_json(untimed).failures == {Phase.LIFT: (Failure.UNREACHABLE_WAYPOINT, "why")}
 
 
 @pytest.mark.engine
@@ -222,10 +222,10 @@ def changed(text: str, change) -> str:
 )
 def test_a_damaged_piece_is_refused(made, kind, change, problem):
     read = {
-        PieceKind.PLAN: plan_from_text,
-        PieceKind.TIMING: timing_from_text,
-        PieceKind.EXECUTION: execution_from_text,
-        PieceKind.BENCH: bench_from_text,
+        PieceKind.PLAN: plan_from_json,
+        PieceKind.TIMING: timing_from_json,
+        PieceKind.EXECUTION: execution_from_json,
+        PieceKind.BENCH: bench_from_json,
     }[kind]
 
     with pytest.raises(EvidenceError, match=problem):
@@ -235,4 +235,4 @@ def test_a_damaged_piece_is_refused(made, kind, change, problem):
 def test_a_plan_without_moves_is_a_plan():
     plan = TaskPlan(moves={}, lift_rad=None, clock=PlanningClock(charge_s=0.5))
 
-    assert plan_from_text(plan_to_text(plan)) == plan
+    assert plan_from_json(plan_to_json(plan)) == plan

@@ -20,10 +20,10 @@ from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.requirements import StateKind, load_requirements
 from rgss.scenes import Pose
 from rgss.trials import timing
-from rgss.trials.control import ControlSettings
 from rgss.trials.execution import CARRYING, Execution
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.plants.control import ControlSettings
 from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference

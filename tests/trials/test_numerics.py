@@ -10,16 +10,16 @@ import sys
 import pytest
 
 from rgss.errors import EvidenceError
-from rgss.evidence.numerics import numerics_difference, numerics_text, require_alike, results_of
-from rgss.trials import numeric_environment as environment_module
-from rgss.trials.numeric_environment import (
+from rgss.evidence.records.numerics import numerics_difference, numerics_text, require_alike, results_of
+from rgss.trials.code import kernel_environment as environment_module
+from rgss.trials.code.kernel_environment import (
     KERNEL,
     numeric_environment,
     numeric_environment_of_children,
     problem_here,
     problem_in,
 )
-from rgss.trials.numerics import fixed_numerics, numerics
+from rgss.trials.code.numeric_probe import fixed_numerics, numerics
 
 HERE = {"platform": "Linux-x86_64", "libm": "glibc 2.36 aaaa", "numpy": "X86_V2 bbbb", "blas": "Nehalem+Nehalem cccc"}
 OUR_CAPABILITIES = "-FMA,-FMA4,-FMA_Usable,-FMA4_Usable"
@@ -75,7 +75,7 @@ def test_children_get_the_environment_and_this_process_keeps_its_own(monkeypatch
     monkeypatch.setenv("OPENBLAS_CORETYPE", "Haswell")
     monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     before = dict(os.environ)
-    script = "from rgss.trials.numeric_environment import problem_here; print(problem_here() or 'none')"
+    script = "from rgss.trials.code.kernel_environment import problem_here; print(problem_here() or 'none')"
 
     def child() -> str:
         return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.strip()
@@ -111,11 +111,11 @@ PROBE = """
 import json, sys
 from pathlib import Path
 from rgss.evidence import record_digest
-from rgss.studies.engine_process import compute
+from rgss.sweep.engine_process import compute
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.trials.numerics import fixed_numerics, numerics
-from rgss.trials.run import run_trial
+from rgss.trials.code.numeric_probe import fixed_numerics, numerics
+from rgss.trials.pieces.run import run_trial
 
 project = load_project(Path(sys.argv[1]))
 (spec,) = trial_specs(project, variants=[project.designs.variant(1)], seeds=[1])

@@ -13,12 +13,12 @@ from rgss.evidence import Failure, Phase
 from rgss.kinematics import Arm, InverseKinematics
 from rgss.physics import Contacts, FingerContact, PhysicsSettings, World
 from rgss.scenes import FORCE_WINDOW_S, LANDING_LIMIT_M_S, Pose
-from rgss.trials.control import ControlSettings
-from rgss.trials.drag_monitor import DragMonitor
 from rgss.trials.execution import Execution
+from rgss.trials.monitors.drag_monitor import DragMonitor
+from rgss.trials.monitors.release_monitor import PlacedObjectMonitor, lowest_point_m
 from rgss.trials.plan import plan_task
+from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import reference_of
-from rgss.trials.release_monitor import PlacedObjectMonitor, lowest_point_m
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import workcell_of
 

@@ -9,8 +9,8 @@ import pytest
 from rgss.kinematics import Arm
 from rgss.physics import World
 from rgss.scenes import Pose
-from rgss.trials.control import ControlSettings
 from rgss.trials.execution import Execution
+from rgss.trials.plants.control import ControlSettings
 
 pytestmark = pytest.mark.engine
 

@@ -11,10 +11,10 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, record_digest
+from rgss.trials.code.piece_versions import versions
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.pieces.run import Pieces, run_trial
 from rgss.trials.plan import plan_task
-from rgss.trials.run import Pieces, run_trial
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import versions
 from rgss.trials.workcell import Workcell
 
 pytestmark = pytest.mark.engine
@@ -25,7 +25,7 @@ from pathlib import Path
 from rgss.evidence import record_digest
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.trials.run import run_trial
+from rgss.trials.pieces.run import run_trial
 project = load_project(Path(sys.argv[1]))
 for variant in map(int, sys.argv[2:]):
     (spec,) = trial_specs(project, variants=[project.designs.variant(variant)], seeds=[project.study.seed])

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from rgss.trials.sources import SourceTree, own_sources
-from rgss.trials.versions import ENGINES, ENTRIES, code_of_trials, source_of
+from rgss.trials.code.code_fingerprint import SourceTree, own_sources
+from rgss.trials.code.piece_versions import ENGINES, ENTRIES, code_of_trials, source_of
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -21,9 +21,9 @@ from pathlib import Path
 from rgss.evidence import PieceKind
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.trials.making import TrialTask, make, record_of, tasks_of
-from rgss.trials.spec import digests_of
-from rgss.trials.versions import versions
+from rgss.trials.pieces.pieces import TrialTask, make, record_of, tasks_of
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.code.piece_versions import versions
 
 ran, made, opened, watching = {}, {}, set(), []
 
@@ -203,13 +203,13 @@ def module_of(file: str) -> str | None:
 # What works out by which digest a trial that shares nothing keeps its pieces, while it is run: each value is one.
 DIGESTING = {
     "rgss.documents.digests",
-    "rgss.trials.plain",
-    "rgss.trials.sources",
-    "rgss.trials.spec",
-    "rgss.trials.syntax",
+    "rgss.trials.pieces.plain_values",
+    "rgss.trials.code.code_fingerprint",
+    "rgss.trials.pieces.input_digests",
+    "rgss.trials.code.canonical_syntax",
     # Whether a trial has a bench, and which, is an input of its digest.
-    "rgss.trials.trial_bench",
-    "rgss.trials.versions",
+    "rgss.trials.payload_bench.of_trial",
+    "rgss.trials.code.piece_versions",
 }
 BEFORE = {"timing": ["plan"], "execution": ["plan", "timing"], "record": ["plan", "timing", "execution"]}
 
@@ -227,7 +227,7 @@ def test_whatever_runs_while_a_piece_is_made_is_in_its_digest(ran, piece, fideli
         assert f"{piece} of {fidelity}" not in ran
         return
     name = f"{piece} of {fidelity}"
-    assert "rgss.trials.making" in ran[name]
+    assert "rgss.trials.pieces.pieces" in ran[name]
     assert ran[name] - covered_by(piece) == set()
 
 
@@ -237,7 +237,7 @@ def test_whatever_runs_in_a_trial_that_shares_nothing_is_in_its_key(ran, fidelit
     pieces = [*ENTRIES] if fidelity == "contact" else [name for name in ENTRIES if name != "bench"]
     covered = {module for piece in pieces for module in covered_by(piece)}
 
-    assert {"rgss.trials.making", "rgss.trials.run"} <= ran[f"trial of {fidelity}"] & covered
+    assert {"rgss.trials.pieces.pieces", "rgss.trials.pieces.run"} <= ran[f"trial of {fidelity}"] & covered
     assert ran[f"trial of {fidelity}"] - covered - DIGESTING == set()
 
 
@@ -306,7 +306,7 @@ def test_what_makes_no_piece_is_in_no_digest(piece):
 
     assert not {name for name in modules if name.split(".")[1] in ("cli", "reports", "studies", "tradeoff", "trace")}
     assert not modules & {
-        "rgss.evidence.store",
+        "rgss.evidence.store.store",
         "rgss.physics.camera",
         "rgss.physics.rendering",
         "rgss.scenes.scene_file",

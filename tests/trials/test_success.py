@@ -8,7 +8,7 @@ import pytest
 
 from rgss.evidence import Fidelity, Phase, PlanOutcome
 from rgss.studies.expansion import trial_specs
-from rgss.trials.run import Pieces
+from rgss.trials.pieces.run import Pieces
 
 pytestmark = pytest.mark.engine
 

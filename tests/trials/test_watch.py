@@ -11,9 +11,9 @@ import pytest
 from rgss.evidence import Failure
 from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.scenes import Pose
-from rgss.trials.control import ControlSettings
-from rgss.trials.force_sensor import ForceSensor
-from rgss.trials.watch import Watch
+from rgss.trials.monitors.force_sensor import ForceSensor
+from rgss.trials.monitors.phase_monitor import PhaseMonitor
+from rgss.trials.plants.control import ControlSettings
 
 CONTROL = ControlSettings()
 QUIET = Contacts(finger_forces_n=(0.0, 0.0, 0.0), other_force_n=0.0, pressed=(), robot_bodies=(), workpiece_bodies=())
@@ -74,7 +74,9 @@ def world(spec_of):
 def watch_of(world, *, carried=False, resting_on="", sensor=None):
     world.path_m = [TOOL.position_m]
     held = HELD if carried else None
-    return Watch(world, world, CONTROL, carried_at=held, resting_on=resting_on, path_m=world.path_m, sensor=sensor)
+    return PhaseMonitor(
+        world, world, CONTROL, carried_at=held, resting_on=resting_on, path_m=world.path_m, sensor=sensor
+    )
 
 
 def contacts(*forces, other=0.0, robot=(), workpiece=()):

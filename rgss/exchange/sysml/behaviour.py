@@ -7,9 +7,7 @@ from collections.abc import Iterator
 from rgss.exchange.sysml.notation import body, comment, declared, documentation, name
 from rgss.exchange.sysml.structure import PARTS, Parts
 from rgss.requirements import Behaviour, BehaviourKind
-from rgss.requirements.activity import Flow, FlowNode, FlowNodeKind
-from rgss.requirements.interaction import Interaction
-from rgss.requirements.state_machine import StateKind, StateMachine
+from rgss.requirements.behaviour import Flow, FlowNode, FlowNodeKind, Interaction, StateKind, StateMachine
 
 BEHAVIOUR = "Behaviour"
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rgss.exchange.sysml.notation import body, declared, documentation, name, real
-from rgss.measures import Measure, MeasureSet
-from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
+from rgss.measures import Binary, Call, Measure, MeasureSet, Name, Negative, Node, Number, Power
 
 MEASURES = "Measures"
 

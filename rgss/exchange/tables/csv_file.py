@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from rgss.documents.spreadsheet_cells import neutralised, restored
+from rgss.documents import neutralised, restored
 from rgss.errors import DocumentError
 from rgss.exchange.attributes import Part
 from rgss.exchange.content import Content, Row

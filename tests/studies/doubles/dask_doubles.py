@@ -10,7 +10,7 @@ from pathlib import Path
 import worker_doubles
 
 from rgss.evidence import Piece, TrialRecord
-from rgss.trials.making import Task
+from rgss.trials.pieces.pieces import Task
 
 
 def act(name: str, mine: str = "") -> object:

@@ -14,10 +14,10 @@ import os
 import sys
 from pathlib import Path
 
-import rgss.studies.sweep as sweep_module
+import rgss.sweep.running as sweep_module
 from rgss.cli.main import main
 from rgss.evidence import Piece, TrialRecord
-from rgss.trials.making import Task, make
+from rgss.trials.pieces.pieces import Task, make
 
 FOLDER, TASKS = Path(sys.argv[1]), int(sys.argv[2])
 GATE = "gate"

@@ -16,9 +16,9 @@ from pathlib import Path
 import worker_doubles
 
 from rgss.evidence import Phase, Piece, PieceKind, TrialRecord
-from rgss.studies.worker_process import Answer
-from rgss.studies.worker_wire import frame
-from rgss.trials.making import Task, TrialTask
+from rgss.sweep.worker_process import Answer
+from rgss.sweep.worker_wire import frame
+from rgss.trials.pieces.pieces import Task, TrialTask
 
 _MARK = frame(b"")[:8]
 

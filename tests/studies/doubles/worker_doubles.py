@@ -14,15 +14,15 @@ from pathlib import Path
 from rgss.errors import SimulationError
 from rgss.evidence import Phase, Piece, PieceKind, PlanOutcome, TrialRecord
 from rgss.motion import PlanningClock
-from rgss.trials.bench import PayloadLimit, PayloadResult
-from rgss.trials.bench_text import bench_to_text
-from rgss.trials.execution_text import execution_to_text
-from rgss.trials.making import Task, TrialTask, make_piece, record_of, tasks_of
+from rgss.trials.payload_bench.bench import PayloadLimit, PayloadResult
+from rgss.trials.pieces.bench_json import bench_to_json
+from rgss.trials.pieces.execution_json import execution_to_json
+from rgss.trials.pieces.input_digests import TrialDigests
+from rgss.trials.pieces.pieces import Task, TrialTask, make_piece, record_of, tasks_of
+from rgss.trials.pieces.plan_json import plan_to_json
+from rgss.trials.pieces.timing_json import timing_to_json
 from rgss.trials.plan import PlannedMove, TaskPlan
-from rgss.trials.plan_text import plan_to_text
-from rgss.trials.spec import TrialDigests
 from rgss.trials.timing import TaskTiming
-from rgss.trials.timing_text import timing_to_text
 
 FOLDER = "WORKER_DOUBLES_FOLDER"
 """Names the folder in which workers leave their marks."""
@@ -52,10 +52,10 @@ def quick(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
         path_length_m=None,
     )
     text = {
-        PieceKind.PLAN: lambda: plan_to_text(TaskPlan(moves={move.phase: move}, lift_rad=None, clock=clock)),
-        PieceKind.TIMING: lambda: timing_to_text(TaskTiming(trajectories={}, failures={})),
-        PieceKind.EXECUTION: lambda: execution_to_text(()),
-        PieceKind.BENCH: lambda: bench_to_text(
+        PieceKind.PLAN: lambda: plan_to_json(TaskPlan(moves={move.phase: move}, lift_rad=None, clock=clock)),
+        PieceKind.TIMING: lambda: timing_to_json(TaskTiming(trajectories={}, failures={})),
+        PieceKind.EXECUTION: lambda: execution_to_json(()),
+        PieceKind.BENCH: lambda: bench_to_json(
             PayloadResult(
                 payload_kg=1.0,
                 limited_by=PayloadLimit.RATED,

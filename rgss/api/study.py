@@ -1,0 +1,366 @@
+"""A study for analysts: what `rgss.load_study` returns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from numbers import Integral
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rgss.api.column import Column, Kind
+from rgss.api.columns import FRAMES
+from rgss.api.frames import (
+    described_frame,
+    frame_of,
+    measures_frame,
+    phases_frame,
+    trials_frame,
+    variant_columns,
+    verdicts_frame,
+)
+from rgss.api.sweep import sweep_study
+from rgss.api.trade import Trade
+from rgss.api.trade_frames import portfolio_frame
+from rgss.api.trial import Drawing, Trial, payload_of, run_one
+from rgss.assessment import VariantMeasures, read_record
+from rgss.decision import ScreeningResult, choose_portfolio, measure_survivors, portfolio_projects
+from rgss.decision.robustness import Robustness
+from rgss.decision.what_if import measured_in, suppose
+from rgss.designs import DesignVariant, picked
+from rgss.errors import DefinitionError, EvidenceError
+from rgss.evidence import EvidenceStore
+from rgss.studies import MOST_REPLICATES, Project, find_project, load_project, project_of_study
+from rgss.tradeoff import Decision
+from rgss.trials.payload_bench import PayloadResult
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+WhatIf = Mapping[str, float | str] | Sequence[str] | str
+"""Suppositions: ``{"weight.t_e": 0.4}``, or texts as ``--what-if`` takes them."""
+
+STUDY_SUFFIXES = (".yaml", ".yml")
+"""By these a study file is told from a project's folder."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Study:
+    """A study with what is known of it, as pandas frames; docs/api.md describes their columns.
+
+    Evidence is read when it is first asked for and then held, so that all frames agree; `sweep`
+    returns the study with the evidence as it is then. Frames are made anew at each access, and
+    changing one changes nothing else.
+
+    Attributes:
+        project: Everything that the study stands on: requirements, measures, designs, scene.
+    """
+
+    project: Project = field(repr=False)
+    _drawing: Drawing = field(repr=False)
+
+    def __repr__(self) -> str:
+        study = self.project.study
+        return (
+            f"Study({study.id!r}, {len(self._designs)} variants × {study.replicates} seeds, "
+            f"{study.fidelity.value} fidelity)"
+        )
+
+    @property
+    def variants(self) -> pd.DataFrame:
+        """The designs, with what the trade-off says of them as far as there is evidence."""
+        rows = []
+        measured = {entry.variant.id: entry for entry in self._known}
+        fates = {} if self._screened is None else {one.variant: one.fate.value for one in self._screened.variants}
+        judged = bool(measured) and not any(entry.missing for entry in measured.values())
+        enumeration = self.trade().enumeration if judged else None
+        # A design that was screened out lacks nothing.
+        untried = 0 if measured else self.project.study.replicates
+        for variant in self._designs:
+            entry = measured.get(variant.id)
+            row = {
+                "variant": variant.id,
+                **variant.columns(),
+                **{f"level_{factor}": level for factor, level in variant.levels.items()},
+                "trials": 0 if entry is None else len(entry.records),
+                "missing": untried if entry is None else entry.missing,
+                "screening": fates.get(variant.id),
+            }
+            if enumeration is not None and entry is not None:
+                violated = enumeration.violated_by(variant.id)
+                row |= {
+                    "feasible": not violated,
+                    "violates": ", ".join(violated),
+                    "weighted_value": enumeration.value_of(variant.id),
+                }
+            rows.append(row)
+        return described_frame("variants", rows, variant_columns(self.project))
+
+    @property
+    def trials(self) -> pd.DataFrame:
+        """One row for each variant and seed.
+
+        Raises:
+            EvidenceError: There is no evidence for the project as it is now.
+        """
+        return trials_frame(self._tried)
+
+    @property
+    def phases(self) -> pd.DataFrame:
+        """One row for each variant, seed and state of the task.
+
+        Raises:
+            EvidenceError: There is no evidence for the project as it is now.
+        """
+        return phases_frame(record for entry in self._tried for record in entry.records)
+
+    @property
+    def measures(self) -> pd.DataFrame:
+        """One row for each variant and measure: the estimate with its interval.
+
+        Raises:
+            EvidenceError: There is no evidence store.
+        """
+        return measures_frame(self.project, self._measured)
+
+    @property
+    def verdicts(self) -> pd.DataFrame:
+        """One row for each variant and requirement with a criterion.
+
+        Raises:
+            EvidenceError: There is no evidence store.
+        """
+        return verdicts_frame(self.project, self._measured)
+
+    @property
+    def decision(self) -> Decision:
+        """What is decided; as of `trade`."""
+        return self._trade.decision
+
+    @property
+    def ranking(self) -> pd.DataFrame:
+        """The feasible variants, best first; as of `trade`."""
+        return self._trade.ranking
+
+    @property
+    def pareto(self) -> pd.DataFrame:
+        """The feasible variants and the Pareto front; as of `trade`."""
+        return self._trade.pareto
+
+    def trade(self, what_if: WhatIf = ()) -> Trade:
+        """The trade-off, as it is or under suppositions.
+
+        Args:
+            what_if: What is to be supposed, such as ``{"weight.t_e": 0.4, "SYS-012.threshold": "0.9 kg"}``.
+
+        Raises:
+            EvidenceError: Trials have no evidence.
+            DefinitionError: A supposition says nothing that is known.
+            TradeoffError: Weights contradict each other.
+        """
+        texts = _suppositions(what_if)
+        if not texts:
+            return self._trade
+        scenario = suppose(self.project, texts)
+        return Trade(project=scenario.project, measured=measured_in(scenario, self._measured), scenario=scenario)
+
+    def robustness(self) -> Robustness:
+        """The decision questioned from every side; as of `trade`."""
+        return self._trade.robustness()
+
+    def effects(self) -> pd.DataFrame:
+        """What each level of each factor does to each measure; as of `trade`."""
+        return self._trade.effects()
+
+    def fleet(self) -> pd.DataFrame:
+        """The designs that together serve the studies of the fleet best, by each study's own evidence.
+
+        Raises:
+            DefinitionError: The study asks for no fleet.
+            EvidenceError: Trials of one of the studies have no evidence.
+            TradeoffError: The choice is ill posed.
+        """
+        projects = portfolio_projects(self.project)
+        with EvidenceStore.open(self.project.evidence, create=False) as store:
+            measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
+        return portfolio_frame(choose_portfolio(self.project, measured))
+
+    def columns(self, frame: str) -> pd.DataFrame:
+        """What the columns of a frame mean, with their units.
+
+        Args:
+            frame: Its name, such as ``trials``.
+
+        Raises:
+            DefinitionError: There is no frame of that name.
+        """
+        if frame not in FRAMES:
+            raise DefinitionError(f"there is no frame {frame!r}", hint=f"frames: {', '.join(FRAMES)}")
+        described = FRAMES[frame]
+        columns = variant_columns(self.project) if frame == "variants" else described.columns
+        rows = [{"column": one.title, "unit": one.unit, "meaning": one.meaning} for one in (*described.index, *columns)]
+        name, *others = (Column(name=name, meaning="", kind=Kind.TEXT) for name in ("column", "unit", "meaning"))
+        return frame_of([name], others, rows)
+
+    def sweep(
+        self,
+        only: Sequence[str | int] | str | int = (),
+        *,
+        jobs: int | None = None,
+        on_trial: Callable[[int, int], None] | None = None,
+    ) -> Study:
+        """Run every trial that has no evidence yet; pieces that trials share are made once.
+
+        Args:
+            only: Which variants, as ``--only`` takes it: ids such as ``"1,5,60-72"``, filters such as
+                ``"d8=RRT"`` or ``"d7 <= 0.8 m/s"``; of several all must hold. All variants by default.
+            jobs: Number of worker processes, one for each core by default; 0 for this process. A script
+                that uses others needs ``if __name__ == "__main__":``, for they import it.
+            on_trial: Called after each trial with the number that is there and that of all.
+
+        Returns:
+            The study with the evidence as it is then.
+
+        Raises:
+            DefinitionError: `only` or `jobs` says nothing that is known.
+            EvidenceError: The store cannot be read or written.
+            SimulationError: Trials could not be made; the others are kept.
+        """
+        terms = [only] if isinstance(only, (str, int, Integral)) else only
+        sweep_study(
+            self.project,
+            picked(self.project.designs, [str(term) for term in terms], option="only"),
+            jobs=jobs,
+            on_trial=on_trial,
+        )
+        return replace(self)
+
+    def trial(
+        self, variant: int, seed: int | None = None, *, fidelity: str | None = None, rate_hz: float | None = None
+    ) -> Trial:
+        """Run one trial, with its course over time where it has contact; nothing is stored.
+
+        Args:
+            variant: Id of the variant.
+            seed: The seed; the study's first by default.
+            fidelity: How much physics it has; the study's by default.
+            rate_hz: Physics steps a second; the study's by default.
+
+        Raises:
+            DefinitionError: There is no such variant or fidelity, or a number is out of range.
+            SimulationError: The physics engine cannot build the world.
+        """
+        return run_one(self.project, self._drawing, variant, seed, fidelity=fidelity, rate_hz=rate_hz)
+
+    def payload(
+        self, variant: int, *, friction: float | None = None, finger_force_n: float | None = None
+    ) -> PayloadResult:
+        """Put a variant's gripper on the payload bench: the mass at which it first fails.
+
+        Args:
+            variant: Id of the variant.
+            friction: Another coefficient of friction of its pads.
+            finger_force_n: Another force of each finger.
+
+        Returns:
+            ``payload_kg`` with what limited it, and ``theory_kg``, which Coulomb's law gives.
+
+        Raises:
+            DefinitionError: There is no such variant, or the bench cannot be run so.
+            SimulationError: The physics engine cannot build the rig.
+        """
+        return payload_of(self.project, variant, friction=friction, finger_force_n=finger_force_n)
+
+    @cached_property
+    def _designs(self) -> tuple[DesignVariant, ...]:
+        return self.project.designs.expand()
+
+    @cached_property
+    def _read(self) -> tuple[tuple[VariantMeasures, ...], ScreeningResult | None]:
+        project = self.project
+        if not project.evidence.exists():
+            raise EvidenceError(f"there is no evidence in {project.evidence}", hint=self._what_to_run)
+        with EvidenceStore.open(project.evidence, create=False) as store:
+            return measure_survivors(project, store, recorded=read_record(project.folder))
+
+    @property
+    def _measured(self) -> tuple[VariantMeasures, ...]:
+        return self._read[0]
+
+    @property
+    def _known(self) -> tuple[VariantMeasures, ...]:
+        """Every variant with its estimates; none if there is no evidence yet."""
+        return self._measured if self.project.evidence.exists() else ()
+
+    @property
+    def _screened(self) -> ScreeningResult | None:
+        return self._read[1] if self.project.evidence.exists() else None
+
+    @property
+    def _tried(self) -> tuple[VariantMeasures, ...]:
+        """Every variant with its estimates, of which at least one has a trial."""
+        measured = self._measured
+        if not any(entry.records for entry in measured):
+            outdated = sum(entry.outdated for entry in measured)
+            old = f"; {outdated} have evidence of an earlier model, code or engine" if outdated else ""
+            raise EvidenceError(
+                f"no trial of study {self.project.study.id!r} at {self.project.study.fidelity.value} fidelity has "
+                f"evidence for the project as it is now{old}",
+                hint=self._what_to_run,
+            )
+        return measured
+
+    @property
+    def _what_to_run(self) -> str:
+        study = self.project.study
+        return (
+            f"call sweep(), or run 'rgss sweep {study.label} --project {self.project.folder} "
+            f"--fidelity {study.fidelity.value} --replicates {study.replicates}'"
+        )
+
+    @cached_property
+    def _trade(self) -> Trade:
+        return Trade(project=self.project, measured=self._measured)
+
+
+def load(
+    folder: Path | None, study: str | None, *, fidelity: str | None, replicates: int | None, drawing: Drawing
+) -> Study:
+    """Read a project and one of its studies; see `rgss.load_study`.
+
+    Args:
+        folder: The project's folder, or a study file in one; the nearest folder at or above the
+            current one if None.
+        study: The study file, relative to the project.
+        fidelity: How much physics a trial has, in place of what the study says.
+        replicates: Trials of each variant, in place of what the study says.
+        drawing: How trials are drawn.
+
+    Raises:
+        DocumentError: Files are wrong; with every problem in all of them.
+        DefinitionError: There is no project, or an argument is impossible.
+    """
+    if folder is not None and folder.suffix in STUDY_SUFFIXES:
+        if study is not None:
+            raise DefinitionError(
+                f"{str(folder)!r} is a study already, and {study!r} another", hint="name a folder and a study, or one"
+            )
+        folder, study = project_of_study(folder)
+    project = load_project(find_project(folder), study)
+    if replicates is not None:
+        if not 1 <= replicates <= MOST_REPLICATES:
+            raise DefinitionError(
+                f"replicates must be from 1 to {MOST_REPLICATES}", hint="leave it away for the study's number"
+            )
+        project = project.with_replicates(replicates)
+    return Study(project=project if fidelity is None else project.with_fidelity(fidelity), _drawing=drawing)
+
+
+def _suppositions(what_if: WhatIf) -> list[str]:
+    if isinstance(what_if, str):
+        return [what_if]
+    if isinstance(what_if, Mapping):
+        # A number of NumPy is written as what it is, not as how it is made.
+        return [f"{name}={value if isinstance(value, str) else repr(float(value))}" for name, value in what_if.items()]
+    return list(what_if)

@@ -1,0 +1,98 @@
+"""Running what a study lacks, with the engine of the command line."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from rgss.decision import sweep_in_stages
+from rgss.designs import DesignVariant
+from rgss.errors import DefinitionError, SimulationError
+from rgss.evidence import EvidenceStore
+from rgss.studies import Project
+from rgss.sweep import FinishedTrial, InlineWorkers, LostTrials, Maker, Workers, compute, origin_of, sweep
+from rgss.trials.pieces import TrialSpec
+
+
+def sweep_study(
+    project: Project,
+    variants: Sequence[DesignVariant],
+    *,
+    jobs: int | None = None,
+    on_trial: Callable[[int, int], None] | None = None,
+) -> None:
+    """Make every trial of some variants that has no evidence, and record the verdicts.
+
+    Args:
+        project: The project with its study.
+        variants: The variants.
+        jobs: Number of worker processes; with 0 trials are run one by one, and a script needs no guard
+            against being imported by workers; one for each core by default.
+        on_trial: Called with the number of trials that are there and of all, for each trial.
+
+    Raises:
+        DefinitionError: `jobs` is below 0, or a variant makes no trial.
+        EvidenceError: The store cannot be read or written, or had another result for the same inputs.
+        SimulationError: Trials could not be made; what could is kept.
+    """
+    if jobs is not None and jobs < 0:
+        raise DefinitionError(f"{jobs} is no number of processes", hint="0 works in this process")
+    runner = _Runner(project, jobs=(os.cpu_count() or 1) if jobs is None else jobs, on_trial=on_trial)
+    with EvidenceStore.open(project.evidence) as store:
+        sweep_in_stages(project, variants, store, lambda specs: runner.run(specs, store))
+    runner.require_all()
+
+
+def _one_by_one(maker: Maker) -> Workers:
+    """One task at a time, without a process that would import the caller's script."""
+    return InlineWorkers(partial(compute, maker))
+
+
+class _Runner:
+    """Runs one list of trials after another and remembers what was lost."""
+
+    def __init__(self, project: Project, *, jobs: int, on_trial: Callable[[int, int], None] | None) -> None:
+        self._project = project
+        self._jobs = jobs
+        self._on_trial = on_trial
+        self._lost: list[LostTrials] = []
+
+    def run(self, specs: Sequence[TrialSpec], store: EvidenceStore) -> set[int]:
+        """Make what is missing; returns the variants of which a trial was run."""
+        run_now: set[int] = set()
+        done = 0
+
+        def on_finished(trial: FinishedTrial) -> None:
+            nonlocal done
+            done += 1
+            if trial.fresh:
+                run_now.add(trial.record.variant)
+            if self._on_trial is not None:
+                self._on_trial(done, len(specs))
+
+        try:
+            result = sweep(
+                specs,
+                store,
+                jobs=self._jobs,
+                on_finished=on_finished,
+                origin=lambda: origin_of(self._project.folder),
+                workers_for=None if self._jobs else _one_by_one,
+            )
+        except SimulationError as error:
+            # A worker imports the script that started it, and would sweep in its turn.
+            hint = "a script that sweeps with processes needs 'if __name__ == \"__main__\":'; or give jobs=0"
+            raise SimulationError(error.message, hint=hint) from error
+        self._lost += result.lost
+        return run_now
+
+    def require_all(self) -> None:
+        """Make sure that nothing was lost."""
+        if self._lost:
+            trials = sum(len(lost.trials) for lost in self._lost)
+            first = self._lost[0].failure
+            raise SimulationError(
+                f"{trials} trials could not be made; first, a {first.what}: {first.kind.value}: {first.detail}",
+                hint="the others are kept; sweep again to try these once more",
+            )

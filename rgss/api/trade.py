@@ -1,0 +1,94 @@
+"""A trade-off for analysts: the decision, and everything about it, as it is or under suppositions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from rgss.api.trade_frames import (
+    acceptability_frame,
+    changes_frame,
+    computed_effects,
+    effects_frame,
+    pareto_frame,
+    ranking_frame,
+    weights_frame,
+)
+from rgss.assessment import VariantMeasures
+from rgss.decision import choose, trade_problem
+from rgss.decision.robustness import Robustness, analyse_robustness
+from rgss.decision.what_if import Scenario
+from rgss.studies import Project
+from rgss.tradeoff import Decision, decision_to_json
+from rgss.tradeoff.programs import Enumeration, enumerate_alternatives
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Trade:
+    """The choice among a study's variants; what takes time is done once, when it is first asked for.
+
+    Raises, as does everything of it: `EvidenceError` where trials have no evidence, `TradeoffError`
+    where the choice is ill posed.
+
+    Attributes:
+        project: The project, under suppositions if there are any.
+        measured: Every variant that the decision is between.
+        scenario: The suppositions; None if there are none.
+    """
+
+    project: Project = field(repr=False)
+    measured: tuple[VariantMeasures, ...] = field(repr=False)
+    scenario: Scenario | None = field(default=None, repr=False)
+
+    @cached_property
+    def decision(self) -> Decision:
+        """What is decided: chosen, runner-up, ties, ranking, what is infeasible and why, certificate."""
+        return choose(self.project, self.measured)
+
+    @cached_property
+    def enumeration(self) -> Enumeration:
+        """Every variant with its value and what it violates."""
+        return enumerate_alternatives(trade_problem(self.project, self.measured))
+
+    @property
+    def ranking(self) -> pd.DataFrame:
+        """The feasible variants, best first."""
+        return ranking_frame(self.decision)
+
+    @property
+    def pareto(self) -> pd.DataFrame:
+        """The feasible variants, and whether another is at least as good in all weighted measures."""
+        return pareto_frame(trade_problem(self.project, self.measured), self.enumeration)
+
+    @property
+    def changes(self) -> pd.DataFrame:
+        """What is supposed; no row if nothing is."""
+        return changes_frame(self.scenario)
+
+    def robustness(self) -> Robustness:
+        """The decision questioned from every side; some seconds the first time."""
+        return self._robustness
+
+    def effects(self) -> pd.DataFrame:
+        """What each level of each factor, and of each pair of factors, does to each measure."""
+        return effects_frame(computed_effects(self._robustness))
+
+    def weights(self) -> pd.DataFrame:
+        """How far each weight may move alone before another variant is chosen."""
+        return weights_frame(self._robustness)
+
+    def acceptability(self) -> pd.DataFrame:
+        """For what share of all weights, and of the noise, each variant is the best (SMAA-2)."""
+        return acceptability_frame(self._robustness)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The decision as plain values for JSON."""
+        return decision_to_json(self.decision)
+
+    @cached_property
+    def _robustness(self) -> Robustness:
+        return analyse_robustness(self.project, self.measured, self.decision)

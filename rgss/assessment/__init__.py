@@ -1,0 +1,36 @@
+"""From trial records to estimates and verdicts, and what has become stale since."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.assessment.estimate_bounds import EstimateBounds, bounds_by_measure
+    from rgss.assessment.evidence_status import evidence_state, project_marks
+    from rgss.assessment.measuring import (
+        VariantMeasures,
+        measure_variants,
+        require_complete,
+        requirements_with_criteria,
+    )
+    from rgss.assessment.recorded_verdicts import VerdictRecord, read_record
+    from rgss.assessment.recording import record_after_sweep, record_verdicts
+    from rgss.assessment.replicates import replicates_of
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "EstimateBounds",
+    "VariantMeasures",
+    "VerdictRecord",
+    "bounds_by_measure",
+    "evidence_state",
+    "measure_variants",
+    "project_marks",
+    "read_record",
+    "record_after_sweep",
+    "record_verdicts",
+    "replicates_of",
+    "require_complete",
+    "requirements_with_criteria",
+]

@@ -1,0 +1,140 @@
+"""What trials of kinematic fidelity prove about trials of the same designs with more physics.
+
+The two have their plans and timings in common: a move that finds no path, or cannot be timed, fails
+both. Everything else that the kinematic model takes for granted - that a grasp holds, that nothing
+slips, that the arm follows - may fail with more physics. From this follows, for a trial and its twin:
+
+- the twin completes at most the phases before a failure that they have in common, and any number of
+  phases where the kinematic trial had none;
+- where the twin succeeds, its planning times, checks and path lengths are the kinematic ones;
+- of forces, contacts, slip and of the times of motion nothing is known.
+
+So a mean over the successful twins lies between the least and the greatest value over the successful
+kinematic trials, of which the former are some; and a share of successes is at most the kinematic one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from rgss.assessment.measuring import VariantMeasures
+from rgss.assessment.replicates import replicates_of
+from rgss.evidence import Failure, TrialRecord
+from rgss.measures import Estimate, Estimator, Measure, Population, proportion_estimate
+from rgss.studies import Project
+
+_TRIAL = "trial."
+_PROGRESS = frozenset({"phases_completed", "phases_total", "success"})
+_PLANNED = frozenset({"planning_time_s", "planning_checks", "path_length_m"})
+IN_COMMON = frozenset(
+    {
+        Failure.PLANNING_LIMIT,
+        Failure.INVALID_START,
+        Failure.INVALID_GOAL,
+        Failure.UNREACHABLE_WAYPOINT,
+        Failure.TRAJECTORY_INFEASIBLE,
+        Failure.TRAJECTORY_IN_COLLISION,
+    }
+)
+"""Failures that a trial has at every fidelity, for they come before any motion."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EstimateBounds:
+    """What the estimate of a measure can be with more physics.
+
+    Attributes:
+        bounded: Whether anything is known of it.
+        estimates: The estimates between which it lies, from the least; empty where it cannot have a
+            value, as the time of a task that no trial completes.
+    """
+
+    bounded: bool
+    estimates: tuple[Estimate, ...] = ()
+
+
+UNBOUNDED = EstimateBounds(bounded=False)
+
+
+def bounds_by_measure(project: Project, entry: VariantMeasures) -> Mapping[str, EstimateBounds]:
+    """What every measure of a variant can be with more physics, by its id.
+
+    Args:
+        project: The project.
+        entry: The variant with all its kinematic trials.
+    """
+    rows = replicates_of(project.measures, entry)
+    progress = _values_by_progress(project, entry)
+    found = {}
+    for measure in project.measures.measures:
+        if measure.estimate is None:
+            found[measure.id] = EstimateBounds(bounded=True, estimates=(entry.estimates[measure.id],))
+            continue
+        sources = project.measures.sources(measure.id)
+        metrics = {source.removeprefix(_TRIAL) for source in sources if source.startswith(_TRIAL)}
+        if measure.estimate.over is Population.SUCCESSFUL and metrics <= _PROGRESS | _PLANNED:
+            found[measure.id] = _over_successful(measure, entry.records, rows[measure.id])
+        elif measure.estimate.over is Population.ALL and metrics <= _PROGRESS:
+            found[measure.id] = _over_all(measure, entry.records, progress)
+        else:
+            found[measure.id] = UNBOUNDED
+    return found
+
+
+def _over_successful(measure: Measure, records: Sequence[TrialRecord], row: Sequence[float | None]) -> EstimateBounds:
+    known = []
+    for record, value in zip(records, row, strict=True):
+        if record.failure in IN_COMMON:
+            continue
+        if value is None:
+            return UNBOUNDED
+        known.append(value)
+    if measure.estimate is None or measure.estimate.statistic is not Estimator.MEAN:
+        return UNBOUNDED
+    ends = dict.fromkeys((min(known), max(known))) if known else {}
+    return EstimateBounds(bounded=True, estimates=tuple(Estimate.exact(end, measure.unit) for end in ends))
+
+
+def _over_all(
+    measure: Measure,
+    records: Sequence[TrialRecord],
+    progress: Sequence[Mapping[str, float | None]],
+) -> EstimateBounds:
+    least, greatest = [], []
+    for record in records:
+        most = len(progress) - 1
+        if record.failure in IN_COMMON:
+            most = min(most, int(record.metrics["phases_completed"] or 0))  # type: ignore[arg-type]
+        values = [row[measure.id] for row in progress[: most + 1]]
+        known = [value for value in values if value is not None]
+        if len(known) < len(values):
+            return UNBOUNDED
+        least.append(min(known))
+        greatest.append(max(known))
+    if not records or measure.estimate is None:
+        return UNBOUNDED
+    if measure.estimate.statistic is Estimator.PROPORTION:
+        counts = range(round(sum(least)), round(sum(greatest)) + 1)
+        return EstimateBounds(
+            bounded=True, estimates=tuple(proportion_estimate(count, len(records)) for count in counts)
+        )
+    ends = dict.fromkeys((sum(least) / len(records), sum(greatest) / len(records)))
+    return EstimateBounds(bounded=True, estimates=tuple(Estimate.exact(end, measure.unit) for end in ends))
+
+
+def _values_by_progress(project: Project, entry: VariantMeasures) -> list[Mapping[str, float | None]]:
+    """The value of every measure after each number of completed phases, from none to all.
+
+    Only those of measures that take nothing but their progress from trials mean anything.
+    """
+    if not entry.records:
+        return []
+    first = entry.records[0]
+    total = len(first.phases)
+    twins = tuple(
+        replace(first, metrics={**first.metrics, "phases_completed": done, "success": int(done == total)})
+        for done in range(total + 1)
+    )
+    rows = replicates_of(project.measures, replace(entry, records=twins))
+    return [{name: row[done] for name, row in rows.items()} for done in range(total + 1)]

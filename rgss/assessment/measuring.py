@@ -1,0 +1,213 @@
+"""From stored evidence to the estimates and verdicts of every variant."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+from rgss.assessment.recorded_verdicts import Basis, Book, RecordedVerdict, VerdictRecord, study_key
+from rgss.assessment.staleness import BasisReader, causes_since, outdated_trials
+from rgss.designs import DesignVariant, sources
+from rgss.errors import EvidenceError
+from rgss.evidence import EvidenceStore, TrialRecord
+from rgss.measures import Estimate, StaleCause, Verdict, evaluate, judge
+from rgss.requirements import Criterion, Requirement
+from rgss.studies import Project, trial_specs
+from rgss.sweep import key_of
+from rgss.trials.pieces import TrialSpec
+
+_UNDECIDED = (Verdict.NOT_RUN, Verdict.STALE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VariantMeasures:
+    """What is known of one variant.
+
+    Attributes:
+        variant: The variant.
+        trials: The keys of the trials that it stands on, in the order of their seeds.
+        records: Their records.
+        missing: How many of its trials have no evidence.
+        estimates: The estimate of each measure by its id.
+        verdicts: The verdict on each requirement with a criterion, by its id.
+        outdated: How many of the missing trials have evidence of an earlier model, code or engine.
+        causes: For each requirement whose verdict is stale, what changed since its evidence.
+        bases: What each verdict is a verdict on, by the requirement's id.
+    """
+
+    variant: DesignVariant
+    trials: tuple[str, ...]
+    records: tuple[TrialRecord, ...]
+    missing: int
+    estimates: Mapping[str, Estimate]
+    verdicts: Mapping[str, Verdict]
+    outdated: int = 0
+    causes: Mapping[str, tuple[StaleCause, ...]] = field(default_factory=lambda: MappingProxyType({}))
+    bases: Mapping[str, Basis] = field(default_factory=lambda: MappingProxyType({}))
+
+
+def measure_variants(
+    project: Project, store: EvidenceStore | None, *, recorded: VerdictRecord | None = None
+) -> tuple[VariantMeasures, ...]:
+    """Estimate every measure of every variant from the evidence that is there, and judge the requirements.
+
+    Only evidence of the project, the code and the engines as they are now is estimated from. A
+    verdict that needs a trial of which there is but older evidence is stale, and so is one whose
+    requirement, measure or design changed since it was recorded. Where no trial was run a verdict
+    on what is observed in trials is not run; where trials were run and none gives a value, it is
+    inconclusive.
+
+    Args:
+        project: The project with its study.
+        store: The evidence; None if there is none yet.
+        recorded: The verdicts that were recorded; None to leave changes of requirements and
+            measures out.
+
+    Raises:
+        DefinitionError: A measure is not defined for a design.
+        EvidenceError: The store is damaged.
+    """
+    variants = project.designs.expand()
+    specs: dict[int, dict[str, TrialSpec]] = {}
+    for spec in trial_specs(project, variants=variants):
+        specs.setdefault(spec.variant, {})[key_of(spec)] = spec
+    found: Mapping[str, TrialRecord] = {}
+    outdated: dict[int, list[tuple[StaleCause, ...]]] = {}
+    if store is not None:
+        found = store.records([key for row in specs.values() for key in row])
+        missing = [spec for row in specs.values() for key, spec in row.items() if key not in found]
+        for (variant_id, _), causes in outdated_trials(missing, store).items():
+            outdated.setdefault(variant_id, []).append(causes)
+    book = _book_of(project, recorded)
+    reader = BasisReader(project)
+    return tuple(
+        _judged(
+            project, _measured(project, variant, specs[variant.id], found), book, outdated.get(variant.id, ()), reader
+        )
+        for variant in variants
+    )
+
+
+def record_of(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    recorded: VerdictRecord,
+    *,
+    variants: Collection[int] | None = None,
+) -> VerdictRecord:
+    """The record with the verdicts of some variants as the evidence gives them now.
+
+    They are judged by the requirements and measures as they are now. A verdict for which evidence
+    is missing or outdated is left as it was recorded.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its estimates.
+        recorded: The record so far.
+        variants: Ids of the variants; all by default.
+    """
+    key = study_key(project.study.label, project.study.fidelity.value)
+    before = recorded.of_study(key)
+    there = {entry.variant.id for entry in measured}
+    book: dict[str, Mapping[int, RecordedVerdict]] = {}
+    for requirement, criterion in _criteria(project):
+        kept = {variant: one for variant, one in before.get(requirement.id, {}).items() if variant in there}
+        for entry in measured:
+            if variants is not None and entry.variant.id not in variants:
+                continue
+            if entry.outdated and project.measures.measure(criterion.measure).from_trials:
+                continue
+            verdict = _verdict(criterion, entry, stale=False)
+            if verdict not in _UNDECIDED:
+                kept[entry.variant.id] = RecordedVerdict(verdict=verdict, basis=entry.bases[requirement.id])
+        if kept:
+            book[requirement.id] = MappingProxyType(kept)
+    return VerdictRecord(studies=MappingProxyType({**recorded.studies, key: MappingProxyType(book)}))
+
+
+def require_complete(measured: Sequence[VariantMeasures]) -> None:
+    """Make sure that every trial of the study has evidence.
+
+    Raises:
+        EvidenceError: Some have none.
+    """
+    missing = sum(variant.missing for variant in measured)
+    total = missing + sum(len(variant.records) for variant in measured)
+    if missing:
+        outdated = sum(variant.outdated for variant in measured)
+        old = f"; {outdated} of them have evidence of an earlier model, code or engine" if outdated else ""
+        raise EvidenceError(
+            f"{missing} of {total} trials have no evidence for the project as it is now{old}",
+            hint="run 'rgss sweep' first",
+        )
+
+
+def requirements_with_criteria(project: Project) -> tuple[Requirement, ...]:
+    """The system requirements that a measure decides."""
+    return tuple(requirement for requirement, _ in _criteria(project))
+
+
+def _criteria(project: Project) -> tuple[tuple[Requirement, Criterion], ...]:
+    return tuple((one, one.criterion) for one in project.requirements.system if one.criterion is not None)
+
+
+def _book_of(project: Project, recorded: VerdictRecord | None) -> Book:
+    if recorded is None:
+        return MappingProxyType({})
+    return recorded.of_study(study_key(project.study.label, project.study.fidelity.value))
+
+
+def _measured(
+    project: Project, variant: DesignVariant, keys: Mapping[str, TrialSpec], found: Mapping[str, TrialRecord]
+) -> VariantMeasures:
+    there = tuple(key for key in keys if key in found)
+    records = tuple(found[key] for key in there)
+    estimates = evaluate(
+        project.measures,
+        fixed=sources(variant),
+        trials=[record.metrics for record in records],
+        seed=project.study.seed,
+        variant=variant.id,
+    )
+    return VariantMeasures(
+        variant=variant,
+        trials=there,
+        records=records,
+        missing=len(keys) - len(there),
+        estimates=estimates,
+        verdicts=MappingProxyType({}),
+    )
+
+
+def _judged(
+    project: Project,
+    entry: VariantMeasures,
+    book: Book,
+    outdated: Sequence[tuple[StaleCause, ...]],
+    reader: BasisReader,
+) -> VariantMeasures:
+    bases, stale, verdicts = {}, {}, {}
+    for requirement, criterion in _criteria(project):
+        basis = reader.basis(requirement, criterion, entry.variant)
+        found = set(causes_since(book.get(requirement.id, {}).get(entry.variant.id), basis))
+        if project.measures.measure(criterion.measure).from_trials:
+            found.update(cause for causes in outdated for cause in causes)
+        causes = tuple(cause for cause in StaleCause if cause in found)
+        if causes:
+            stale[requirement.id] = causes
+        bases[requirement.id] = basis
+        verdicts[requirement.id] = _verdict(criterion, entry, stale=bool(causes))
+    return replace(
+        entry,
+        verdicts=MappingProxyType(verdicts),
+        outdated=len(outdated),
+        causes=MappingProxyType(stale),
+        bases=MappingProxyType(bases),
+    )
+
+
+def _verdict(criterion: Criterion, entry: VariantMeasures, *, stale: bool) -> Verdict:
+    """The verdict by the evidence that holds now; trials that give no value leave it open."""
+    verdict = judge(criterion, entry.estimates[criterion.measure], stale=stale)
+    return Verdict.INCONCLUSIVE if verdict is Verdict.NOT_RUN and entry.records else verdict

@@ -1,0 +1,162 @@
+"""The verdicts of a study as they were last recorded, with digests of what they were verdicts on.
+
+A verdict is computed from stored evidence whenever it is asked for, by the requirement and the
+measure as they are then. So that a change of either is not taken for what the evidence was made
+for, a verdict is recorded together with digests of the requirement, of its measure's definition
+down to the last constant, and of the design values behind it: by `rgss measure --record`, and by
+`record_after_sweep` for the variants that a sweep has run. Until it is recorded again, a verdict
+whose digests differ from the recorded ones is stale.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from rgss.documents import canonical_json, replaced_file
+from rgss.errors import EvidenceError
+from rgss.evidence.records import is_digest
+from rgss.evidence.store import error_of
+from rgss.measures import Verdict
+
+FILE = ".rgss/verdicts.json"
+"""The record, relative to the project; beside the evidence, for it is about that evidence alone."""
+
+SCHEMA_VERSION = 1
+LARGEST_FILE_BYTES = 256 * 1024 * 1024
+
+_HINT = "remove it and run 'rgss measure --record'"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Basis:
+    """What a verdict is a verdict on, by SHA-256.
+
+    Attributes:
+        requirement: The requirement: its sentence, its criterion, how it is verified.
+        measure: The definition of its measure and of all below it.
+        design: The values of the design that the measure is computed from.
+    """
+
+    requirement: str
+    measure: str
+    design: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordedVerdict:
+    """One recorded verdict.
+
+    Attributes:
+        verdict: The verdict.
+        basis: What it was a verdict on.
+    """
+
+    verdict: Verdict
+    basis: Basis
+
+
+Book = Mapping[str, Mapping[int, RecordedVerdict]]
+"""The recorded verdicts on each requirement by its id, for each variant by its id."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerdictRecord:
+    """Every recorded verdict of a project.
+
+    Attributes:
+        studies: The recorded verdicts of each study, by `study_key`.
+    """
+
+    studies: Mapping[str, Book] = field(default_factory=lambda: MappingProxyType({}))
+
+    def of_study(self, key: str) -> Book:
+        """The recorded verdicts of one study; none if none were recorded."""
+        return self.studies.get(key, MappingProxyType({}))
+
+
+def study_key(label: str, fidelity: str) -> str:
+    """What the record knows a study by: its file and how much physics its trials have."""
+    return f"{label} at fidelity {fidelity}"
+
+
+def read_record(folder: Path) -> VerdictRecord:
+    """Read what was recorded; an empty record if nothing was.
+
+    Args:
+        folder: The project's folder.
+
+    Raises:
+        EvidenceError: The file is damaged or was written by another version.
+    """
+    path = folder / FILE
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE_BYTES + 1)
+    except FileNotFoundError:
+        return VerdictRecord()
+    except OSError as error:
+        raise EvidenceError(f"{FILE} cannot be read: {error.strerror}", hint="check its permissions") from error
+    if len(content) > LARGEST_FILE_BYTES:
+        raise EvidenceError(f"{FILE} is too large", hint=_HINT)
+    try:
+        data = json.loads(content)
+        if data["schema"] != SCHEMA_VERSION:
+            raise EvidenceError(f"{FILE} has schema {data['schema']!r}; this rgss reads {SCHEMA_VERSION}", hint=_HINT)
+        studies = {str(key): _book(book) for key, book in data["studies"].items()}
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise EvidenceError(f"{FILE} is no record of verdicts", hint=_HINT) from error
+    return VerdictRecord(studies=MappingProxyType(studies))
+
+
+def write_record(folder: Path, record: VerdictRecord) -> Path:
+    """Write the record as a whole or not at all; the same record gives the same bytes.
+
+    Args:
+        folder: The project's folder.
+        record: Every recorded verdict.
+
+    Returns:
+        The file.
+
+    Raises:
+        EvidenceError: The file cannot be written.
+    """
+    path = folder / FILE
+    data = {"schema": SCHEMA_VERSION, "studies": {key: _plain(book) for key, book in record.studies.items()}}
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with replaced_file(path, replace_source=True) as part:
+            part.write_text(canonical_json(data) + "\n", encoding="ascii")
+    except OSError as error:
+        raise error_of(error)(f"{FILE} cannot be written: {error.strerror}", hint="check the folder") from error
+    return path
+
+
+def _plain(book: Book) -> dict[str, Any]:
+    return {
+        requirement: {
+            str(variant): {"verdict": one.verdict, **asdict(one.basis)} for variant, one in sorted(variants.items())
+        }
+        for requirement, variants in book.items()
+    }
+
+
+def _book(data: Mapping[str, Any]) -> Book:
+    return MappingProxyType(
+        {
+            str(requirement): MappingProxyType({int(variant): _verdict(one) for variant, one in variants.items()})
+            for requirement, variants in data.items()
+        }
+    )
+
+
+def _verdict(data: Mapping[str, Any]) -> RecordedVerdict:
+    digests = {name: data[name] for name in ("requirement", "measure", "design")}
+    if not all(is_digest(digest) for digest in digests.values()):
+        raise ValueError("not a digest")
+    return RecordedVerdict(verdict=Verdict(data["verdict"]), basis=Basis(**digests))

@@ -1,0 +1,59 @@
+"""What each replicate of a variant showed of each measure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from rgss.assessment.measuring import VariantMeasures
+from rgss.designs import sources
+from rgss.measures import (
+    COMPLETE,
+    FUNCTIONS,
+    Estimator,
+    Measure,
+    MeasureSet,
+    Population,
+    Value,
+    design_values,
+    trial_values,
+)
+
+
+def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, tuple[float | None, ...]]:
+    """The value of every measure that is observed in trials, in each trial of a variant.
+
+    Their mean is the estimate: a measure that is estimated over successful trials is unknown in the
+    others, and one that is a proportion is 1 or 0 in each.
+
+    Args:
+        measures: The measures.
+        variant: The variant with its records, in the order of their seeds.
+
+    Returns:
+        Values in the measure's unit, by measure; None where a trial does not tell.
+
+    Raises:
+        DefinitionError: A measure is not defined for the design.
+    """
+    design = design_values(measures, fixed=sources(variant.variant), variant=variant.variant.id)
+    rows: dict[str, list[float | None]] = {measure.id: [] for measure in measures.measures if measure.from_trials}
+    for record in variant.records:
+        values = trial_values(measures, design=design, trial=record.metrics)
+        succeeded = record.metrics.get("success") == 1
+        for measure in measures.measures:
+            if measure.from_trials:
+                rows[measure.id].append(_observed(measure, values, succeeded=succeeded))
+    return {measure: tuple(row) for measure, row in rows.items()}
+
+
+def _observed(measure: Measure, values: Mapping[str, Value], *, succeeded: bool) -> float | None:
+    rule = measure.estimate
+    if rule is None or (rule.over is Population.SUCCESSFUL and not succeeded):
+        return None
+    value = values[measure.id]
+    if measure.summary is not None:
+        value = FUNCTIONS[measure.summary.value].evaluate((value,))
+    if not isinstance(value, float):
+        return None
+    quantity = value / measure.si_per_unit
+    return float(quantity >= COMPLETE) if rule.statistic is Estimator.PROPORTION else quantity

@@ -1,0 +1,20 @@
+"""Options and files of the pictures that ``rgss run`` and ``rgss report`` make."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.cli.pictures.options import add_pictures, made_pictures, ordered_pictures, traced_trial
+    from rgss.cli.pictures.report import ordered_look, trial_pictures
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "add_pictures",
+    "made_pictures",
+    "ordered_look",
+    "ordered_pictures",
+    "traced_trial",
+    "trial_pictures",
+]

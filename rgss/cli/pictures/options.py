@@ -1,0 +1,274 @@
+"""Options of ``rgss run`` for looking at the trial: film, filmstrip, plots."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rgss.cli.output import shown_path
+from rgss.cli.safe_output import own_stream
+from rgss.errors import DefinitionError
+
+if TYPE_CHECKING:
+    from rgss.evidence import TrialRecord
+    from rgss.evidence.records import TrialTrace
+    from rgss.physics import View
+    from rgss.reports.trials import CaptionedPicture
+    from rgss.trials import Film
+    from rgss.trials.pieces import TrialSpec
+
+SUFFIXES = {"gif": ".gif", "filmstrip": ".png", "plots": ".png"}
+_PACKAGES = {"PIL": "pillow", "matplotlib": "matplotlib"}
+_CAMERA, _SIZE, _RATE_HZ = "overview+hand", "640x480", 12.0
+_SMALLEST, _LARGEST = 200, 2000
+_NEAREST_M, _FARTHEST_M = 0.3, 10.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PictureOrder:
+    """The pictures that are wanted.
+
+    Attributes:
+        files: The file of each kind: ``gif``, ``filmstrip``, ``plots``.
+        view: Where the camera stands.
+        inset: Where the camera of a smaller picture within each picture stands; None without one.
+        width: Width of each picture in pixels.
+        height: Height of each picture in pixels.
+        rate_hz: Frames a second of the film.
+    """
+
+    files: dict[str, Path]
+    view: View
+    inset: View | None
+    width: int
+    height: int
+    rate_hz: float
+
+
+def add_pictures(parser: argparse.ArgumentParser) -> None:
+    """Add the options for pictures."""
+    group = parser.add_argument_group("looking at it", "of a trial with contact; what is shown changes no result")
+    group.add_argument("--gif", type=Path, metavar="FILE", help="write a film")
+    group.add_argument("--filmstrip", type=Path, metavar="FILE", help="write a PNG of the ends of the eight states")
+    group.add_argument("--plots", type=Path, metavar="FILE", help="write a PNG of joints, speed and forces over time")
+    group.add_argument(
+        "--camera",
+        metavar="VIEW",
+        help="overview, hand, side, or azimuth,elevation,distance in degrees and metres; "
+        f"a second one after a plus is inset (default: {_CAMERA})",
+    )
+    group.add_argument("--size", metavar="SIZE", help=f"width and height in pixels (default: {_SIZE})")
+    group.add_argument("--fps", type=float, metavar="N", help=f"frames a second of the film (default: {_RATE_HZ:g})")
+
+
+def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
+    """What pictures the options ask for, with every file one that can be written; None if they ask for none.
+
+    Raises:
+        DefinitionError: An option is wrong, a file cannot be written, or a package is missing.
+    """
+    files = {kind: path for kind in SUFFIXES if (path := getattr(options, kind)) is not None}
+    for option in ("camera", "size", "fps"):
+        needed = ("gif",) if option == "fps" else ("gif", "filmstrip")
+        if getattr(options, option) is not None and not any(kind in files for kind in needed):
+            named = " or ".join(f"--{kind}" for kind in needed)
+            raise DefinitionError(f"--{option} is given, but no picture that it is for", hint=f"add {named}")
+    if not files:
+        return None
+    _require_packages()
+    _check_files(files)
+    width, height = picture_size(options.size or _SIZE)
+    main, plus, inset = (options.camera or _CAMERA).partition("+")
+    return PictureOrder(
+        files=files,
+        view=_view(main),
+        inset=_view(inset) if plus else None,
+        width=width,
+        height=height,
+        rate_hz=film_rate(_RATE_HZ if options.fps is None else options.fps),
+    )
+
+
+def traced_trial(spec: TrialSpec) -> tuple[TrialRecord, TrialTrace | None]:
+    """Run a trial so that pictures of it can be made; there is no trace if nothing moved.
+
+    Raises:
+        DefinitionError: The trial's fidelity has nothing to show.
+        SimulationError: The physics engine cannot build the world.
+    """
+    from rgss.evidence import Fidelity
+    from rgss.sweep import compute
+    from rgss.trials import run_traced_trial
+
+    if spec.fidelity is not Fidelity.CONTACT:
+        raise DefinitionError(
+            f"there are no pictures of a trial of {spec.fidelity.value} fidelity", hint="add --fidelity contact"
+        )
+    return compute(run_traced_trial, spec)
+
+
+def made_pictures(
+    order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: TrialTrace | None
+) -> tuple[str, ...]:
+    """Draw what was ordered and write the files.
+
+    Returns:
+        What was made, a line for each.
+
+    Raises:
+        DefinitionError: A file cannot be written after all.
+        SimulationError: The engine cannot draw the scene.
+    """
+    if trace is None:
+        return ("No pictures: the trial ended before anything moved.",)
+    try:
+        _make(order, spec, record, trace)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise DefinitionError(f"cannot write the pictures: {reason}", hint="choose another place") from error
+    return tuple(f"{kind}: {shown_path(path)}" for kind, path in order.files.items())
+
+
+def _make(order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: TrialTrace) -> None:
+    from rgss.reports.trials import write_film, write_filmstrip, write_trial_plots
+    from rgss.trials import Film
+
+    files = order.files
+    if "plots" in files:
+        joints = [joint.name for joint in spec.scene.robot.joints]
+        write_trial_plots(files["plots"], record, trace, joints=joints)
+    if not {"gif", "filmstrip"} & set(files):
+        return
+    with Film(
+        spec,
+        trace,
+        order.view,
+        inset=order.inset,
+        width=order.width,
+        height=order.height,
+        rate_hz=order.rate_hz,
+    ) as film:
+        if "filmstrip" in files:
+            ends = {frame.span.phase: frame.picture for frame in film.ends_of_phases()}
+            write_filmstrip(files["filmstrip"], record, ends)
+        if "gif" in files:
+            with _progress(len(film)) as advance:
+                write_film(
+                    files["gif"],
+                    lambda index: captioned(film, index, record),
+                    count=len(film),
+                    rate_hz=order.rate_hz,
+                    on_frame=advance,
+                )
+
+
+def captioned(film: Film, index: int, record: TrialRecord) -> CaptionedPicture:
+    """A frame of a film with its time and phase written into it, and in the last how the trial ended."""
+    from rgss.evidence import Phase
+    from rgss.reports.trials import CaptionedPicture, words
+
+    def titled(phase: Phase) -> str:
+        return f"{list(Phase).index(phase) + 1} {words(phase.value)}"
+
+    frame = film.frame(index)
+    phase = frame.span.phase
+    caption = f"{frame.time_s:.2f} s   {titled(phase)}"
+    if index == len(film) - 1:
+        # A state that nothing moved in has no frame of its own.
+        if record.failed_phase not in (None, phase):
+            caption += f"; {titled(record.failed_phase)}"
+        caption += f": {'done' if record.failure is None else words(record.failure.value)}"
+    return CaptionedPicture(picture=frame.picture, caption=caption)
+
+
+def _require_packages() -> None:
+    from importlib.util import find_spec
+
+    missing = [name for module, name in _PACKAGES.items() if find_spec(module) is None]
+    if missing:
+        raise DefinitionError(f"pictures need {' and '.join(missing)}", hint=f"run 'pip install {' '.join(missing)}'")
+
+
+def _check_files(files: dict[str, Path]) -> None:
+    from rgss.documents import why_not_writable
+
+    kind_of: dict[Path, str] = {}
+    for kind, path in files.items():
+        suffix = SUFFIXES[kind]
+        if path.suffix.lower() != suffix:
+            raise DefinitionError(f"--{kind}: {path} is no {suffix} file", hint=f"give a name that ends in {suffix}")
+        reason = why_not_writable(path)
+        if reason:
+            raise DefinitionError(f"--{kind}: cannot write {path}: {reason}", hint="choose another place")
+        other = kind_of.setdefault(path.resolve(), kind)
+        if other != kind:
+            raise DefinitionError(f"--{other} and --{kind} name the same file", hint="give each its own")
+
+
+def _view(text: str) -> View:
+    from rgss.physics import VIEWS, View
+
+    if text in VIEWS:
+        return VIEWS[text]
+    try:
+        azimuth, elevation, distance = (float(part) for part in text.split(","))
+    except ValueError:
+        raise DefinitionError(
+            f"--camera: there is no view {text!r}",
+            hint=f"choose {', '.join(VIEWS)}, or azimuth,elevation,distance such as 215,30,2.5",
+        ) from None
+    if not (math.isfinite(azimuth) and -90 <= elevation <= 90 and _NEAREST_M <= distance <= _FARTHEST_M):
+        raise DefinitionError(
+            f"--camera: {text} is out of range",
+            hint=f"elevation from -90 to 90 degrees, distance from {_NEAREST_M:g} to {_FARTHEST_M:g} m",
+        )
+    return View(azimuth_rad=math.radians(azimuth), elevation_rad=math.radians(elevation), distance_m=distance)
+
+
+def picture_size(text: str, option: str = "--size") -> tuple[int, int]:
+    """Width and height of a text such as ``640x480``.
+
+    Raises:
+        DefinitionError: It is no size, or one out of range.
+    """
+    match = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text, re.ASCII)
+    if match is None:
+        raise DefinitionError(f"{option}: {text!r} is no size", hint=f"write width and height, such as {_SIZE}")
+    width, height = int(match[1]), int(match[2])
+    if not (_SMALLEST <= width <= _LARGEST and _SMALLEST <= height <= _LARGEST):
+        raise DefinitionError(
+            f"{option}: {text} is out of range", hint=f"give from {_SMALLEST} to {_LARGEST} pixels each way"
+        )
+    return width, height
+
+
+def film_rate(rate_hz: float, option: str = "--fps") -> float:
+    """Frames a second, if a film can have so many.
+
+    Raises:
+        DefinitionError: It cannot.
+    """
+    from rgss.reports.trials import HIGHEST_RATE_HZ
+
+    if not 1.0 <= rate_hz <= HIGHEST_RATE_HZ:
+        raise DefinitionError(f"{option}: {rate_hz:g} is out of range", hint=f"give from 1 to {HIGHEST_RATE_HZ:g}")
+    return rate_hz
+
+
+@contextmanager
+def _progress(total: int) -> Iterator[Callable[[], None]]:
+    """A progress bar on standard error; silent where that is not a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("Frames"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(file=own_stream(sys.stderr)), disable=not sys.stderr.isatty()) as bar:
+        task = bar.add_task("frames", total=total)
+        yield lambda: bar.advance(task)

@@ -1,0 +1,148 @@
+"""Pictures for a report: the few trials that are worth looking at, run once more and filmed."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rgss.evidence.records import TrialTrace
+    from rgss.reports import TrialPictures
+    from rgss.reports.study import NotableTrial
+    from rgss.studies import Project
+    from rgss.trials.pieces import TrialSpec
+
+MOST_LARGE_FILMS = 4
+"""Of more trials the films are small, so that a dozen of them stay within a few megabytes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmLook:
+    """How films look.
+
+    Attributes:
+        width: Width in pixels.
+        height: Height in pixels.
+        rate_hz: Frames a second.
+    """
+
+    width: int
+    height: int
+    rate_hz: float
+
+
+LARGE = FilmLook(width=480, height=360, rate_hz=8.0)
+SMALL = FilmLook(width=400, height=300, rate_hz=5.0)
+
+
+def ordered_look(size: str | None, rate_hz: float | None, *, films: int) -> FilmLook:
+    """How films look by the options, or as fits their number where these say nothing.
+
+    Args:
+        size: Width and height, such as ``640x480``; None if not given.
+        rate_hz: Frames a second; None if not given.
+        films: How many films there are.
+
+    Raises:
+        DefinitionError: A size or a rate is out of range.
+    """
+    from rgss.cli.pictures.options import film_rate, picture_size
+
+    fitting = LARGE if films <= MOST_LARGE_FILMS else SMALL
+    width, height = (fitting.width, fitting.height) if size is None else picture_size(size, "--film-size")
+    return FilmLook(
+        width=width,
+        height=height,
+        rate_hz=fitting.rate_hz if rate_hz is None else film_rate(rate_hz, "--film-rate"),
+    )
+
+
+def trial_pictures(
+    project: Project, notable: Sequence[NotableTrial], *, look: FilmLook | None
+) -> tuple[tuple[TrialPictures, ...], str]:
+    """Film trials, or say why not.
+
+    Args:
+        project: The project with its study.
+        notable: The trials.
+        look: How films look; None if no pictures are wanted.
+
+    Returns:
+        The pictures, and what there is to say of them; empty if nothing.
+
+    Raises:
+        DefinitionError: A package for pictures is missing.
+        SimulationError: The physics engine cannot build or draw the world.
+    """
+    from rgss.evidence import Fidelity
+    from rgss.studies import trial_specs
+
+    if not notable:
+        return (), "There are no trials to look at."
+    if look is None:
+        return (), "The report was made without films; each trial can be filmed by “rgss run ID --seed N --gif FILE”."
+    if project.study.fidelity is not Fidelity.CONTACT:
+        return (), f"Trials of {project.study.fidelity.value} fidelity have nothing to film; those with contact have."
+    made = []
+    for place, one in enumerate(notable, start=1):
+        if sys.stderr.isatty():
+            print(f"\rFilming trial {place} of {len(notable)}", end="", file=sys.stderr)
+        variant = project.designs.variant(one.record.variant)
+        (spec,) = trial_specs(project, variants=[variant], seeds=[one.record.seed])
+        made.append(_pictures(project, one, spec, look))
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+    return tuple(made), ""
+
+
+def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLook) -> TrialPictures:
+    from rgss.evidence import record_digest
+    from rgss.reports import TrialPictures
+    from rgss.studies import DEFAULT_STUDY
+    from rgss.sweep import compute
+    from rgss.trace.evidence import KEY_DIGITS
+    from rgss.trials import run_traced_trial
+
+    record, trace = compute(run_traced_trial, spec)
+    same = record_digest(record) == record_digest(one.record)
+    strip, film = (b"", b"") if trace is None else _drawn(spec, one, trace, look)
+    label = project.study.label
+    named = "" if label == DEFAULT_STUDY else f" --study {shlex.quote(label)}"
+    detail = one.record.failure_detail
+    end = "It succeeded." if one.record.success else f"{detail[:1].upper()}{detail[1:]}."
+    return TrialPictures(
+        title=f"Variant {one.record.variant}, seed {one.record.seed}: {one.why}",
+        note=end if same else f"{end} Run again, it did not give the same bits.",
+        replay=f"rgss replay {one.key[:KEY_DIGITS]}{named}",
+        filmstrip=strip,
+        film=film,
+    )
+
+
+def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook) -> tuple[bytes, bytes]:
+    from rgss.cli.pictures.options import captioned
+    from rgss.physics import VIEWS
+    from rgss.reports.trials import write_film, write_filmstrip
+    from rgss.trials import Film
+
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        Film(
+            spec,
+            trace,
+            VIEWS["overview"],
+            inset=VIEWS["hand"],
+            width=look.width,
+            height=look.height,
+            rate_hz=look.rate_hz,
+        ) as film,
+    ):
+        strip, gif = Path(folder) / "strip.png", Path(folder) / "film.gif"
+        write_filmstrip(strip, one.record, {frame.span.phase: frame.picture for frame in film.ends_of_phases()})
+        write_film(gif, lambda index: captioned(film, index, one.record), count=len(film), rate_hz=look.rate_hz)
+        return strip.read_bytes(), gif.read_bytes()

@@ -1,0 +1,95 @@
+"""How far a sweep is, on standard error while it runs."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from rgss.cli.safe_output import own_stream
+
+if TYPE_CHECKING:
+    from rgss.sweep import SweepState
+
+
+class SweepProgress:
+    """A bar with rate, remaining time, outcomes and pieces; silent where standard error is no terminal."""
+
+    def __init__(self, total: int) -> None:
+        """Prepare the bar.
+
+        Args:
+            total: How many trials there are.
+        """
+        self._total = total
+        self._fresh = 0
+        self._progress: Any = None
+        self._task: Any = None
+
+    def __enter__(self) -> SweepProgress:
+        if not sys.stderr.isatty():
+            return self
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+        from rich.table import Column
+
+        self._progress = Progress(
+            TextColumn("Trials"),
+            BarColumn(bar_width=12),
+            MofNCompleteColumn(table_column=Column(no_wrap=True)),
+            TextColumn("{task.fields[outcomes]}"),
+            # In a narrow terminal the end of these words gives way, not the numbers before them.
+            TextColumn("{task.fields[course]}", table_column=Column(no_wrap=True, ratio=1)),
+            expand=True,
+            console=Console(file=own_stream(sys.stderr)),
+        )
+        self._progress.start()
+        self._task = self._progress.add_task("trials", total=self._total, outcomes="", course="")
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._progress is not None:
+            self._progress.stop()
+
+    def finished(self, tally: Counter[str]) -> None:
+        """Take note that another trial has a record.
+
+        Args:
+            tally: How many were ``run`` and ``kept``, ``succeeded`` and ``failed``.
+        """
+        self._fresh = tally["run"]
+        if self._progress is not None:
+            outcomes = f"{tally['succeeded']} succeeded, {tally['failed']} failed"
+            self._progress.update(self._task, completed=tally["run"] + tally["kept"], outcomes=outcomes)
+
+    def state(self, state: SweepState) -> None:
+        """Take note of how far the work is.
+
+        Args:
+            state: How far it is.
+        """
+        if self._progress is not None:
+            self._progress.update(self._task, course=course_of(state, fresh=self._fresh))
+
+
+def course_of(state: SweepState, *, fresh: int) -> str:
+    """Rate, remaining time and pieces in one line.
+
+    Args:
+        state: How far the sweep is.
+        fresh: How many trials have got a record in it.
+    """
+    parts = []
+    if fresh and state.elapsed_s > 0.0:
+        parts.append(f"{fresh / state.elapsed_s:.1f}/s")
+    if state.remaining_s is not None and state.tasks_left:
+        minutes, seconds = divmod(round(state.remaining_s), 60)
+        parts.append(f"{minutes}:{seconds:02d} left")
+    made, reused = sum(state.made.values()), sum(state.reused.values())
+    parts.append(f"{made} made, {state.tasks_left} to make" + (f", {reused} from evidence" if reused else ""))
+    if state.saved:
+        parts.append(f"{state.saved} shared")
+    return "; ".join(parts)

@@ -1,0 +1,222 @@
+"""``rgss check``: the project's files, their wording, their traceability and, where asked for, their evidence."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rgss.findings import Finding
+    from rgss.studies import Project
+
+HELP = "check the project's files, wording, traceability and scene, without a simulation"
+EXAMPLE = "rgss check --explain wording.R7"
+MORE_EXAMPLES = (
+    ("rgss check", "files, wording and traceability of the project"),
+    ("rgss check --evidence", "the stored evidence and the result of the tests too"),
+    ("rgss check --review all", "stamp every requirement as reviewed; or name some, such as SYS-005 SYS-009"),
+)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    parser.add_argument("--all", action="store_true", help="show notes too, not only errors and warnings")
+    parser.add_argument(
+        "--evidence", action="store_true", help="check the stored evidence and the result of the tests too"
+    )
+    parser.add_argument(
+        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+    )
+    parser.add_argument("--explain", nargs="?", const="", metavar="RULE", help="explain a rule, or list all of them")
+    parser.add_argument("--markdown", action="store_true", help="with --explain: write the page of all rules")
+    parser.add_argument(
+        "--review",
+        nargs="+",
+        metavar="ID",
+        help="stamp these elements as reviewed ('all': every requirement), and check nothing",
+    )
+    parser.add_argument("--reviewer", metavar="NAME", help="with --review: who has read them (default: the login name)")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Check and report; 1 if there are errors or warnings, 2 if a file cannot be used."""
+    _refuse_idle(options)
+    if options.explain is not None:
+        return _explain(options)
+    if options.review is not None:
+        return _review(options)
+    return _check(options)
+
+
+def _check(options: argparse.Namespace) -> int:
+    from rgss.cli.command_parser import BAD_INPUT
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import print_json
+    from rgss.errors import DocumentError
+    from rgss.findings import Severity
+    from rgss.guard import guard_findings
+    from rgss.studies import (
+        bench_findings,
+        check_scene,
+        find_project,
+        impact_findings,
+        invisible_findings,
+        load_project,
+        unread_findings,
+    )
+
+    skipped = ""
+    folder = find_project(options.project)
+    of_files = (*unread_findings(folder), *invisible_findings(folder))
+    project: Project | None = None
+    try:
+        project = load_project(folder, options.study)
+        scene = check_scene(project)
+        skipped = scene.skipped
+        findings: Sequence[Finding] = (
+            *of_files,
+            *guard_findings(project),
+            *bench_findings(project),
+            *impact_findings(project),
+            *scene.findings,
+            *_findings(project, options),
+        )
+    except DocumentError as error:
+        # A file that cannot be read may be one that something names.
+        broken = {finding.file for finding in error.findings}
+        findings = (*error.findings, *(finding for finding in of_files if finding.file not in broken))
+    grave = [finding for finding in findings if finding.severity is not Severity.INFO]
+    if options.json:
+        print_json({"findings": [_as_json(finding) for finding in findings], "skipped": [skipped] if skipped else []})
+    else:
+        for finding in findings if options.all else grave:
+            print(finding)
+        if skipped:
+            print(f"Skipped: {skipped}.")
+        if project is not None:
+            notes = 0 if options.all else len(findings) - len(grave)
+            print(_summary(project, len(grave), notes))
+    if project is None:
+        return BAD_INPUT
+    return FINDINGS if grave else CLEAN
+
+
+def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, ...]:
+    from rgss.assessment import evidence_state, project_marks, read_record
+    from rgss.cli.output import shown_path
+    from rgss.decision import measure_survivors
+    from rgss.evidence import EvidenceStore
+    from rgss.trace import check_trace
+
+    marked = project_marks(project.folder)
+    if not options.evidence:
+        return check_trace(project.requirements, project.measure_traces, marked=marked)
+    recorded = read_record(project.folder)
+    if project.evidence.exists():
+        with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
+            measured, _ = measure_survivors(project, store, recorded=recorded)
+    else:
+        # Then it is a finding of each requirement that its evidence is missing.
+        measured, _ = measure_survivors(project, None, recorded=recorded)
+    state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
+    return check_trace(project.requirements, project.measure_traces, marked=marked, evidence=state)
+
+
+def _explain(options: argparse.Namespace) -> int:
+    from rgss.cli.main import CLEAN
+    from rgss.cli.output import print_json
+    from rgss.trace.rules import RULES, rule_as_json, rule_lines, rule_of, rules_markdown
+
+    if options.markdown:
+        print(rules_markdown(), end="")
+        return CLEAN
+    rules = [rule_of(options.explain)] if options.explain else list(RULES)
+    if options.json:
+        print_json({"rules": [rule_as_json(rule) for rule in rules]})
+        return CLEAN
+    for index, rule in enumerate(rules):
+        if index:
+            print()
+        if options.explain:
+            print(*rule_lines(rule), sep="\n")
+        else:
+            print(f"{rule.id} ({rule.severity.value})\n  {rule.explanation}")
+    return CLEAN
+
+
+def _review(options: argparse.Namespace) -> int:
+    from rgss.cli.main import CLEAN
+    from rgss.cli.output import print_json, shown_path
+    from rgss.errors import DocumentError
+    from rgss.requirements import load_requirements
+    from rgss.studies import find_project, without_consequences
+    from rgss.trace.rules import expanded, stamped, write_reviews
+
+    folder = find_project(options.project) / "requirements"
+    try:
+        requirements = load_requirements(folder)
+    except DocumentError as error:
+        raise DocumentError(without_consequences(error.findings)) from error
+    ids = expanded(requirements, options.review)
+    reviews = stamped(requirements, ids, options.reviewer or _login_name())
+    path = shown_path(write_reviews(folder, reviews))
+    if options.json:
+        print_json({"reviewed": list(ids), "reviewer": reviews[ids[0]].reviewer if ids else "", "file": path})
+    else:
+        elements = "1 element" if len(ids) == 1 else f"{len(ids)} elements"
+        print(f"Reviewed {elements}; {path} has {len(reviews)} {'review' if len(reviews) == 1 else 'reviews'}.")
+    return CLEAN
+
+
+def _refuse_idle(options: argparse.Namespace) -> None:
+    """Options that would do nothing beside the others are a mistake of whoever gave them.
+
+    Raises:
+        DefinitionError: There is one.
+    """
+    from rgss.errors import DefinitionError
+
+    if options.explain is not None and options.review is not None:
+        raise DefinitionError("--explain and --review exclude each other", hint="give one of them")
+    if options.markdown and options.explain != "":
+        raise DefinitionError("--markdown writes the page of all rules", hint="rgss check --explain --markdown")
+    if options.reviewer is not None and options.review is None:
+        raise DefinitionError("--reviewer goes with --review", hint="rgss check --review ID --reviewer NAME")
+    if options.junit is not None and not options.evidence:
+        raise DefinitionError("--junit goes with --evidence", hint="rgss check --evidence --junit FILE")
+
+
+def _login_name() -> str:
+    import getpass
+
+    from rgss.errors import DefinitionError
+
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError) as error:
+        raise DefinitionError("the login name is not known", hint="give --reviewer NAME") from error
+
+
+def _summary(project: Project, grave: int, notes: int) -> str:
+    return (
+        f"{len(project.requirements.stakeholder)} stakeholder and {len(project.requirements.system)} system "
+        f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants: "
+        f"{grave} finding{'' if grave == 1 else 's'}"
+        + (f", {notes} note{'' if notes == 1 else 's'} (--all shows {'it' if notes == 1 else 'them'})" if notes else "")
+    )
+
+
+def _as_json(finding: Finding) -> dict[str, Any]:
+    return {
+        "rule": finding.rule,
+        "severity": finding.severity.value,
+        "message": finding.message,
+        "file": finding.file,
+        "line": finding.line,
+        "column": finding.column,
+        "hint": finding.hint,
+    }

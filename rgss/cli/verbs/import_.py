@@ -1,0 +1,142 @@
+"""``rgss import``: requirements from a file of another tool; first what would change, then the change."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from rgss.exchange import Content, ElementChange, FileChange, Part
+    from rgss.studies import Project
+
+HELP = "show what a file of another tool would change in the requirements, and apply it if asked to"
+EXAMPLE = "rgss import xlsx requirements.xlsx --apply"
+MORE_EXAMPLES = (("rgss import csv requirements.csv", "show what would change, and change nothing"),)
+FORMATS = ("reqif", "csv", "xlsx")
+KINDS = ("stakeholder", "system")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument("format", choices=FORMATS, metavar="FORMAT", help=f"one of {', '.join(FORMATS)}")
+    parser.add_argument("file", type=Path, metavar="FILE", help="the file to read")
+    parser.add_argument("--apply", action="store_true", help="write the changes into the project's YAML files")
+    parser.add_argument("--remove", action="store_true", help="with --apply: also remove what the file lacks")
+    parser.add_argument("--as", dest="kind", choices=KINDS, metavar="KIND", help="what new elements of other tools are")
+    parser.add_argument(
+        "--default",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="an attribute that new elements get where the file has none",
+    )
+    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Report and, if asked to, apply; 1 if changes are not applied, or something of the file is not taken over."""
+    from rgss.cli.import_report import print_report, report_as_json
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import print_json
+    from rgss.errors import DefinitionError, DocumentError
+    from rgss.exchange import compare, content_of, planned, rehearsed, written
+    from rgss.studies import FOLDERS, find_project, load_project
+
+    if options.remove and not options.apply:
+        raise DefinitionError("--remove goes with --apply", hint="without either, nothing is written")
+    folder = find_project(options.project)
+    project = load_project(folder, options.study)
+    wishes = _wishes(options)
+    foreign = _read(project, options, wishes.part)
+    own = content_of(project.requirements)
+    changes = compare(own, foreign, wishes)
+    files: Sequence[FileChange] = planned(folder, project.requirements, changes, remove=options.remove)
+    try:
+        rehearsed(folder, files, lambda copy: _check(copy, options, changes, own), folders=FOLDERS)
+    except DocumentError as error:
+        if not options.json:
+            print_report(changes, foreign)
+        after = [replace(each, message=f"after the import: {each.message}") for each in error.findings]
+        raise DocumentError(after) from error
+    if options.apply:
+        written(folder, files)
+    if options.json:
+        print_json(report_as_json(changes, foreign, files, applied=options.apply))
+    else:
+        print_report(changes, foreign)
+        print(_outcome(changes, foreign, files, options))
+    taken = foreign.rows or foreign.measures
+    return FINDINGS if not taken or foreign.losses or (changes and not options.apply) else CLEAN
+
+
+def _wishes(options: argparse.Namespace) -> Any:
+    from rgss.errors import DefinitionError
+    from rgss.exchange import ATTRIBUTES, Part, Wishes
+
+    names = {each.name for attributes in ATTRIBUTES.values() for each in attributes} - {"id"}
+    defaults: dict[str, str] = {}
+    for each in options.default:
+        name, equals, value = each.partition("=")
+        if not equals or name not in names:
+            known = ", ".join(sorted(names))
+            raise DefinitionError(f"--default {each!r} is not NAME=VALUE with a known name", hint=f"names: {known}")
+        defaults[name] = value
+    return Wishes(part=None if options.kind is None else Part(options.kind), defaults=defaults)
+
+
+def _read(project: Project, options: argparse.Namespace, part: Part | None) -> Content:
+    if options.format == "reqif":
+        from rgss.exchange import part_of
+        from rgss.exchange.reqif import read_reqif
+
+        known: Mapping[str, Part] = {element.id: part_of(element) for element in project.requirements.elements}
+        return read_reqif(options.file, known=known, part=part)
+    from rgss.exchange.tables import read_csv, read_excel
+
+    return read_excel(options.file) if options.format == "xlsx" else read_csv(options.file)
+
+
+def _check(copy: Path, options: argparse.Namespace, changes: Sequence[ElementChange], before: Content) -> None:
+    """Load the project as it would be, and make sure that it says what the changes say.
+
+    Raises:
+        DocumentError: It cannot be loaded.
+        DefinitionError: It says something else.
+    """
+    from rgss.errors import DefinitionError
+    from rgss.exchange import content_of, not_as_planned
+    from rgss.studies import load_project
+
+    study = None if options.study is None else str(options.study)
+    after = content_of(load_project(copy, study).requirements)
+    wrong = not_as_planned(changes, before, after, remove=options.remove)
+    if wrong:
+        raise DefinitionError(
+            f"the change to {wrong[0]!r} cannot be written into its file as that stands", hint="edit the YAML by hand"
+        )
+
+
+def _outcome(
+    changes: Sequence[ElementChange], foreign: Content, files: Sequence[FileChange], options: argparse.Namespace
+) -> str:
+    from rgss.exchange import ChangeKind
+
+    if not changes:
+        taken = foreign.rows or foreign.measures
+        why = "the notes above say why" if foreign.notes else "it holds no element"
+        return "No changes." if taken else f"Nothing of the file was taken: {why}."
+    counts = {kind: sum(change.kind is kind for change in changes) for kind in ChangeKind}
+    said = ", ".join(f"{count} {kind.value}" for kind, count in counts.items())
+    if not options.apply:
+        return f"{said}; nothing is written (--apply writes it)."
+    gone = counts[ChangeKind.REMOVED]
+    kept = f"; what the file lacks is kept: {gone} (--remove removes it)" if gone and not options.remove else ""
+    written = [file.name for file in files if file.new is not None]
+    removed = [file.name for file in files if file.new is None]
+    into = [f"written into {', '.join(written)}"] if written else []
+    into += [f"removed the empty {', '.join(removed)}"] if removed else []
+    return f"{said}; {'; '.join(into) or 'nothing to write'}{kept}."

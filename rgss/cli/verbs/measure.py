@@ -1,0 +1,168 @@
+"""``rgss measure``: measures and verdicts from evidence."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+
+if TYPE_CHECKING:
+    from rgss.assessment import VariantMeasures
+    from rgss.studies import Project
+
+HELP = "estimate the measures of every variant from evidence, and judge the requirements"
+EXAMPLE = "rgss measure --json > measures.json"
+MORE_EXAMPLES = (
+    ("rgss measure", "the measures of effectiveness and the verdicts of every variant"),
+    ("rgss measure --variant 2", "every measure and verdict of one"),
+)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
+    parser.add_argument("--variant", type=int, metavar="ID", help="only this variant, with every measure")
+    parser.add_argument("--verdicts", action="store_true", help="only the verdicts, and why one is stale")
+    parser.add_argument(
+        "--record",
+        action="store_true",
+        help="record the verdicts on the requirements and measures as they are now, so that later changes show",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Show the measures; what has no evidence is shown as not known."""
+    from rgss.assessment import read_record, record_verdicts
+    from rgss.cli.output import print_json, shown_path
+    from rgss.cli.sweep import screening_lines
+    from rgss.decision import measure_survivors
+    from rgss.errors import DefinitionError
+    from rgss.evidence import EvidenceStore
+
+    project = chosen_project(options)
+    if options.variant is not None:
+        project.designs.variant(options.variant)
+        if options.record:
+            raise DefinitionError("--record is of all variants", hint="leave --variant away")
+    with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
+        recorded = record_verdicts(project, store) if options.record else read_record(project.folder)
+        measured, screened = measure_survivors(project, store, recorded=recorded)
+    if options.variant is not None:
+        for one in () if screened is None else screened.screened_out:
+            if one.variant == options.variant:
+                raise DefinitionError(
+                    f"variant {one.variant} was screened out: {one.reason}",
+                    hint=f"'--fidelity {screened.screening.fidelity.value}' shows what is known of it",  # type: ignore[union-attr]
+                )
+        measured = tuple(entry for entry in measured if entry.variant.id == options.variant)
+    if options.json:
+        print_json(list(_verdict_rows(measured) if options.verdicts else _measure_rows(measured)))
+    elif options.verdicts:
+        _print_verdicts(measured)
+    elif options.variant is not None:
+        _print_variant(project, measured[0])
+    else:
+        _print_all(project, measured)
+    if screened is not None and options.variant is None and not options.json:
+        print("\n" + "\n".join(screening_lines(screened)))
+    return 0
+
+
+def _measure_rows(measured: Sequence[VariantMeasures]) -> Iterator[dict[str, Any]]:
+    for entry in measured:
+        for name, estimate in entry.estimates.items():
+            yield {
+                "variant": entry.variant.id,
+                "measure": name,
+                "value": estimate.value,
+                "unit": estimate.unit,
+                "low": estimate.low,
+                "high": estimate.high,
+                "n": estimate.n,
+            }
+
+
+def _verdict_rows(measured: Sequence[VariantMeasures]) -> Iterator[dict[str, Any]]:
+    for entry in measured:
+        for requirement, verdict in entry.verdicts.items():
+            changed = [cause.value for cause in entry.causes.get(requirement, ())]
+            yield {
+                "variant": entry.variant.id,
+                "requirement": requirement,
+                "verdict": verdict.value,
+                "changed": changed,
+            }
+
+
+def _print_verdicts(measured: Sequence[VariantMeasures]) -> None:
+    from rgss.cli.output import print_table
+
+    rows = [
+        [str(row["variant"]), row["requirement"], row["verdict"], ", ".join(row["changed"])]
+        for row in _verdict_rows(measured)
+    ]
+    print_table(["variant", "requirement", "verdict", "changed since"], rows, right=(0,))
+    _print_stale(measured)
+
+
+def _print_variant(project: Project, entry: VariantMeasures) -> None:
+    from rgss.cli.output import number, print_table
+
+    rows = []
+    for measure in project.measures.measures:
+        estimate = entry.estimates[measure.id]
+        rows.append(
+            [
+                measure.id,
+                measure.kind.value.upper(),
+                measure.name,
+                number(estimate.value),
+                estimate.unit,
+                f"{number(estimate.low)} … {number(estimate.high)}",
+                str(estimate.n),
+            ]
+        )
+    print_table(["measure", "kind", "name", "value", "unit", "interval", "trials"], rows, right=(3, 6))
+    print()
+    print_table(["requirement", "verdict"], [[name, verdict.value] for name, verdict in entry.verdicts.items()])
+    _print_stale([entry])
+
+
+def _print_all(project: Project, measured: Sequence[VariantMeasures]) -> None:
+    from rgss.cli.output import number, print_table
+    from rgss.measures import MeasureKind
+
+    shown = project.measures.of_kind(MeasureKind.EFFECTIVENESS)
+    titles = ["variant", *(f"{m.id} [{m.unit}]" for m in shown), "trials", *(measured[0].verdicts if measured else ())]
+    rows = []
+    for entry in measured:
+        cells = []
+        for m in shown:
+            estimate = entry.estimates[m.id]
+            spread = estimate.n > 0 and estimate.low is not None and estimate.low != estimate.high
+            cells.append(
+                number(estimate.value) + (f" ({number(estimate.low, 3)}–{number(estimate.high, 3)})" if spread else "")
+            )
+        rows.append(
+            [str(entry.variant.id), *cells, str(len(entry.records)), *(v.value for v in entry.verdicts.values())]
+        )
+    print_table(titles, rows, right=(0,))
+    _print_stale(measured)
+
+
+def _print_stale(measured: Sequence[VariantMeasures]) -> None:
+    """Say why verdicts are stale, and what to do about it."""
+    counts = Counter(causes for entry in measured for causes in entry.causes.values())
+    if not counts:
+        return
+    print()
+    for causes, count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
+        verdicts, verb = ("verdict is", "it was") if count == 1 else ("verdicts are", "they were")
+        what = ", ".join(cause.value for cause in causes)
+        print(f"{count} {verdicts} stale, for this changed since {verb} made: {what}")
+    print("'rgss sweep' makes the evidence anew; 'rgss measure --record' judges anew by the evidence that is there.")

@@ -1,0 +1,189 @@
+"""``rgss report``: the whole study on one page that loads nothing."""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rgss.assessment import VariantMeasures, VerdictRecord
+    from rgss.reports.trace import TraceReport
+    from rgss.studies import Project
+    from rgss.tradeoff import Decision
+
+HELP = "write the decision and everything that it stands on as one HTML page"
+EXAMPLE = "rgss report --out report.html"
+MORE_EXAMPLES = (
+    ("rgss report --no-film", "without films, for which a few trials are run again"),
+    ("rgss report --film-size 640x480 --film-rate 12", "with larger and smoother films"),
+)
+LARGEST_PAGE = 15_000_000
+"""A larger page is a nuisance to open and to send, and the reader of the terminal is told."""
+DEFAULT_FILE = Path("report.html")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
+    parser.add_argument(
+        "-o", "--out", type=Path, default=DEFAULT_FILE, metavar="FILE", help=f"the page (default: {DEFAULT_FILE})"
+    )
+    parser.add_argument(
+        "--no-film", action="store_true", help="leave out filmstrips and films, for which a few trials are run again"
+    )
+    parser.add_argument(
+        "--film-size",
+        metavar="SIZE",
+        help="width and height of films in pixels (default: 480x360, or 400x300 if there are many)",
+    )
+    parser.add_argument(
+        "--film-rate", type=float, metavar="N", help="frames a second of films (default: 8, or 5 if there are many)"
+    )
+    parser.add_argument(
+        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the page; 1 if no variant meets every requirement, or if a choice is not proven best."""
+    from rgss.assessment import read_record, require_complete
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import shown_path
+    from rgss.cli.pictures import ordered_look, trial_pictures
+    from rgss.cli.verbs.trade import is_settled, portfolio_of
+    from rgss.decision import choose, measure_survivors, trade_problem
+    from rgss.decision.robustness import analyse_robustness
+    from rgss.errors import EvidenceError
+    from rgss.evidence import EvidenceStore
+    from rgss.reports import study_report_to_html
+    from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
+    from rgss.reports.study import notable_trials, report_document
+
+    _check_file(options.out)
+    _check_films(options)
+    project = chosen_project(options)
+    label = shown_path(project.evidence)
+    recorded = read_record(project.folder)
+    if not project.evidence.exists():
+        raise EvidenceError(f"there is no evidence in {label}", hint=f"run '{_sweep_command(options)}' first")
+    with EvidenceStore.open(project.evidence, create=False, label=label) as store:
+        measured, screened = measure_survivors(project, store, recorded=recorded)
+        try:
+            require_complete(measured)
+        except EvidenceError as error:
+            raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
+        problem = trade_problem(project, measured)
+        decision = choose(project, measured, problem=problem)
+        trace = _trace(project, measured, decision, recorded, options.junit)
+        found = analyse_robustness(project, measured, decision, problem=problem)
+        fleet = portfolio_of(project, store)
+        document = report_document(
+            project,
+            measured,
+            decision,
+            found,
+            store,
+            evidence=label,
+            screened=screened,
+            fleet=fleet,
+        )
+    notable = notable_trials(measured, decision.chosen)
+    look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
+    pictures, notice = trial_pictures(project, notable, look=look)
+    page = study_report_to_html(
+        document,
+        trace,
+        drawings=drawings_for_page(diagrams_of(project.requirements)),
+        drawings_notice=missing_diagrams(project.requirements),
+        pictures=pictures,
+        pictures_notice=notice,
+    ).encode("utf-8")
+    _write(options.out, page)
+    _tell(options, document, len(page))
+    return CLEAN if is_settled(decision, fleet) and not found.not_computed else FINDINGS
+
+
+def _check_films(options: argparse.Namespace) -> None:
+    """Films are made last, and what is wrong with them is told first."""
+    from rgss.cli.pictures import ordered_look
+    from rgss.errors import DefinitionError
+
+    given = [name for name in ("film_size", "film_rate") if getattr(options, name) is not None]
+    if options.no_film and given:
+        raise DefinitionError(f"--{given[0].replace('_', '-')} is given with --no-film", hint="leave one of them away")
+    ordered_look(options.film_size, options.film_rate, films=0)
+
+
+def _sweep_command(options: argparse.Namespace) -> str:
+    """The command that makes the evidence that this report stands on."""
+    words = ["rgss", "sweep", *([options.study] if options.study else [])]
+    for name in ("project", "fidelity", "replicates"):
+        value = getattr(options, name)
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    return shlex.join(words)
+
+
+def _trace(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    decision: Decision,
+    recorded: VerdictRecord,
+    junit: Path | None,
+) -> TraceReport:
+    from rgss.assessment import evidence_state
+    from rgss.decision import trace_evidence
+    from rgss.errors import DefinitionError
+    from rgss.reports.trace import trace_report
+    from rgss.trace.model import build_trace_model
+
+    state = evidence_state(project, measured, recorded=recorded, junit=junit)
+    if junit is not None and state.software is None:
+        raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
+    return trace_report(
+        build_trace_model(project.requirements, project.measure_traces),
+        trace_evidence(project, measured, state, decision=decision),
+        title=f"Traceability of the study {project.study.id}",
+        definitions=project.measures,
+    )
+
+
+def _check_file(path: Path) -> None:
+    from rgss.documents import why_not_writable
+    from rgss.errors import DefinitionError
+
+    if path.suffix.lower() not in (".html", ".htm"):
+        # So that nobody writes a report over a file that is something else.
+        raise DefinitionError(f"{str(path)!r} does not end in .html", hint="name the file so")
+    problem = why_not_writable(path)
+    if problem:
+        raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a file that can be")
+
+
+def _write(path: Path, page: bytes) -> None:
+    from rgss.documents import replaced_file
+
+    with replaced_file(path) as part:
+        part.write_bytes(page)
+
+
+def _tell(options: argparse.Namespace, document: dict[str, Any], size: int) -> None:
+    from rgss.cli.output import print_json
+
+    decision = document["decision"]
+    if options.json:
+        print_json({"file": str(options.out), "bytes": size, "report": document})
+        return
+    print(decision["headline"])
+    for line in decision["not_computed"]:
+        print(line)
+    large = "; --film-size and --film-rate make it smaller" if size > LARGEST_PAGE and not options.no_film else ""
+    print(f"Wrote {options.out} ({size / 1e6:.1f} MB{large})")

@@ -1,0 +1,120 @@
+"""``rgss run``: one trial, phase by phase."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from rgss.cli.options import add_fidelity, chosen_project
+from rgss.cli.pictures import add_pictures, made_pictures, ordered_pictures, traced_trial
+
+HELP = "run one trial and show it phase by phase"
+EXAMPLE = "rgss run 2 --seed 3"
+MORE_EXAMPLES = (
+    ("rgss run 2 --gif trial.gif", "and film it"),
+    ("rgss run 2 --fidelity kinematic", "motion alone, quickly"),
+)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument("variant", type=int, metavar="ID", help="the variant's id")
+    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    add_fidelity(parser)
+    parser.add_argument("--seed", type=int, metavar="N", help="the trial's seed (default: the study's first)")
+    add_pictures(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the trial; 1 if it does not succeed."""
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import print_json
+    from rgss.errors import DefinitionError
+    from rgss.evidence import record_digest
+    from rgss.studies import trial_specs
+    from rgss.sweep import compute
+    from rgss.trials.pieces import run_trial
+
+    order = ordered_pictures(options)
+    project = chosen_project(options)
+    seed = project.study.seed if options.seed is None else options.seed
+    if not 0 <= seed < 2**31:
+        raise DefinitionError(f"seed {seed} is out of range", hint="give a seed from 0 to 2147483647")
+    variant = project.designs.variant(options.variant)
+    (spec,) = trial_specs(project, variants=[variant], seeds=[seed])
+    record, trace = (compute(run_trial, spec), None) if order is None else traced_trial(spec)
+    digest = record_digest(record)
+    if options.json:
+        print_json(_as_json(record, digest))
+    else:
+        _show(record, digest)
+    if order is not None:
+        lines = made_pictures(order, spec, record, trace)
+        if not options.json:
+            print(*lines, sep="\n")
+    return CLEAN if record.success else FINDINGS
+
+
+def _as_json(record: Any, digest: str) -> dict[str, Any]:
+    return {
+        "variant": record.variant,
+        "seed": record.seed,
+        "success": record.success,
+        "failure": None if record.failure is None else record.failure.value,
+        "failure_detail": record.failure_detail,
+        "phases": [
+            {
+                "phase": phase.phase.value,
+                "outcome": phase.outcome.value,
+                "duration_s": phase.duration_s,
+                "metrics": dict(phase.metrics),
+            }
+            for phase in record.phases
+        ],
+        "planning": [
+            {
+                "subtask": planning.subtask.value,
+                "outcome": planning.outcome.value,
+                "checks": planning.checks,
+                "simplification_checks": planning.simplification_checks,
+                "time_s": planning.time_s,
+                "path_length_m": planning.path_length_m,
+            }
+            for planning in record.planning
+        ],
+        "metrics": dict(record.metrics),
+        "digest": digest,
+    }
+
+
+def _show(record: Any, digest: str) -> None:
+    from rgss.cli.output import number, print_table
+
+    planning = {entry.subtask: entry for entry in record.planning}
+    rows = []
+    for position, phase in enumerate(record.phases, start=1):
+        planned = planning.get(phase.phase)
+        rows.append(
+            [
+                str(position),
+                phase.phase.value,
+                phase.outcome.value,
+                number(phase.duration_s),
+                "" if planned is None else str(planned.checks),
+                "" if planned is None else number(planned.time_s),
+                "" if planned is None else number(planned.path_length_m),
+                number(phase.metrics.get("grip_margin_min")),
+                number(None if phase.metrics.get("slip_m") is None else phase.metrics["slip_m"] * 1e3, 2),
+            ]
+        )
+    print(f"Variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity")
+    titles = ["", "phase", "outcome", "time [s]", "checks", "planning [s]", "path [m]", "grip margin", "slip [mm]"]
+    print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))
+    metrics = record.metrics
+    if record.success:
+        stands = metrics["place_error_m"]
+        where = "" if stands is None else f": the object stands {number(1e3 * stands, 3)} mm from the place"
+        print(f"Success in {number(metrics['task_time_s'])} s (planning included){where}.")
+    else:
+        print(f"Failed at {record.failed_phase.value}: {record.failure.value}: {record.failure_detail}")
+    print(f"digest {digest}")

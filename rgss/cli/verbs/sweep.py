@@ -1,0 +1,220 @@
+"""``rgss sweep``: all trials of a study, resumable."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+from rgss.cli.verbs.variants import ONLY_HELP
+
+if TYPE_CHECKING:
+    from rgss.cli.sweep import ExecutionBackend
+    from rgss.designs import DesignVariant
+    from rgss.evidence import EvidenceStore
+    from rgss.studies import Project
+    from rgss.sweep import FinishedTrial, SweepResult, WorkerLimits
+    from rgss.trials.pieces import TrialSpec
+
+HELP = "run every trial of a study that has no evidence yet"
+EXAMPLE = "rgss sweep --replicates 10 --jobs 2"
+MORE_EXAMPLES = (
+    ("rgss sweep --dry-run", "say what would be made and why"),
+    ("rgss sweep --fidelity kinematic", "motion alone, for a first look"),
+    ("rgss sweep --only d1=2 --only 1/3", "a balanced third of the designs with two fingers"),
+    ("rgss sweep --until decided --cap 50", "add trials where they can still change the decision"),
+)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
+    parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
+    parser.add_argument("--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler instead")
+    parser.add_argument("--only", action="append", metavar="WHICH", help=ONLY_HELP)
+    parser.add_argument(
+        "--until",
+        choices=("decided",),
+        help="add trials only to variants that can still change the decision or a verdict",
+    )
+    parser.add_argument(
+        "--cap", type=int, metavar="N", help="with --until: most trials of a variant (default: the study's)"
+    )
+    parser.add_argument("--dry-run", action="store_true", help="say what would be made and why, and make nothing")
+    parser.add_argument(
+        "--no-share", action="store_true", help="run every trial by itself: the same records, at many times the cost"
+    )
+    parser.add_argument(
+        "--time-limit", metavar="TIME", help="longest time for one piece, such as '5 min' (default: '5 min')"
+    )
+    parser.add_argument(
+        "--memory-limit", metavar="SIZE", help="most memory of a worker, such as '4 GB' (default: '2 GB')"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run what is missing; progress and failures of the run go to standard error; 3 if there are any."""
+    from rgss.cli.main import CLEAN, RUN_FAILED
+    from rgss.cli.output import print_json, shown_path
+    from rgss.cli.sweep import (
+        execution_backend,
+        jobs_of,
+        lost_line,
+        result_as_json,
+        result_lines,
+        screening_as_json,
+        screening_lines,
+        sweep_until_decided,
+    )
+    from rgss.decision import sweep_in_stages
+    from rgss.designs import picked
+    from rgss.errors import DefinitionError
+    from rgss.evidence import EvidenceStore
+
+    project = chosen_project(options)
+    jobs_of(options)
+    limits = _limits(options)
+    if options.cap is not None and options.until is None:
+        raise DefinitionError("--cap needs --until decided", hint="--replicates is the fixed number of trials")
+    if options.until is not None:
+        return sweep_until_decided(options, project, limits)
+    variants = picked(project.designs, options.only or ())
+    if options.dry_run:
+        return _dry_run(options, project, variants)
+    label = shown_path(project.evidence)
+    stages: list[_Swept] = []
+    with execution_backend(options, limits) as crew, EvidenceStore.open(project.evidence, label=label) as store:
+
+        def stage(specs: Sequence[TrialSpec]) -> set[int]:
+            stages.append(_swept(options, project, store, specs, crew))
+            return stages[-1].run_now
+
+        screened = sweep_in_stages(project, variants, store, stage)
+    swept = stages[-1]
+    trials, tally, failures, result = swept.trials, swept.tally, swept.failures, swept.result
+    if options.json:
+        document = result_as_json(trials, tally, failures, result, label)
+        print_json(document if screened is None else {**document, "screening": screening_as_json(screened)})
+    else:
+        told = [] if screened is None else screening_lines(screened)
+        print(*told, *result_lines(trials, tally, failures, result, label), sep="\n")
+    lost = [each for one in stages for each in one.result.lost]
+    for each in lost:
+        print(f"rgss: {lost_line(each)}", file=sys.stderr)
+    return RUN_FAILED if lost else CLEAN
+
+
+@dataclass(frozen=True)
+class _Swept:
+    """What came of the trials of one stage."""
+
+    trials: int
+    tally: Counter[str]
+    failures: Counter[str]
+    run_now: set[int]
+    result: SweepResult
+
+
+def _swept(
+    options: argparse.Namespace,
+    project: Project,
+    store: EvidenceStore,
+    specs: Sequence[TrialSpec],
+    crew: ExecutionBackend,
+) -> _Swept:
+    from rgss.cli.sweep import SweepProgress
+    from rgss.sweep import sweep
+
+    tally: Counter[str] = Counter()
+    failures: Counter[str] = Counter()
+    run_now: set[int] = set()
+
+    def on_finished(trial: FinishedTrial) -> None:
+        record = trial.record
+        tally["run" if trial.fresh else "kept"] += 1
+        if trial.fresh:
+            run_now.add(record.variant)
+        tally["succeeded" if record.success else "failed"] += 1
+        if record.failure is not None and record.failed_phase is not None:
+            failures[f"{record.failure.value} at {record.failed_phase.value}"] += 1
+        progress.finished(tally)
+
+    with SweepProgress(len(specs)) as progress:
+        result = sweep(
+            specs,
+            store,
+            jobs=crew.jobs,
+            on_finished=on_finished,
+            on_state=progress.state,
+            share=not options.no_share,
+            origin=lambda: crew.origin(project.folder),
+            workers_for=crew.workers,
+        )
+    return _Swept(trials=len(specs), tally=tally, failures=failures, run_now=run_now, result=result)
+
+
+def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[DesignVariant]) -> int:
+    from rgss.cli.main import CLEAN
+    from rgss.cli.output import print_json, shown_path
+    from rgss.cli.sweep import dry_run_as_json, dry_run_lines
+    from rgss.decision import screen, screening_specs, surviving_specs
+    from rgss.evidence import EvidenceStore
+    from rgss.studies import trial_specs
+    from rgss.sweep import dry_run
+
+    label = shown_path(project.evidence)
+    with ExitStack() as stack:
+        store = None
+        if project.evidence.exists():
+            store = stack.enter_context(EvidenceStore.open(project.evidence, create=False, label=label))
+        screened = screen(project, store)
+        specs = trial_specs(project, variants=variants)
+        if screened is not None:
+            specs = (
+                *screening_specs(project, variants=variants),
+                *surviving_specs(project, screened, variants=variants),
+            )
+        found = dry_run(specs, store, share=not options.no_share)
+    if options.json:
+        print_json(dry_run_as_json(found, label))
+    else:
+        print(*dry_run_lines(found, label), sep="\n")
+    return CLEAN
+
+
+def _limits(options: argparse.Namespace) -> WorkerLimits:
+    from rgss.sweep import WorkerLimits
+
+    limits = WorkerLimits()
+    time_s, memory_bytes = limits.time_s, limits.memory_bytes
+    if options.time_limit is not None:
+        time_s = _positive("--time-limit", options.time_limit, "s", "5 min")
+    if options.memory_limit is not None:
+        memory_bytes = round(_positive("--memory-limit", options.memory_limit, "byte", "4 GB"))
+    return WorkerLimits(time_s=time_s, memory_bytes=memory_bytes)
+
+
+def _positive(option: str, text: str, unit: str, example: str) -> float:
+    """Read a quantity above zero from an option.
+
+    Raises:
+        DefinitionError: It is none.
+    """
+    from rgss.errors import DefinitionError, QuantityError
+    from rgss.findings import shown
+    from rgss.quantities import parse_quantity
+
+    try:
+        value = parse_quantity(text, unit)
+    except QuantityError as error:
+        raise DefinitionError(f"{option}: {error.message}", hint=f"write it as '{example}'") from error
+    if value <= 0.0:
+        raise DefinitionError(f"{option}: {shown(text)} is no limit", hint=f"write it as '{example}'")
+    return value

@@ -1,0 +1,85 @@
+"""``rgss trace``: matrices, coverage, the chain of an id, and what a change to it touches."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rgss.cli.options import add_fidelity, add_replicates, chosen_project
+from rgss.cli.trace_output import FORMATS, TABLES, deliver, ordered
+from rgss.errors import DefinitionError
+
+if TYPE_CHECKING:
+    from rgss.studies import Project
+    from rgss.trace.evidence import TraceEvidence
+
+HELP = "show the traceability matrices and their gaps, or the chain of one id"
+EXAMPLE = "rgss trace -o trace.html"
+MORE_EXAMPLES = (
+    ("rgss trace SYS-005", "one chain, up to the need and down to the trials"),
+    ("rgss trace SYS-005 --impact", "what a change to it touches"),
+)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument(
+        "id", nargs="?", metavar="ID", help="show the chain of this id: up to the need, down to what decides"
+    )
+    parser.add_argument("--impact", action="store_true", help="with an id: show what a change to it would touch")
+    parser.add_argument("--gaps", action="store_true", help="show only what is open; exit with 1 if anything is")
+    parser.add_argument(
+        "--variant", type=int, metavar="N", help="show the evidence of this variant (default: the one that is chosen)"
+    )
+    parser.add_argument("--table", choices=TABLES, metavar="NAME", help=f"only this table: {', '.join(TABLES)}")
+    parser.add_argument(
+        "--format", choices=FORMATS, metavar="FORMAT", help=f"{', '.join(FORMATS)} (default: by the ending of the file)"
+    )
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write a file, or files into a folder")
+    parser.add_argument("--diagrams", type=Path, metavar="DIR", help="write the diagrams as SVG files into a folder")
+    parser.add_argument(
+        "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
+    )
+    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    add_replicates(parser)
+    add_fidelity(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Show or write; 1 if ``--gaps`` finds something open."""
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.reports.trace import trace_report
+    from rgss.trace.model import build_trace_model
+    from rgss.trace.views import chain_of, impact_of
+
+    order = ordered(options)
+    project = chosen_project(options)
+    evidence = _evidence(project, options)
+    model = build_trace_model(project.requirements, project.measure_traces)
+    found = None
+    if options.id is not None:
+        find = impact_of if options.impact else chain_of
+        found = find(model, evidence, options.id, definitions=project.measures)
+    title = f"Traceability of the study {project.study.id}"
+    report = trace_report(model, evidence, title=title, definitions=project.measures)
+    deliver(order, report, found)
+    return FINDINGS if options.gaps and not report.is_complete else CLEAN
+
+
+def _evidence(project: Project, options: argparse.Namespace) -> TraceEvidence:
+    from rgss.assessment import evidence_state, read_record
+    from rgss.cli.output import shown_path
+    from rgss.decision import measure_survivors, trace_evidence
+    from rgss.evidence import EvidenceStore
+
+    recorded = read_record(project.folder)
+    if project.evidence.exists():
+        with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
+            measured, _ = measure_survivors(project, store, recorded=recorded)
+    else:
+        measured, _ = measure_survivors(project, None, recorded=recorded)
+    state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
+    if options.junit is not None and state.software is None:
+        raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
+    return trace_evidence(project, measured, state, variant=options.variant)

@@ -1,0 +1,51 @@
+"""The decision of a study: choice, portfolios, screening, and replication until decided."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
+    from rgss.decision.named_trials import NamingStudy, asked_of, asked_trials, naming_studies
+    from rgss.decision.portfolios import choose_portfolio, portfolio_projects
+    from rgss.decision.screening import (
+        ScreenedVariant,
+        ScreeningResult,
+        measure_survivors,
+        reopened,
+        screen,
+        screening_specs,
+        screening_summary,
+        surviving_specs,
+    )
+    from rgss.decision.staged_sweep import sweep_in_stages
+    from rgss.decision.tracing import trace_evidence
+    from rgss.decision.until_decided import UntilDecided, replicate_until_decided, summary
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "NamingStudy",
+    "ScreenedVariant",
+    "ScreeningResult",
+    "UntilDecided",
+    "asked_of",
+    "asked_trials",
+    "choose",
+    "choose_portfolio",
+    "double_counting",
+    "measure_survivors",
+    "naming_studies",
+    "portfolio_projects",
+    "reopened",
+    "replicate_until_decided",
+    "screen",
+    "screening_specs",
+    "screening_summary",
+    "shared_measures",
+    "summary",
+    "surviving_specs",
+    "sweep_in_stages",
+    "trace_evidence",
+    "trade_problem",
+]

@@ -1,0 +1,160 @@
+"""From estimates to the decision."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from rgss.assessment import VariantMeasures, replicates_of, require_complete, requirements_with_criteria
+from rgss.decision.level_structure import level_structure
+from rgss.decision.preference_model import comparison_of, program_of, risks_of, value_function_of
+from rgss.measures import Estimate
+from rgss.requirements import Criterion, Statistic
+from rgss.studies import Project
+from rgss.tradeoff import (
+    Alternative,
+    Decision,
+    Overlap,
+    SharedPart,
+    SolverRun,
+    Threshold,
+    TradeProblem,
+    decide,
+    overlapping_measures,
+    shared_parts,
+)
+
+
+def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> TradeProblem:
+    """The choice among a study's variants under its requirements.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its estimates.
+
+    Raises:
+        EvidenceError: Trials of the study have no evidence.
+        TradeoffError: The choice is ill posed, or there are too few replicates for it.
+        DefinitionError: A criterion has a comparison that a program cannot have, or levels are to
+            be chosen of designs that are no combinations of levels.
+    """
+    require_complete(measured)
+    criteria = {
+        requirement.id: requirement.criterion
+        for requirement in requirements_with_criteria(project)
+        if requirement.criterion is not None
+    }
+    units = {measure.id: measure.unit for measure in project.measures.measures}
+    trade_off = project.study.trade_off
+    thresholds = tuple(
+        Threshold(
+            requirement=requirement,
+            measure=_column(criterion),
+            comparison=comparison_of(requirement, criterion),
+            value=criterion.threshold_in(units[criterion.measure]),
+            unit=units[criterion.measure],
+        )
+        for requirement, criterion in criteria.items()
+    )
+    functions = tuple(value_function_of(project, valued) for valued in trade_off.valued)
+    program = program_of(project, functions)
+    risks = risks_of(project)
+    wanted = [*trade_off.weighting.weights, *(risk.measure for risk in risks)]
+    wanted += [aim.measure for aim in trade_off.program.aims]
+    wanted += [limit.measure for limit in trade_off.program.limits]
+    columns = {measure: (measure, Statistic.VALUE) for measure in wanted}
+    columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
+    return TradeProblem(
+        alternatives=tuple(_alternative(project, variant, columns) for variant in measured),
+        thresholds=thresholds,
+        value_functions=functions,
+        weighting=trade_off.weighting,
+        risks=risks,
+        program=program,
+        weight_bounds=trade_off.weight_bounds,
+        levels=level_structure(project.designs, [one.variant for one in measured]) if trade_off.choose_levels else None,
+    )
+
+
+def choose(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    *,
+    problem: TradeProblem | None = None,
+    independent: tuple[SolverRun, ...] = (),
+) -> Decision:
+    """Decide which variant is best.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its estimates.
+        problem: What `trade_problem` gives for them, where it is there already.
+        independent: Runs of other solvers than HiGHS, as further checks.
+
+    Raises:
+        EvidenceError: Trials of the study have no evidence.
+        TradeoffError: The choice is ill posed, or no optimum was proved.
+        DefinitionError: As for `trade_problem`.
+    """
+    margin = project.study.trade_off.practical_margin
+    asked = trade_problem(project, measured) if problem is None else problem
+    return decide(asked, margin=margin, seed=project.study.seed, independent=independent)
+
+
+def double_counting(project: Project) -> tuple[Overlap, ...]:
+    """Valued measures of which one contains the other, with what could be valued instead."""
+    measures = project.measures
+    weights = project.study.trade_off.weighting.weights
+    contained = {measure.id: set(measures.dependencies(measure.id)) for measure in measures.measures}
+    return overlapping_measures(
+        weights,
+        contained.__getitem__,
+        candidates=[
+            measure.id for measure in measures.measures if measure.better.value != "none" and measure.id not in weights
+        ],
+        alike=lambda one, other: measures.measure(one).unit == measures.measure(other).unit,
+    )
+
+
+def shared_measures(project: Project) -> tuple[SharedPart, ...]:
+    """Valued measures neither of which contains the other, but that stand on measures in common."""
+    weights = project.study.trade_off.weighting.weights
+    return shared_parts(weights, project.measures.dependencies)
+
+
+def _alternative(
+    project: Project, variant: VariantMeasures, columns: Mapping[str, tuple[str, Statistic]]
+) -> Alternative:
+    samples = replicates_of(project.measures, variant)
+    rows = {}
+    for column, (measure, statistic) in columns.items():
+        if measure in samples:
+            rows[column] = _shifted(samples[measure], variant.estimates[measure], statistic)
+    return Alternative(
+        variant=variant.variant.id,
+        measures={
+            column: _statistic(variant.estimates[measure], statistic)
+            for column, (measure, statistic) in columns.items()
+        },
+        samples=rows,
+    )
+
+
+def _shifted(row: tuple[float | None, ...], estimate: Estimate, statistic: Statistic) -> tuple[float | None, ...]:
+    """The replicates of an end of an interval: those of the estimate, as far away as the end is from it."""
+    end = _statistic(estimate, statistic)
+    if statistic is Statistic.VALUE or end is None or estimate.value is None:
+        return row
+    shift = end - estimate.value
+    return tuple(None if quantity is None else quantity + shift for quantity in row)
+
+
+def _column(criterion: Criterion) -> str:
+    if criterion.statistic is Statistic.VALUE:
+        return criterion.measure
+    return f"{criterion.measure}.{criterion.statistic.value}"
+
+
+def _statistic(estimate: Estimate, statistic: Statistic) -> float | None:
+    if statistic is Statistic.LOW:
+        return estimate.low
+    return estimate.high if statistic is Statistic.HIGH else estimate.value

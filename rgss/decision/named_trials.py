@@ -1,0 +1,130 @@
+"""Which trials of the evidence a project's studies name, with the project and the code as they are now."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rgss.decision.screening import ScreeningResult, screen, screening_specs, surviving_specs
+from rgss.errors import DefinitionError, DocumentError
+from rgss.evidence import EvidenceStore, Fidelity
+from rgss.findings import Finding
+from rgss.studies import MOST_REPLICATES, Project, load_project, trial_specs
+from rgss.sweep import trials_of
+from rgss.trials.pieces import TrialSpec
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedTrials:
+    """Trials that a study names.
+
+    Attributes:
+        trials: Their keys.
+        pieces: The digests of their pieces.
+    """
+
+    trials: frozenset[str]
+    pieces: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamingStudy:
+    """A study of the project with the trials that it names.
+
+    Attributes:
+        file: Its file, relative to the project.
+        project: The project with this study.
+        own: The trials that it asks for, at its fidelity and with its number of replicates.
+        all: These, and what ``--fidelity`` and ``--replicates`` make of them as far as the
+            evidence has the seeds.
+    """
+
+    file: str
+    project: Project
+    own: NamedTrials
+    all: NamedTrials
+
+
+def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[NamingStudy, ...]:
+    """Every study of a project, in the order of the files, with what it names.
+
+    Args:
+        folder: The project's folder.
+        seeds: The seeds that the evidence has of each fidelity.
+
+    Raises:
+        DocumentError: Files are wrong, with the problems of all studies: what cannot be read may
+            name anything.
+        DefinitionError: There is no study.
+    """
+    names = sorted(path.relative_to(folder).as_posix() for path in (folder / "studies").glob("*.yaml"))
+    if not names:
+        raise DefinitionError("the project has no study", hint="a study is a file studies/NAME.yaml")
+    projects: dict[str, Project] = {}
+    findings: list[Finding] = []
+    for name in names:
+        try:
+            projects[name] = load_project(folder, name)
+        except DocumentError as error:  # noqa: PERF203 - all problems are told at once
+            findings += [finding for finding in error.findings if finding not in findings]
+    if findings:
+        raise DocumentError(findings)
+    return tuple(_naming(name, project, seeds) for name, project in projects.items())
+
+
+def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[str]:
+    """The keys of the trials that a sweep would see to: with a screening, no deciding ones of what it screens out.
+
+    Args:
+        study: The study.
+        store: The evidence; None if there is none yet.
+
+    Raises:
+        EvidenceError: The store is damaged.
+    """
+    screened = screen(study.project, store)
+    return study.own.trials if screened is None else _keys(_screened_specs(study.project, screened))
+
+
+def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
+    """The keys of the trials that a sweep of a project would see to, without looking at its other studies.
+
+    Args:
+        project: The project with its study, its number of replicates and its fidelity.
+        store: The evidence, which says what a screening screens out.
+
+    Raises:
+        EvidenceError: The store is damaged.
+    """
+    screened = screen(project, store)
+    return _keys(
+        (*trial_specs(project), *screening_specs(project)) if screened is None else _screened_specs(project, screened)
+    )
+
+
+def _screened_specs(project: Project, screened: ScreeningResult) -> tuple[TrialSpec, ...]:
+    return (*screening_specs(project), *surviving_specs(project, screened))
+
+
+def _keys(specs: Sequence[TrialSpec]) -> frozenset[str]:
+    return frozenset(trial.key for trial in trials_of(specs))
+
+
+def _naming(name: str, project: Project, seeds: Mapping[str, Iterable[int]]) -> NamingStudy:
+    own = (*trial_specs(project), *screening_specs(project))
+    every = {spec.seed for spec in own}
+    first = project.study.seed
+    more: list[TrialSpec] = []
+    for fidelity in Fidelity:
+        replicates = every | {seed for seed in seeds.get(fidelity.value, ()) if 0 <= seed - first < MOST_REPLICATES}
+        more += trial_specs(project.with_fidelity(fidelity.value), seeds=sorted(replicates))
+    return NamingStudy(file=name, project=project, own=_named(own), all=_named((*own, *more)))
+
+
+def _named(specs: Sequence[TrialSpec]) -> NamedTrials:
+    trials = trials_of(specs)
+    return NamedTrials(
+        trials=frozenset(trial.key for trial in trials),
+        pieces=frozenset(digest for trial in trials for digest in trial.digests.as_mapping().values()),
+    )

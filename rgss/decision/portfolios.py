@@ -1,0 +1,93 @@
+"""A portfolio of designs for several studies, each of which is a task or a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.choosing import trade_problem
+from rgss.designs import DesignVariant
+from rgss.errors import DefinitionError
+from rgss.studies import Project, load_project
+from rgss.studies.trade_off import PortfolioChoice
+from rgss.tradeoff import PortfolioDecision, PortfolioProblem, PortfolioTask, SolverRun, decide_portfolio
+
+COMPONENT = "component."
+"""Begins the name of a role whose component counts as one member."""
+
+
+def portfolio_projects(project: Project) -> Mapping[str, Project]:
+    """The project with each of the studies that its fleet serves, by the study's file.
+
+    Raises:
+        DefinitionError: The study asks for no fleet.
+        DocumentError: A study's file is wrong.
+    """
+    return {study: load_project(project.folder, study) for study, _ in _fleet(project).studies}
+
+
+def choose_portfolio(
+    project: Project,
+    measured: Mapping[str, tuple[Project, Sequence[VariantMeasures]]],
+    *,
+    time_limit: float | None = None,
+    independent: tuple[SolverRun, ...] = (),
+) -> PortfolioDecision:
+    """Choose the designs that together serve every study best.
+
+    Args:
+        project: The project with the study that asks for the fleet.
+        measured: For each of its studies the project with it and every variant with its estimates.
+        time_limit: Seconds to prove the fleet best, in place of a count of operations.
+        independent: Runs of other solvers than HiGHS, as further checks.
+
+    Raises:
+        EvidenceError: Trials of a study have no evidence.
+        TradeoffError: The choice is ill posed.
+        DefinitionError: The studies have different designs, or no one knows what a member is.
+    """
+    choice = _fleet(project)
+    designs: dict[int, str] = {}
+    for study, (_, variants) in measured.items():
+        for one in variants:
+            if designs.setdefault(one.variant.id, one.variant.digest) != one.variant.digest:
+                raise DefinitionError(
+                    f"variant {one.variant.id} of {study} is another design than that of the other studies",
+                    hint="give the studies of a fleet the same design space and catalogue",
+                )
+    variants = next(iter(measured.values()))[1]
+    return decide_portfolio(
+        PortfolioProblem(
+            tasks=tuple(
+                PortfolioTask(name=study, weight=weight, problem=trade_problem(*measured[study]))
+                for study, weight in choice.studies
+            ),
+            at_most=choice.at_most,
+            groups=None
+            if choice.member is None
+            else {one.variant.id: _member(one.variant, choice.member) for one in variants},
+            aim=choice.aim,
+        ),
+        time_limit=time_limit,
+        independent=independent,
+    )
+
+
+def _fleet(project: Project) -> PortfolioChoice:
+    fleet = project.study.trade_off.fleet
+    if fleet is None:
+        raise DefinitionError(
+            f"study {project.study.id!r} asks for no fleet", hint="add 'fleet' to the study's trade_off"
+        )
+    return fleet
+
+
+def _member(variant: DesignVariant, member: str) -> str:
+    if member.startswith(COMPONENT):
+        known = {f"{COMPONENT}{role}": component.id for role, component in variant.components.items()}
+    else:
+        known = dict(variant.levels)
+    if member not in known:
+        names = [*variant.levels, *(f"{COMPONENT}{role}" for role in variant.components)]
+        raise DefinitionError(f"no one knows the member {member!r} of a fleet", hint=f"members: {', '.join(names)}")
+    return known[member]

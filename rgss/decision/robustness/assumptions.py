@@ -1,0 +1,316 @@
+"""How far each assumed number may be wrong, alone and all costs together, before the choice changes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.decision.robustness.linearity import is_affine
+from rgss.decision.robustness.remeasuring import Remeasuring
+from rgss.decision.robustness.rules import allowed_variants, rule_kinks
+from rgss.decision.what_if import COST, ModelNumber, assumed_numbers, simulated_numbers, symbols_of
+from rgss.errors import DefinitionError
+from rgss.tradeoff.problem import Comparison, EvidenceTable, PiecewiseValue, Samples, TargetValue, Threshold
+from rgss.tradeoff.programs import Preferences, violations, weighted_values
+from rgss.tradeoff.robustness import (
+    AssumptionRange,
+    BoxProblem,
+    BoxRange,
+    Standing,
+    box_range,
+    condition_masks,
+    linear_range,
+    scanned_range,
+)
+
+SCAN_FACTOR = 4.0
+"""A number on which nothing depends linearly is followed from a quarter of its value to four times it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AssumptionFinding:
+    """What an assumed number means for the choice.
+
+    Attributes:
+        number: The number.
+        columns: The measures of the trade-off that stand on it; empty where none does.
+        range: The values over which the choice stays best; None where it could not be followed,
+            and `reason` says why.
+        reason: Why there is no range; empty otherwise.
+        simulated: Whether the trials were simulated with the number: their evidence is held, so
+            that another value would ask for other trials.
+    """
+
+    number: ModelNumber
+    columns: tuple[str, ...]
+    range: AssumptionRange | None
+    reason: str
+    simulated: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CostBox:
+    """How far all assumed costs together may be off.
+
+    Attributes:
+        numbers: The costs.
+        column: The measure that they add up to.
+        range: What of ±x % the choice survives, and the worst corner.
+        unmoved: The costs that are assumed to be 0, which no percentage moves.
+    """
+
+    numbers: tuple[ModelNumber, ...]
+    column: str
+    range: BoxRange
+    unmoved: tuple[str, ...]
+
+
+def assumption_findings(
+    remeasuring: Remeasuring, preferences: Preferences, chosen: int
+) -> tuple[AssumptionFinding, ...]:
+    """Follow each assumed number of the catalogue and of the measures, one at a time.
+
+    Where every affected measure is affine in the number and its value function piecewise linear,
+    the ends are solved for exactly; otherwise the dependence is scanned and bisected.
+
+    Args:
+        remeasuring: The evidence, which can be evaluated anew.
+        preferences: What is wanted; decided by the highest weighted value.
+        chosen: The row of the choice.
+    """
+    numbers = assumed_numbers(remeasuring.project)
+    variants = [entry.variant for entry in remeasuring.measured]
+    follower = _Follower(
+        remeasuring=remeasuring,
+        preferences=preferences,
+        chosen=chosen,
+        simulated=simulated_numbers(remeasuring.project, variants, numbers),
+    )
+    return tuple(follower.finding(number) for number in numbers)
+
+
+def cost_box(remeasuring: Remeasuring, preferences: Preferences, chosen: int) -> CostBox | str:
+    """The largest x such that the choice stays best with every assumed cost anywhere within ±x %.
+
+    Args:
+        remeasuring: The evidence, which can be evaluated anew.
+        preferences: What is wanted; decided by the highest weighted value.
+        chosen: The row of the choice.
+
+    Returns:
+        The range; a reason, as a sentence part, where it does not apply.
+    """
+    measures, table = remeasuring.project.measures, remeasuring.table
+    numbers = tuple(
+        number for number in assumed_numbers(remeasuring.project) if number.component and number.name == COST
+    )
+    symbols = frozenset().union(*(symbols_of(measures, number) for number in numbers))
+    decisive = {*preferences.weighting.deciding_measures, *(condition.measure for condition in preferences.conditions)}
+    columns = [
+        column
+        for column in table.measures
+        if column in decisive and symbols & measures.used[remeasuring.measure_of(column)]
+    ]
+    if len(columns) != 1:
+        named = ", ".join(columns) or "no measure"
+        return f"assumed costs decide through {named}, not through one measure"
+    (column,) = columns
+    measure = remeasuring.measure_of(column)
+    function = next((one for one in preferences.value_functions if one.measure == column), None)
+    conditions = [condition for condition in preferences.conditions if condition.measure == column]
+    if measures.measure(measure).from_trials or not is_affine(measures, measure, symbols):
+        return f"{column} is not a sum of assumed costs"
+    if not isinstance(function, (PiecewiseValue, TargetValue)):
+        return f"the value of {column} is not piecewise linear"
+    if not all(isinstance(condition, Threshold) for condition in conditions):
+        return f"there are demands on replicates of {column}"
+    assumed = np.array([number.value for number in numbers])
+    quantities = table.column(column)
+    coefficients = np.zeros((len(table), len(numbers)))
+    for place, number in enumerate(numbers):
+        step = max(1.0, abs(number.value))
+        moved = remeasuring.table_with(number, number.value + step).column(column)
+        coefficients[:, place] = (moved - quantities) / step
+    weight = preferences.weighting.weights[column]
+    points = np.array(sorted(function.points), dtype=np.float64)
+    totals = weighted_values(preferences, table)
+    bounds = _bounds([condition for condition in conditions if isinstance(condition, Threshold)])
+    others = [
+        mask
+        for condition, mask in zip(preferences.conditions, condition_masks(preferences, table), strict=True)
+        if condition.measure != column
+    ]
+    feasible = np.logical_and.reduce([~np.isnan(totals), *others])
+    problem = BoxProblem(
+        base=quantities - coefficients @ assumed,
+        coefficients=coefficients,
+        assumed=assumed,
+        points=points,
+        weight=weight,
+        rest=totals - weight * np.interp(quantities, points[:, 0], points[:, 1]),
+        feasible=feasible,
+        at_least=bounds[0],
+        at_most=bounds[1],
+    )
+    return CostBox(
+        numbers=numbers,
+        column=column,
+        range=box_range(problem, chosen),
+        unmoved=tuple(number.id for number in numbers if number.value == 0.0),
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Follower:
+    """Follows one number after another."""
+
+    remeasuring: Remeasuring
+    preferences: Preferences
+    chosen: int
+    simulated: frozenset[str]
+
+    def finding(self, number: ModelNumber) -> AssumptionFinding:
+        columns = self._decisive(self.remeasuring.affected(number))
+        found, reason = self._range(number, columns)
+        return AssumptionFinding(
+            number=number,
+            columns=columns,
+            range=found,
+            reason=reason,
+            simulated=number.id in self.simulated,
+        )
+
+    def _decisive(self, columns: Sequence[str]) -> tuple[str, ...]:
+        """Those of some columns that weigh or are bounded."""
+        preferences = self.preferences
+        decisive = {*preferences.weighting.deciding_measures}
+        decisive.update(condition.measure for condition in preferences.conditions)
+        return tuple(column for column in columns if column in decisive)
+
+    def _range(self, number: ModelNumber, columns: tuple[str, ...]) -> tuple[AssumptionRange | None, str]:
+        if number.value < 0.0:
+            return None, "it is negative"
+        project, measured = self.remeasuring.project, self.remeasuring.measured
+        allowed = allowed_variants(project, measured, number)
+        ends_of_rules = rule_kinks(project, measured, number)
+        if ends_of_rules is not None and all(self._is_linear(number, column) for column in columns):
+            line = _Line.of(self.remeasuring, number, columns)
+            kinks = [*self._kinks(line, columns), *ends_of_rules]
+            return (
+                linear_range(
+                    lambda value: self._standing(line.at(value), allowed(value)),
+                    self.chosen,
+                    number.value,
+                    kinks=np.array(kinks),
+                    lowest=0.0,
+                    highest=math.inf,
+                ),
+                "",
+            )
+        if number.value == 0.0:
+            return None, "it is assumed to be 0 and its effect is not linear"
+
+        def stand(value: float) -> Standing:
+            try:
+                table = self.remeasuring.table_with(number, value)
+            except DefinitionError:
+                # A measure that is not defined there lets nothing be chosen.
+                return Standing(totals=np.full(len(self.remeasuring.table), np.nan), feasible=allowed(value) & False)
+            return self._standing(table, allowed(value))
+
+        found = scanned_range(
+            stand,
+            self.chosen,
+            number.value,
+            lowest=number.value / SCAN_FACTOR,
+            highest=number.value * SCAN_FACTOR,
+        )
+        return found, ""
+
+    def _standing(self, table: EvidenceTable, allowed: NDArray[np.bool_]) -> Standing:
+        feasible = ~violations(self.preferences, table).any(axis=1) & allowed
+        return Standing(totals=weighted_values(self.preferences, table), feasible=feasible)
+
+    def _is_linear(self, number: ModelNumber, column: str) -> bool:
+        remeasuring = self.remeasuring
+        measures, measure = remeasuring.project.measures, remeasuring.measure_of(column)
+        function = next((one for one in self.preferences.value_functions if one.measure == column), None)
+        weighted = column in self.preferences.weighting.deciding_measures
+        return (
+            is_affine(measures, measure, symbols_of(measures, number))
+            and (not weighted or isinstance(function, (PiecewiseValue, TargetValue)))
+            and all(
+                isinstance(condition, Threshold)
+                for condition in self.preferences.conditions
+                if condition.measure == column
+            )
+        )
+
+    def _kinks(self, line: _Line, columns: tuple[str, ...]) -> list[float]:
+        """Where a quantity meets a point of its value function or a threshold."""
+        levels: dict[str, set[float]] = {column: set() for column in columns}
+        for function in self.preferences.value_functions:
+            if function.measure in levels and isinstance(function, (PiecewiseValue, TargetValue)):
+                levels[function.measure].update(quantity for quantity, _ in function.points)
+        for condition in self.preferences.conditions:
+            if condition.measure in levels:
+                levels[condition.measure].add(condition.limit)
+        return [
+            kink for column, found in levels.items() for level in sorted(found) for kink in line.reaching(column, level)
+        ]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Line:
+    """The evidence as an affine function of one number."""
+
+    table: EvidenceTable
+    start: float
+    slopes: dict[str, NDArray[np.float64]]
+    sample_slopes: dict[str, NDArray[np.float64]]
+
+    @staticmethod
+    def of(remeasuring: Remeasuring, number: ModelNumber, columns: tuple[str, ...]) -> _Line:
+        table = remeasuring.table
+        if not columns:
+            return _Line(table=table, start=number.value, slopes={}, sample_slopes={})
+        step = max(1.0, abs(number.value))
+        moved = remeasuring.table_with(number, number.value + step)
+        return _Line(
+            table=table,
+            start=number.value,
+            slopes={column: (moved.column(column) - table.column(column)) / step for column in columns},
+            sample_slopes={
+                column: (moved.samples[column].values - table.samples[column].values) / step
+                for column in columns
+                if column in table.samples
+            },
+        )
+
+    def at(self, value: float) -> EvidenceTable:
+        quantities, samples = self.table.quantities.copy(), dict(self.table.samples)
+        for column, slope in self.slopes.items():
+            quantities[:, self.table.measures.index(column)] += slope * (value - self.start)
+        for column, slope in self.sample_slopes.items():
+            old = self.table.samples[column]
+            samples[column] = Samples(values=old.values + slope * (value - self.start), ran=old.ran)
+        return EvidenceTable(
+            variants=self.table.variants, measures=self.table.measures, quantities=quantities, samples=samples
+        )
+
+    def reaching(self, column: str, level: float) -> list[float]:
+        """The values at which a quantity of the column is at a level."""
+        slope, quantities = self.slopes[column], self.table.column(column)
+        moving = np.isfinite(quantities) & (np.abs(slope) > 0.0)
+        return sorted(set((self.start + (level - quantities[moving]) / slope[moving]).tolist()))
+
+
+def _bounds(thresholds: Sequence[Threshold]) -> tuple[float, float]:
+    """The tightest of several thresholds from either side."""
+    least = max((one.value for one in thresholds if one.comparison is Comparison.AT_LEAST), default=-math.inf)
+    most = min((one.value for one in thresholds if one.comparison is Comparison.AT_MOST), default=math.inf)
+    return least, most

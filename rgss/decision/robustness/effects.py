@@ -1,0 +1,335 @@
+"""Which design parameters move which measure, over all designs of a study."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.assessment import VariantMeasures, replicates_of
+from rgss.measures import Measure, MeasureKind
+from rgss.studies import Project
+from rgss.tradeoff.problem import Resamples
+from rgss.tradeoff.robustness import (
+    FEWEST_PER_CLASS,
+    FactorialAnalysis,
+    SampledIndex,
+    classes_of,
+    factorial_effects,
+    first_order_indices,
+    largest_complete_block,
+)
+
+SAMPLE_RESAMPLES = 200
+"""Resamples of sampled designs for the intervals of shares."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FactorLevels:
+    """A factor of the design space as effects name it.
+
+    Attributes:
+        id: Its id.
+        parameters: The design parameters that it sets together; their effects cannot be told apart.
+        levels: The ids of its levels.
+    """
+
+    id: str
+    parameters: tuple[str, ...]
+    levels: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MeasureEffects:
+    """The effects of all factors on one measure.
+
+    Attributes:
+        measure: The measure.
+        unit: Its unit.
+        factors: The factors with the levels that were analysed.
+        left_out: The levels that were left out because a design with them has no estimate, as
+            ``factor=level``; without them the design is balanced again.
+        designs: How many designs were analysed.
+        analysis: The effects; None where no balanced block of designs has estimates, and where the
+            designs are a sample.
+        sampled: Of designs that are a sample, the share of each factor alone with its interval, by
+            factor; empty otherwise, and where too few designs have estimates.
+    """
+
+    measure: str
+    unit: str
+    factors: tuple[FactorLevels, ...]
+    left_out: tuple[str, ...]
+    designs: int
+    analysis: FactorialAnalysis | None
+    sampled: Mapping[str, SampledIndex] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StudyEffects:
+    """The effects on every measure.
+
+    Attributes:
+        factors: The factors that vary.
+        constants: The design parameters that do not, and so have no effect that could be seen.
+        measures: The effects on each measure, in the order of the file.
+    """
+
+    factors: tuple[FactorLevels, ...]
+    constants: tuple[str, ...]
+    measures: tuple[MeasureEffects, ...]
+
+
+def study_effects(project: Project, measured: Sequence[VariantMeasures], resamples: Resamples | None) -> StudyEffects:
+    """Main effects and interactions of two factors on every measure, with bootstrap intervals.
+
+    A factor may set several design parameters at once; their effects are those of the factor. A
+    measure that designs without success do not have is analysed over the largest block of levels
+    of which every combination has it; what is left out is said.
+
+    A measure that follows from the design alone has no noise, and its effects have no intervals.
+
+    Designs that are a sample are no table of levels: of these each factor's share alone is
+    estimated, over the designs that have the measure.
+
+    Args:
+        project: The project.
+        measured: Every variant with its estimates and records.
+        resamples: Resamples of the replicates, for the intervals; None for none.
+    """
+    if project.designs.sample is not None:
+        return _of_sample(project, measured)
+    design = _Design.of(project, measured)
+    replicates = {} if resamples is None else _replicate_columns(project, measured)
+    found = []
+    blocks: dict[bytes, tuple[tuple[int, ...], ...] | None] = {}
+    for measure in _analysed(project):
+        estimates = design.arranged([_number(entry.estimates[measure.id].value) for entry in measured])
+        resampled = None
+        if resamples is not None and measure.from_trials:
+            resampled = resamples.means(replicates.pop(measure.id))
+        known = np.isfinite(estimates)
+        if known.tobytes() not in blocks:
+            blocks[known.tobytes()] = largest_complete_block(known) if design.factors else None
+        block = blocks[known.tobytes()]
+        found.append(_effects(measure.id, measure.unit, design, block, estimates, resampled, resamples))
+    return StudyEffects(
+        factors=design.factors,
+        constants=tuple(
+            parameter.id
+            for parameter in project.designs.parameters
+            if not any(parameter.id in factor.parameters for factor in design.factors)
+        ),
+        measures=tuple(found),
+    )
+
+
+def _analysed(project: Project) -> Iterator[Measure]:
+    """The measures whose effects are of interest."""
+    for measure in project.measures.measures:
+        if measure.kind is not MeasureKind.SUPPLEMENTARY or measure.better.value != "none":
+            yield measure
+
+
+def _replicate_columns(project: Project, measured: Sequence[VariantMeasures]) -> dict[str, NDArray[np.float64]]:
+    """What each replicate of each variant showed, shape (n, r), by measure that is observed in trials.
+
+    Filled row by row: as objects, the replicates of many variants take four times the memory.
+    """
+    names = [measure.id for measure in _analysed(project) if measure.from_trials]
+    columns: dict[str, NDArray[np.float64]] = {}
+    for place, entry in enumerate(measured):
+        row = replicates_of(project.measures, entry)
+        for name in names:
+            if name not in columns:
+                columns[name] = np.full((len(measured), len(row[name])), np.nan)
+            columns[name][place] = np.array(row[name], dtype=np.float64)
+    return columns
+
+
+def _of_sample(project: Project, measured: Sequence[VariantMeasures]) -> StudyEffects:
+    """Shares of the factors of sampled designs; a point that repeats another counts as often as it was drawn."""
+    sample, generator = project.designs.sample, np.random.default_rng(project.study.seed)
+    repeats = Counter(sample.repeats.values()) if sample is not None else Counter()
+    rows = [entry for entry in measured for _ in range(1 + repeats[entry.variant.id])]
+    factors = tuple(
+        FactorLevels(
+            id=factor.id,
+            parameters=(factor.span.parameter,) if factor.span is not None else tuple(factor.levels[0].values),
+            levels=tuple(level.id for level in factor.levels),
+        )
+        for factor in project.designs.factors
+        if factor.span is not None or len(factor.levels) > 1
+    )
+    classes = np.stack([_classes(factor, rows) for factor in factors], axis=1) if factors else np.zeros((0, 0))
+    found = []
+    for measure in _analysed(project):
+        values = np.array([_number(entry.estimates[measure.id].value) for entry in rows])
+        known = np.isfinite(values)
+        enough = known.sum() >= 2 * FEWEST_PER_CLASS and bool(factors)
+        indices = (
+            first_order_indices(classes[known], values[known], resamples=SAMPLE_RESAMPLES, generator=generator)
+            if enough
+            else ()
+        )
+        found.append(
+            MeasureEffects(
+                measure=measure.id,
+                unit=measure.unit,
+                factors=factors,
+                left_out=() if known.all() else (f"{int((~known).sum())} designs",),
+                designs=int(known.sum()),
+                analysis=None,
+                sampled={factor.id: index for factor, index in zip(factors, indices, strict=False)},
+            )
+        )
+    varying = {parameter for factor in factors for parameter in factor.parameters}
+    return StudyEffects(
+        factors=factors,
+        constants=tuple(parameter.id for parameter in project.designs.parameters if parameter.id not in varying),
+        measures=tuple(found),
+    )
+
+
+def _classes(factor: FactorLevels, rows: Sequence[VariantMeasures]) -> NDArray[np.int64]:
+    """The level of each design, or where the factor has a range, the class of its value."""
+    if factor.levels:
+        return np.array([factor.levels.index(entry.variant.levels[factor.id]) for entry in rows], dtype=np.int64)
+    values = [entry.variant.parameters[factor.parameters[0]] for entry in rows]
+    return classes_of(np.array(values, dtype=np.float64))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Design:
+    """Where each variant stands among the combinations of levels."""
+
+    factors: tuple[FactorLevels, ...]
+    places: tuple[tuple[int, ...], ...]
+
+    @staticmethod
+    def of(project: Project, measured: Sequence[VariantMeasures]) -> _Design:
+        varying = [factor for factor in project.designs.factors if len(factor.levels) > 1]
+        factors = tuple(
+            FactorLevels(
+                id=factor.id,
+                parameters=tuple(factor.levels[0].values),
+                levels=tuple(level.id for level in factor.levels),
+            )
+            for factor in varying
+        )
+        return _Design(
+            factors=factors,
+            places=tuple(
+                tuple(factor.levels.index(entry.variant.levels[factor.id]) for factor in factors) for entry in measured
+            ),
+        )
+
+    def arranged(self, values: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
+        """Values of the variants, one axis for each factor; NaN where rules leave no variant."""
+        return np.asarray(self.all_arranged(np.array(values, dtype=np.float64)[None])[0], dtype=np.float64)
+
+    def all_arranged(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Rows of such values, shape (k, n), each as a table of its own: shape (k, ...)."""
+        shape = [len(factor.levels) for factor in self.factors]
+        places = np.array(self.places, dtype=np.intp).reshape(len(self.places), len(shape))
+        flat = np.ravel_multi_index(tuple(places.T), shape) if shape else np.zeros(len(places), dtype=np.intp)
+        table = np.full((len(rows), math.prod(shape)), np.nan)
+        table[:, flat] = rows
+        return table.reshape(len(rows), *shape)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _ResampledBlock:
+    """The means of every design of a balanced block in each resample, arranged when they are read.
+
+    Attributes:
+        means: The means of the variants, shape (b, n).
+        design: Where each variant stands.
+        cut: The levels that are kept, as an index.
+        shape: The numbers of levels that are kept of each factor that varies.
+    """
+
+    means: NDArray[np.float64]
+    design: _Design
+    cut: tuple[NDArray[np.intp], ...]
+    shape: Sequence[int]
+
+    def __len__(self) -> int:
+        return len(self.means)
+
+    def __getitem__(self, some: slice, /) -> NDArray[np.float64]:
+        tables = self.design.all_arranged(self.means[some])
+        kept = np.array([table[self.cut] for table in tables])
+        return np.asarray(kept.reshape(len(tables), *self.shape), dtype=np.float64)
+
+
+def _effects(
+    measure: str,
+    unit: str,
+    design: _Design,
+    block: tuple[tuple[int, ...], ...] | None,
+    estimates: NDArray[np.float64],
+    resampled: NDArray[np.float64] | None,
+    resamples: Resamples | None,
+) -> MeasureEffects:
+    nothing = MeasureEffects(measure=measure, unit=unit, factors=(), left_out=(), designs=0, analysis=None)
+    if block is None:
+        return nothing
+    kept = [axis for axis, levels in enumerate(block) if len(levels) > 1]
+    cut = np.ix_(*block)
+    shape = [len(block[axis]) for axis in kept]
+    factors = tuple(
+        FactorLevels(
+            id=design.factors[axis].id,
+            parameters=design.factors[axis].parameters,
+            levels=tuple(design.factors[axis].levels[level] for level in block[axis]),
+        )
+        for axis in kept
+    )
+    return MeasureEffects(
+        measure=measure,
+        unit=unit,
+        factors=factors,
+        left_out=tuple(
+            f"{factor.id}={level}"
+            for factor, levels in zip(design.factors, block, strict=True)
+            for place, level in enumerate(factor.levels)
+            if place not in levels
+        ),
+        designs=int(np.prod(shape)),
+        analysis=factorial_effects(
+            estimates[cut].reshape(shape),
+            [factor.id for factor in factors],
+            resampled=None
+            if resampled is None
+            else _ResampledBlock(means=resampled, design=design, cut=cut, shape=shape),
+            probabilities=None if resamples is None or resampled is None else resamples.probabilities,
+        ),
+    )
+
+
+def _number(value: float | None) -> float:
+    return float("nan") if value is None else value
+
+
+def leading_factors(effects: MeasureEffects, *, least: float = 0.01) -> Mapping[str, float]:
+    """The factors by the share of a measure's differences that they take part in, the largest first.
+
+    Of designs that are a sample it is the share that each explains alone.
+
+    Args:
+        effects: The effects on the measure.
+        least: Smaller shares are left out.
+    """
+    shares = sorted(_shares(effects).items(), key=lambda item: -item[1])
+    return {factor: share for factor, share in shares if share >= least}
+
+
+def _shares(effects: MeasureEffects) -> Mapping[str, float]:
+    if effects.analysis is not None:
+        return effects.analysis.total_order
+    return {factor: index.share for factor, index in effects.sampled.items()}

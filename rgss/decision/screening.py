@@ -1,0 +1,318 @@
+"""Screening: designs that need no contact trial, and why.
+
+A design is screened out if what kinematic trials prove (see `rgss.assessment.estimate_bounds`) leaves it no way
+to meet a requirement, or if the study's promotion rule bounds how many go on and others are better.
+For that comparison every measure has the best value that is possible for it, and what kinematic
+fidelity cannot know (success in contact, slip, forces, times of motion) is taken at its best for every
+design alike; so nothing unknown speaks against a design.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from rgss.assessment import (
+    EstimateBounds,
+    VariantMeasures,
+    VerdictRecord,
+    bounds_by_measure,
+    measure_variants,
+    requirements_with_criteria,
+)
+from rgss.decision.preference_model import threshold_of
+from rgss.designs import DesignVariant
+from rgss.errors import DefinitionError
+from rgss.evidence import EvidenceStore
+from rgss.measures import Verdict, judge
+from rgss.requirements import Criterion
+from rgss.studies import Project, Promotion, Screening, trial_specs
+from rgss.tradeoff import TargetValue, ValueFunction
+from rgss.tradeoff.problem import TIE_TOLERANCE
+from rgss.trials import TrialSpec
+
+_MOST_SHOWN = 72
+"""Ids of a sentence."""
+
+
+class ScreeningOutcome(str, Enum):
+    """What became of a design in screening."""
+
+    PROMOTED = "promoted"
+    """It goes on."""
+    UNSCREENED = "unscreened"
+    """It goes on, for it lacks trials of the screening fidelity."""
+    SPARED = "spared"
+    """It misses a requirement, but so does every design; it goes on so that the decision can say what conflicts."""
+    IMPOSSIBLE = "impossible"
+    """It misses a requirement whatever contact trials would show."""
+    OUTRANKED = "outranked"
+    """Others are better, even if all that is unknown of it is at its best."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScreenedVariant:
+    """A design and what became of it.
+
+    Attributes:
+        variant: Its id.
+        fate: What became of it.
+        reason: Why, in words.
+        missed: The requirements that it cannot meet.
+        best_value: The greatest value that it can have; None if it lacks trials.
+    """
+
+    variant: int
+    fate: ScreeningOutcome
+    reason: str
+    missed: tuple[str, ...] = ()
+    best_value: float | None = None
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether it is tried with more physics."""
+        return self.fate in (ScreeningOutcome.PROMOTED, ScreeningOutcome.UNSCREENED, ScreeningOutcome.SPARED)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScreeningResult:
+    """What became of every design.
+
+    Attributes:
+        screening: What the study says.
+        variants: The designs, in their order.
+    """
+
+    screening: Screening
+    variants: tuple[ScreenedVariant, ...]
+
+    @property
+    def survivors(self) -> tuple[int, ...]:
+        """The ids of the designs that go on."""
+        return tuple(one.variant for one in self.variants if one.goes_on)
+
+    @property
+    def screened_out(self) -> tuple[ScreenedVariant, ...]:
+        """The designs that do not."""
+        return tuple(one for one in self.variants if not one.goes_on)
+
+
+def promoted(project: Project, measured: Sequence[VariantMeasures]) -> ScreeningResult:
+    """Tell which designs go on, and why the others do not.
+
+    Ties at the bound of `keep` go on together, so that no id decides.
+
+    Args:
+        project: The project with its study, which has a screening.
+        measured: Every variant with its estimates at the screening fidelity.
+
+    Raises:
+        DefinitionError: The study has no screening.
+        TradeoffError: A value function of the study is ill posed.
+    """
+    screening = project.study.screening
+    if screening is None:
+        raise DefinitionError(
+            f"study {project.study.id!r} has no screening", hint="write 'fidelity: [kinematic, contact]'"
+        )
+    functions = _value_functions(project)
+    entries = [_first_look(project, entry, functions) for entry in measured]
+    if any(one.fate is ScreeningOutcome.IMPOSSIBLE for one in entries) and not any(one.goes_on for one in entries):
+        spared = "no design can meet every requirement, so all go on"
+        entries = [
+            replace(one, fate=ScreeningOutcome.SPARED, reason=f"{spared}; this one cannot: {one.reason}")
+            for one in entries
+        ]
+    return ScreeningResult(screening=screening, variants=tuple(_ranked(entries, screening.promotion)))
+
+
+def screening_specs(project: Project, *, variants: Iterable[DesignVariant] | None = None) -> tuple[TrialSpec, ...]:
+    """The trials of the screening fidelity; none if the study has no screening.
+
+    Args:
+        project: The project with its study.
+        variants: The designs; all by default.
+    """
+    screening = project.study.screening
+    if screening is None:
+        return ()
+    return trial_specs(project.with_fidelity(screening.fidelity.value), variants=variants)
+
+
+def screen(project: Project, store: EvidenceStore | None) -> ScreeningResult | None:
+    """Screen by the evidence that is there; None if the study has no screening.
+
+    Raises:
+        EvidenceError: The store is damaged.
+    """
+    screening = project.study.screening
+    if screening is None:
+        return None
+    return promoted(project, measure_variants(project.with_fidelity(screening.fidelity.value), store))
+
+
+def surviving_specs(
+    project: Project, result: ScreeningResult, *, variants: Iterable[DesignVariant] | None = None
+) -> tuple[TrialSpec, ...]:
+    """The trials that decide, of the designs that go on.
+
+    Args:
+        project: The project with its study.
+        result: What became of the designs.
+        variants: The designs among which they are taken; all by default.
+    """
+    among = project.designs.expand() if variants is None else variants
+    survivors = set(result.survivors)
+    return trial_specs(project, variants=[variant for variant in among if variant.id in survivors])
+
+
+def measure_survivors(
+    project: Project, store: EvidenceStore | None, *, recorded: VerdictRecord | None = None
+) -> tuple[tuple[VariantMeasures, ...], ScreeningResult | None]:
+    """Every variant that a decision is between, and what became of the others in screening.
+
+    Args:
+        project: The project with its study.
+        store: The evidence; None if there is none yet.
+        recorded: As for `measure_variants`.
+
+    Raises:
+        DefinitionError: A measure is not defined for a design.
+        EvidenceError: The store is damaged.
+    """
+    measured = measure_variants(project, store, recorded=recorded)
+    result = screen(project, store)
+    if result is None:
+        return measured, None
+    survivors = set(result.survivors)
+    return tuple(entry for entry in measured if entry.variant.id in survivors), result
+
+
+def reopened(result: ScreeningResult, project: Project, measured: Sequence[VariantMeasures]) -> tuple[int, ...]:
+    """The designs that were screened out and would go on under suppositions.
+
+    Args:
+        result: What became of the designs without them.
+        project: The project as it is supposed to be.
+        measured: Every variant with its estimates at the screening fidelity, as supposed.
+
+    Returns:
+        Their ids; nothing but the evidence of screening is known of them.
+    """
+    there = set(result.survivors)
+    return tuple(variant for variant in promoted(project, measured).survivors if variant not in there)
+
+
+def screening_summary(result: ScreeningResult) -> str:
+    """What was screened out, by which evidence and why, in a few sentences."""
+    out = result.screened_out
+    screening = result.screening
+    trials = f"{screening.fidelity.value} trials ({screening.promotion})"
+    parts = [f"{len(out)} of {len(result.variants)} designs were screened out by {trials} and are not shown here."]
+    missed: dict[str, list[int]] = {}
+    for one in out:
+        for requirement in one.missed:
+            missed.setdefault(requirement, []).append(one.variant)
+    parts += [f"{requirement} cannot be met by variants {_ids(ids)}." for requirement, ids in missed.items()]
+    outranked = [one for one in out if one.fate is ScreeningOutcome.OUTRANKED]
+    if outranked:
+        most = max(one.best_value for one in outranked if one.best_value is not None)
+        parts.append(
+            "Others are better, even if all that is unknown is at its best (a value of at most "
+            f"{most:.4g}): variants {_ids([one.variant for one in outranked])}."
+        )
+    return " ".join(parts)
+
+
+def _ids(ids: Sequence[int]) -> str:
+    more = f" and {len(ids) - _MOST_SHOWN} more" if len(ids) > _MOST_SHOWN else ""
+    return ", ".join(map(str, ids[:_MOST_SHOWN])) + more
+
+
+def _first_look(
+    project: Project, entry: VariantMeasures, functions: Mapping[str, tuple[float, ValueFunction]]
+) -> ScreenedVariant:
+    if entry.missing:
+        reason = f"{entry.missing} of its trials at the screening fidelity have no evidence"
+        return ScreenedVariant(variant=entry.variant.id, fate=ScreeningOutcome.UNSCREENED, reason=reason)
+    outlook = bounds_by_measure(project, entry)
+    missed = {
+        requirement.id: requirement.criterion
+        for requirement in requirements_with_criteria(project)
+        if requirement.criterion is not None and not _possible(requirement.criterion, outlook)
+    }
+    value = sum(weight * _best(function, outlook[measure]) for measure, (weight, function) in functions.items())
+    return ScreenedVariant(
+        variant=entry.variant.id,
+        fate=ScreeningOutcome.IMPOSSIBLE if missed else ScreeningOutcome.PROMOTED,
+        reason="; ".join(_why(name, criterion, outlook) for name, criterion in missed.items())
+        or "nothing that is known speaks against it",
+        missed=tuple(missed),
+        best_value=value,
+    )
+
+
+def _possible(criterion: Criterion, outlook: Mapping[str, EstimateBounds]) -> bool:
+    """Whether a verdict other than not met is possible.
+
+    A criterion compares with one threshold, so what the ends of an outlook cannot meet nothing between them can.
+    """
+    found = outlook[criterion.measure]
+    if not found.bounded or not found.estimates:
+        return True
+    return any(judge(criterion, estimate) is not Verdict.NOT_MET for estimate in found.estimates)
+
+
+def _why(requirement: str, criterion: Criterion, outlook: Mapping[str, EstimateBounds]) -> str:
+    estimates = outlook[criterion.measure].estimates
+    values = [one.value for one in estimates if one.value is not None]
+    unit = "" if estimates[0].unit == "1" else f" {estimates[0].unit}"
+    low, high = min(values), max(values)
+    between = f"{low:g}{unit}" if low == high else f"from {low:g} to {high:g}{unit}"
+    return f"{requirement} wants {criterion}, and {criterion.measure} is {between}"
+
+
+def _value_functions(project: Project) -> dict[str, tuple[float, ValueFunction]]:
+    trade_off = project.study.trade_off
+    found: dict[str, tuple[float, ValueFunction]] = {}
+    for valued in trade_off.valued:
+        function = valued.function(lambda anchor, measure=valued.measure: threshold_of(project, anchor, measure))  # type: ignore[misc]
+        found[valued.measure] = (trade_off.weighting.weights[valued.measure], function)
+    return found
+
+
+def _best(function: ValueFunction, outlook: EstimateBounds) -> float:
+    """The greatest value of a quantity within an outlook; 1 where nothing is known, 0 where there is no quantity."""
+    if not outlook.bounded:
+        return 1.0
+    quantities = [one.value for one in outlook.estimates if one.value is not None]
+    if isinstance(function, TargetValue) and quantities and min(quantities) <= function.target <= max(quantities):
+        return 1.0
+    return max((function.value_at(quantity) for quantity in quantities), default=0.0)
+
+
+def _ranked(entries: Sequence[ScreenedVariant], promotion: Promotion) -> list[ScreenedVariant]:
+    contenders = [one for one in entries if one.fate is ScreeningOutcome.PROMOTED and one.best_value is not None]
+    values = sorted((one.best_value for one in contenders if one.best_value is not None), reverse=True)
+    bars: list[tuple[float, str]] = []
+    if values and promotion.within is not None:
+        bars.append((values[0] - promotion.within, f"more than {promotion.within:g} below the best, {values[0]:.4g}"))
+    if promotion.keep is not None and len(values) > promotion.keep:
+        last = values[promotion.keep - 1]
+        bars.append((last, f"below those of the best {promotion.keep}, at least {last:.4g}"))
+    found = []
+    for one in entries:
+        beaten = [
+            words
+            for bar, words in bars
+            if one.fate is ScreeningOutcome.PROMOTED
+            and one.best_value is not None
+            and one.best_value < bar - TIE_TOLERANCE
+        ]
+        if beaten:
+            reason = f"its value is at most {one.best_value:.4g}, {' and '.join(beaten)}"
+            found.append(replace(one, fate=ScreeningOutcome.OUTRANKED, reason=reason))
+        else:
+            found.append(one)
+    return found

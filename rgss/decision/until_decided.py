@@ -1,0 +1,193 @@
+"""Replication until decided: replicates where they can still change the decision or a verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.choosing import trade_problem
+from rgss.designs import DesignVariant, sources
+from rgss.errors import EvidenceError
+from rgss.evidence import EvidenceStore, TrialRecord
+from rgss.measures import Estimator, Verdict, evaluate
+from rgss.studies import Project, trial_specs
+from rgss.sweep import key_of
+from rgss.tradeoff.sequential import Decided, Progress, Reason, SequentialEvidence, SequentialRule, next_batch
+from rgss.trials.pieces import TrialSpec
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UntilDecided:
+    """What replication until decided came to.
+
+    Attributes:
+        reason: Why it ended.
+        variant: The variant that is chosen; None if none meets every requirement.
+        contenders: The variants that may be the best one; if it is decided, by less than the margin.
+        verdicts: By variant, the verdict on each requirement, valid in spite of the looks.
+        trials: How many trials each variant has.
+        probability: Posterior probability that the choice is good; see
+            `rgss.tradeoff.sequential.probability.probability_of_good_selection`.
+        looks: How often was looked.
+        rule: By which rule.
+    """
+
+    reason: Reason
+    variant: int | None
+    contenders: tuple[int, ...]
+    verdicts: Mapping[int, Mapping[str, Verdict]] = field(hash=False)
+    trials: Mapping[int, int] = field(hash=False)
+    probability: float
+    looks: int
+    rule: SequentialRule
+
+    @property
+    def total(self) -> int:
+        """All trials."""
+        return sum(self.trials.values())
+
+
+def replicate_until_decided(
+    project: Project,
+    store: EvidenceStore,
+    run: Callable[[Sequence[TrialSpec]], None],
+    *,
+    rule: SequentialRule | None = None,
+    on_look: Callable[[int, int], None] | None = None,
+) -> UntilDecided:
+    """Add replicates until the decision stands or a cap is reached.
+
+    Replicate r of every variant has the study's seed + r, so that variants are compared on common
+    random numbers. Trials that the store has already are not run again; beyond what the rule asks
+    for they are not looked at, so that a sweep that was interrupted comes to the same end.
+
+    Args:
+        project: The project; its study's number of replicates is not looked at.
+        store: The evidence.
+        run: Runs the trials that the store has not, and returns when their records are in it.
+        rule: When to stop; as the study says if None.
+        on_look: Told the number of each look and of the trials so far.
+
+    Raises:
+        EvidenceError: The store is damaged, or trials were not run.
+        TradeoffError: The trade-off is none that can be decided so.
+    """
+    from rgss.tradeoff.sequential import probability_of_good_selection
+
+    rule = rule or project.study.until_decided
+    variants = project.designs.expand()
+    read = _Evidence(project, store, variants)
+    wanted = {variant.id: rule.pilot for variant in variants}
+    progress = Progress()
+    proportions = {
+        measure.id
+        for measure in project.measures.measures
+        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION
+    }
+    while True:
+        specs = read.missing(wanted)
+        run(specs)
+        read.read(specs)
+        evidence = SequentialEvidence.of(trade_problem(project, read.measured()), proportions)
+        answer = next_batch(evidence, rule, progress)
+        progress = answer.progress
+        if on_look is not None:
+            on_look(progress.looks, sum(wanted.values()))
+        if isinstance(answer, Decided):
+            break
+        wanted = {**wanted, **answer.replicates}
+    return UntilDecided(
+        reason=answer.reason,
+        variant=answer.variant,
+        contenders=answer.contenders,
+        verdicts=answer.verdicts,
+        trials=wanted,
+        probability=probability_of_good_selection(
+            evidence, answer.variant, margin=rule.margin, seed=project.study.seed
+        ),
+        looks=progress.looks,
+        rule=rule,
+    )
+
+
+def summary(result: UntilDecided) -> str:
+    """One line that says what came of it."""
+    share = result.total / (len(result.trials) * result.rule.cap)
+    chosen = "no variant" if result.variant is None else f"variant {result.variant}"
+    others = len(set(result.contenders) - {result.variant})
+    nearly = f", {others} of the others may equal it within {result.rule.margin:g}" if others else ""
+    ended = {
+        Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
+        Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
+    }[result.reason]
+    return (
+        f"{chosen}: {ended}, probability of good selection {result.probability:.3f}; {result.total} trials in "
+        f"{result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
+    )
+
+
+class _Evidence:
+    """The records of the replicates that are wanted, read once each."""
+
+    def __init__(self, project: Project, store: EvidenceStore, variants: Sequence[DesignVariant]) -> None:
+        self._project = project
+        self._store = store
+        self._variants = variants
+        self._records: dict[int, tuple[tuple[str, TrialRecord], ...]] = {variant.id: () for variant in variants}
+        self._measured: dict[int, VariantMeasures] = {}
+
+    def missing(self, wanted: Mapping[int, int]) -> tuple[TrialSpec, ...]:
+        """The trials that are wanted and were not read yet."""
+        first = self._project.study.seed
+        alike: dict[tuple[int, int], list[DesignVariant]] = {}
+        for variant in self._variants:
+            alike.setdefault((len(self._records[variant.id]), wanted[variant.id]), []).append(variant)
+        return tuple(
+            spec
+            for (there, count), variants in sorted(alike.items())
+            if there < count
+            for spec in trial_specs(self._project, variants=variants, seeds=range(first + there, first + count))
+        )
+
+    def read(self, specs: Sequence[TrialSpec]) -> None:
+        """Read the records of trials.
+
+        Raises:
+            EvidenceError: A trial has none.
+        """
+        keys = {key_of(spec): spec for spec in specs}
+        found = self._store.records(list(keys))
+        for key, spec in keys.items():
+            if key not in found:
+                raise EvidenceError(
+                    f"the trial of variant {spec.variant} with seed {spec.seed} was not run",
+                    hint="see what failed with 'rgss sweep', then run it again",
+                )
+            self._records[spec.variant] = (*self._records[spec.variant], (key, found[key]))
+            self._measured.pop(spec.variant, None)
+
+    def measured(self) -> tuple[VariantMeasures, ...]:
+        """Every variant with the estimates of its measures."""
+        for variant in self._variants:
+            if variant.id not in self._measured:
+                self._measured[variant.id] = self._measure(variant)
+        return tuple(self._measured[variant.id] for variant in self._variants)
+
+    def _measure(self, variant: DesignVariant) -> VariantMeasures:
+        rows = self._records[variant.id]
+        estimates = evaluate(
+            self._project.measures,
+            fixed=sources(variant),
+            trials=[record.metrics for _, record in rows],
+            seed=self._project.study.seed,
+            variant=variant.id,
+        )
+        return VariantMeasures(
+            variant=variant,
+            trials=tuple(key for key, _ in rows),
+            records=tuple(record for _, record in rows),
+            missing=0,
+            estimates=estimates,
+            verdicts={},
+        )

@@ -1,0 +1,33 @@
+"""A study's decision under other numbers, weights, limits or simulations."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.decision.what_if.numbers import (
+        COST,
+        ModelNumber,
+        assumed_numbers,
+        measures_with,
+        symbols_of,
+        variant_with,
+    )
+    from rgss.decision.what_if.simulated import simulated_numbers
+    from rgss.decision.what_if.what_if import Change, Scenario, measured_in, suppose
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "COST",
+    "Change",
+    "ModelNumber",
+    "Scenario",
+    "assumed_numbers",
+    "measured_in",
+    "measures_with",
+    "simulated_numbers",
+    "suppose",
+    "symbols_of",
+    "variant_with",
+]

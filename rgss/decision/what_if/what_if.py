@@ -1,0 +1,335 @@
+"""What if a weight, a threshold, an anchor of a value or a number of the model were another."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.what_if.demands import THRESHOLD, demand_numbers, share_checked
+from rgss.decision.what_if.numbers import CATALOGUE, MEASURES, model_numbers, symbols_of, variant_with, with_number
+from rgss.decision.what_if.simulated import simulated_numbers
+from rgss.decision.what_if.weights import with_weights
+from rgss.designs import sources
+from rgss.errors import DefinitionError, EvidenceError, QuantityError
+from rgss.findings import shown
+from rgss.measures import Estimate, design_values, evaluate
+from rgss.quantities import parse_quantity
+from rgss.studies import Project, ValueAnchors
+from rgss.studies.trade_off import Anchor, RequirementAnchor, ValuedMeasure
+from rgss.tradeoff import weights_of_criteria
+from rgss.tradeoff.problem import EVIDENCE_PREFIX
+
+WEIGHT, VALUE = "weight", "value"
+ANCHORS = ("worst", "best", "halfway", "target", "too_low", "too_high")
+EXAMPLE = 'weight.t_e=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """One thing that is supposed to be another.
+
+    Attributes:
+        id: What it is, such as ``weight.t_e``.
+        before: Its value.
+        after: The value that is supposed.
+        unit: The unit of both.
+    """
+
+    id: str
+    before: float
+    after: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scenario:
+    """A project under suppositions.
+
+    Attributes:
+        project: The project as it would be.
+        changes: What was asked for, in the order in which it was.
+        rescaled: The weights that follow from those that were asked for: the others keep their
+            proportions so that all sum to 1.
+        dropped: Variants that the rules of the design space would no longer allow.
+        simulated: The numbers that the trials were simulated with, by id: what trials showed is
+            held, though another value asks for other trials.
+    """
+
+    project: Project
+    changes: tuple[Change, ...]
+    rescaled: tuple[Change, ...]
+    dropped: tuple[int, ...]
+    simulated: tuple[str, ...]
+
+
+def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
+    """Read suppositions and put them into a project, without a simulation.
+
+    Args:
+        project: The project with its study.
+        suppositions: Texts such as ``weight.t_e=0.4`` or ``SYS-012.threshold=0.8 kg``.
+
+    Raises:
+        DefinitionError: A text is malformed, names what is not there, has a value of another unit,
+            or says the same thing twice.
+        TradeoffError: The weights that follow contradict each other or what was elicited.
+    """
+    changed = project
+    changes: list[Change] = []
+    weights: dict[str, float] = {}
+    for text in suppositions:
+        name, value = _split(text)
+        name = _full_name(project, name)
+        if name in {change.id for change in changes}:
+            raise DefinitionError(f"--what-if: {name} is supposed twice", hint="say it once")
+        kind, _, rest = name.partition(".")
+        demand, _, field = name.rpartition(".")
+        if kind == WEIGHT:
+            change = _weight(project, name, rest, value)
+            weights[rest] = change.after
+        elif kind == VALUE:
+            change, changed = _anchor(changed, name, rest, value)
+        elif kind in (CATALOGUE, MEASURES):
+            change, changed = _number(changed, name, value)
+        elif name in demand_numbers(changed):
+            change, changed = _demand(changed, name, value)
+        elif field == THRESHOLD:
+            change, changed = _threshold(changed, name, demand, value)
+        else:
+            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES]
+            raise _unknown(name, [*kinds, *_requirements(project), *demand_numbers(project)], name)
+        changes.append(change)
+    rescaled: tuple[Change, ...] = ()
+    if weights:
+        before = dict(project.study.trade_off.weighting.weights)
+        trade_off = with_weights(changed.study.trade_off, weights)
+        changed = replace(changed, study=replace(changed.study, trade_off=trade_off))
+        after = trade_off.weighting.weights
+        rescaled = tuple(
+            Change(id=f"{WEIGHT}.{measure}", before=before[measure], after=after[measure], unit="1")
+            for measure in after
+            if measure not in weights and not math.isclose(before[measure], after[measure], abs_tol=1e-12)
+        )
+    changed = replace(changed, study=replace(changed.study, values=_value_anchors(changed)))
+    there = {variant.id for variant in changed.designs.expand()}
+    was_there = {variant.id for variant in project.designs.expand()}
+    if there - was_there:
+        raise EvidenceError(
+            f"--what-if: variants {', '.join(map(str, sorted(there - was_there)))} would become possible, "
+            "and no trial was run with them",
+            hint="change the catalogue and run 'rgss sweep'",
+        )
+    if not there:
+        raise DefinitionError(
+            "--what-if: the rules of the design space would then allow no variant", hint="suppose less"
+        )
+    return Scenario(
+        project=changed,
+        changes=tuple(changes),
+        rescaled=rescaled,
+        dropped=tuple(sorted(was_there - there)),
+        simulated=_simulated(project, changes),
+    )
+
+
+def measured_in(scenario: Scenario, measured: Sequence[VariantMeasures]) -> tuple[VariantMeasures, ...]:
+    """The estimates of every variant under suppositions, from the trials that there are.
+
+    Args:
+        scenario: The suppositions.
+        measured: Every variant with its estimates and records, as the project is.
+    """
+    project = scenario.project
+    numbers = {number.id: number for number in model_numbers(project)}
+    changed = [(numbers[change.id], change.after) for change in scenario.changes if change.id in numbers]
+    symbols = frozenset().union(*(symbols_of(project.measures, number) for number, _ in changed))
+    affected = frozenset(name for name, used in project.measures.used.items() if symbols & used)
+    found = []
+    for entry in measured:
+        if entry.variant.id in scenario.dropped:
+            continue
+        if not changed:
+            found.append(entry)
+            continue
+        variant = entry.variant
+        for number, value in changed:
+            variant = variant_with(variant, number, value)
+        estimates = _estimates(project, replace(entry, variant=variant), affected)
+        found.append(replace(entry, variant=variant, estimates=estimates))
+    return tuple(found)
+
+
+def _estimates(project: Project, entry: VariantMeasures, affected: frozenset[str]) -> Mapping[str, Estimate]:
+    """A variant's estimates, of which only some measures are affected."""
+    measures = project.measures
+    fixed = sources(entry.variant)
+    if any(measures.measure(name).from_trials for name in affected):
+        return evaluate(
+            measures,
+            fixed=fixed,
+            trials=[record.metrics for record in entry.records],
+            seed=project.study.seed,
+            variant=entry.variant.id,
+        )
+    # What follows from the design alone needs no interval, and the rest stays as it is.
+    values = design_values(measures, fixed=fixed, variant=entry.variant.id)
+    changed = {
+        name: Estimate.exact(values[name] / measures.measure(name).si_per_unit, measures.measure(name).unit)
+        for name in affected
+    }
+    return {name: changed.get(name, estimate) for name, estimate in entry.estimates.items()}
+
+
+def _simulated(project: Project, changes: Sequence[Change]) -> tuple[str, ...]:
+    named = {change.id for change in changes}
+    numbers = [number for number in model_numbers(project) if number.component and number.id in named]
+    found = simulated_numbers(project, project.designs.expand(), numbers) if numbers else frozenset()
+    return tuple(number.id for number in numbers if number.id in found)
+
+
+def _split(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    name, value = name.strip(), value.strip()
+    if not equals or not name or not value:
+        raise DefinitionError(f"--what-if: {shown(text)} is no supposition", hint=f"write {EXAMPLE}")
+    return name, value
+
+
+def _full_name(project: Project, name: str) -> str:
+    """The name of a number, which pages may print without its kind: ``t_e`` as a weight, ``SYS-012`` as a threshold.
+
+    Raises:
+        DefinitionError: It is the name of a demand that has no number.
+    """
+    if name.startswith(EVIDENCE_PREFIX):
+        raise DefinitionError(
+            f"--what-if: {shown(name)} demands that a measure is known, which is no number",
+            hint="run trials that tell it, or suppose another threshold",
+        )
+    trade_off = project.study.trade_off
+    threshold = f"{name}.{THRESHOLD}"
+    if threshold in _requirements(project) or threshold in demand_numbers(project):
+        return threshold
+    if name in trade_off.weighting.weights or name in weights_of_criteria(trade_off.criteria):
+        return f"{WEIGHT}.{name}"
+    return name
+
+
+def _demand(project: Project, name: str, text: str) -> tuple[Change, Project]:
+    number = demand_numbers(project)[name]
+    after = _quantity(name, text, number.unit)
+    if not name.endswith(f".{THRESHOLD}"):
+        share_checked(name, after)
+    study = replace(project.study, trade_off=number.changed(project.study.trade_off, after))
+    return Change(id=name, before=number.value, after=after, unit=number.unit), replace(project, study=study)
+
+
+def _weight(project: Project, name: str, criterion: str, text: str) -> Change:
+    trade_off = project.study.trade_off
+    known = {**trade_off.weighting.weights, **weights_of_criteria(trade_off.criteria)}
+    if criterion not in known:
+        raise _unknown(name, [f"{WEIGHT}.{other}" for other in known], criterion)
+    after = _quantity(name, text, "1")
+    if not 0.0 <= after <= 1.0:
+        raise DefinitionError(f"--what-if: {name} is {after:g}", hint="a weight is a number from 0 to 1")
+    return Change(id=name, before=known[criterion], after=after, unit="1")
+
+
+def _threshold(project: Project, name: str, requirement_id: str, text: str) -> tuple[Change, Project]:
+    known = [*_requirements(project), *demand_numbers(project)]
+    if f"{requirement_id}.{THRESHOLD}" not in known:
+        raise _unknown(name, known, requirement_id)
+    requirement = project.requirements.requirement(requirement_id)
+    criterion = requirement.criterion
+    if criterion is None:
+        raise _unknown(name, known, requirement_id)
+    unit = project.measures.measure(criterion.measure).unit
+    after = _quantity(name, text, unit)
+    system = tuple(
+        replace(one, criterion=replace(criterion, threshold=after, unit=unit)) if one.id == requirement_id else one
+        for one in project.requirements.system
+    )
+    change = Change(id=name, before=criterion.threshold_in(unit), after=after, unit=unit)
+    return change, replace(project, requirements=replace(project.requirements, system=system))
+
+
+def _anchor(project: Project, name: str, rest: str, text: str) -> tuple[Change, Project]:
+    trade_off = project.study.trade_off
+    known = {
+        f"{VALUE}.{valued.measure}.{anchor}": (valued, anchor)
+        for valued in trade_off.valued
+        for anchor in ANCHORS
+        if getattr(valued, anchor) is not None
+    }
+    if name not in known:
+        raise _unknown(name, known, rest)
+    valued, anchor = known[name]
+    unit = project.measures.measure(valued.measure).unit
+    after = _quantity(name, text, unit)
+    moved: dict[str, Any] = {anchor: after}
+    changed = tuple(replace(one, **moved) if one.measure == valued.measure else one for one in trade_off.valued)
+    change = Change(id=name, before=_quantity_of(project, valued, anchor), after=after, unit=unit)
+    return change, replace(project, study=replace(project.study, trade_off=replace(trade_off, valued=changed)))
+
+
+def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
+    known = {number.id: number for number in model_numbers(project)}
+    if name not in known:
+        raise _unknown(name, known, name)
+    number = known[name]
+    after = _quantity(name, text, number.unit)
+    if after < 0.0 <= number.value:
+        raise DefinitionError(f"--what-if: {name} is {after:g}", hint="give a number from 0 on")
+    return Change(id=name, before=number.value, after=after, unit=number.unit), with_number(project, number, after)
+
+
+def _quantity(name: str, text: str, unit: str) -> float:
+    try:
+        return parse_quantity(text, unit)
+    except QuantityError as error:
+        raise DefinitionError(f"--what-if: {name}: {error.message}", hint=error.hint) from error
+
+
+def _requirements(project: Project) -> list[str]:
+    return [f"{one.id}.{THRESHOLD}" for one in project.requirements.system if one.criterion is not None]
+
+
+def _unknown(name: str, known: Iterable[str], near_to: str) -> DefinitionError:
+    names = list(known)
+    near = difflib.get_close_matches(name, names, n=3) or [one for one in names if near_to and near_to in one][:3]
+    hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(names[:4])}"
+    return DefinitionError(f"--what-if: there is no {shown(name)}", hint=hint)
+
+
+def _quantity_of(project: Project, valued: ValuedMeasure, anchor: str) -> float:
+    written: Anchor = getattr(valued, anchor)
+    return _in_unit(project, written, valued.measure)
+
+
+def _in_unit(project: Project, written: Anchor, measure: str) -> float:
+    from rgss.decision.preference_model import threshold_of
+
+    return threshold_of(project, written, measure) if isinstance(written, RequirementAnchor) else written
+
+
+def _value_anchors(project: Project) -> tuple[ValueAnchors, ...]:
+    """What a study's file says of worst and best, as the suppositions make it."""
+    weights = project.study.trade_off.weighting.weights
+    resolve: Callable[[Anchor, str], float] = lambda written, measure: _in_unit(project, written, measure)  # noqa: E731
+    found = []
+    for valued in project.study.trade_off.valued:
+        worst, best = (valued.too_low, valued.target) if valued.target is not None else (valued.worst, valued.best)
+        if worst is not None and best is not None:
+            found.append(
+                ValueAnchors(
+                    measure=valued.measure,
+                    weight=weights[valued.measure],
+                    worst=resolve(worst, valued.measure),
+                    best=resolve(best, valued.measure),
+                )
+            )
+    return tuple(found)

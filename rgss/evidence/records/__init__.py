@@ -1,0 +1,70 @@
+"""Values of the evidence: records, pieces, provenance, and their encoding and digests."""
+
+from rgss.evidence.records.codec import plain_json, read_json, read_plain, record_from_json, record_to_json
+from rgss.evidence.records.digests import is_digest, record_digest, text_digest, trial_key
+from rgss.evidence.records.numerics import Numerics, numerics_difference, numerics_text, require_alike, results_of
+from rgss.evidence.records.origin import code_revision, file_digests, machine
+from rgss.evidence.records.outcomes import PLANNED_PHASES, Failure, Fidelity, Phase, PhaseOutcome, PlanOutcome
+from rgss.evidence.records.packing import LARGEST_TEXT, unpack
+from rgss.evidence.records.pieces import Piece, PieceKind, piece_row, read_piece
+from rgss.evidence.records.planning_runs import PlanningRun
+from rgss.evidence.records.provenance import Provenance, provenance_from_json
+from rgss.evidence.records.records import Metric, PhaseRecord, PlanningRecord, TrialRecord
+from rgss.evidence.records.run_failures import RunFailure, RunFailureKind, detail_line, failure_row, read_failure
+from rgss.evidence.records.trial_inputs import TrialInputs, inputs_digest, inputs_row, read_inputs
+from rgss.evidence.records.trial_rows import StoredTrial, read_trial, require_key, trial_row
+from rgss.evidence.records.trial_trace import PhaseSpan, TrialTrace
+
+__all__ = [
+    "LARGEST_TEXT",
+    "PLANNED_PHASES",
+    "Failure",
+    "Fidelity",
+    "Metric",
+    "Numerics",
+    "Phase",
+    "PhaseOutcome",
+    "PhaseRecord",
+    "PhaseSpan",
+    "Piece",
+    "PieceKind",
+    "PlanOutcome",
+    "PlanningRecord",
+    "PlanningRun",
+    "Provenance",
+    "RunFailure",
+    "RunFailureKind",
+    "StoredTrial",
+    "TrialInputs",
+    "TrialRecord",
+    "TrialTrace",
+    "code_revision",
+    "detail_line",
+    "failure_row",
+    "file_digests",
+    "inputs_digest",
+    "inputs_row",
+    "is_digest",
+    "machine",
+    "numerics_difference",
+    "numerics_text",
+    "piece_row",
+    "plain_json",
+    "provenance_from_json",
+    "read_failure",
+    "read_inputs",
+    "read_json",
+    "read_piece",
+    "read_plain",
+    "read_trial",
+    "record_digest",
+    "record_from_json",
+    "record_to_json",
+    "require_alike",
+    "require_key",
+    "results_of",
+    "text_digest",
+    "trial_key",
+    "trial_row",
+    "unpack",
+]

@@ -1,0 +1,49 @@
+"""The digests that evidence is known by: of what goes into a trial, and of what comes out."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from rgss.documents import digest
+from rgss.errors import DefinitionError, EvidenceError
+from rgss.evidence.records.codec import record_to_json
+from rgss.evidence.records.records import TrialRecord
+
+_DIGEST = re.compile(r"[0-9a-f]{64}")
+
+
+def trial_key(inputs: Mapping[str, Any]) -> str:
+    """The key of a trial: the SHA-256 of everything that decides its result.
+
+    Args:
+        inputs: Digests of the trial's inputs and versions of the code and engines, by name.
+
+    Raises:
+        EvidenceError: An input has no canonical form, such as one that is not a number.
+    """
+    try:
+        return digest(inputs)
+    except DefinitionError as error:
+        raise EvidenceError(f"no key for a trial: {error.message}", hint=error.hint) from error
+
+
+def record_digest(record: TrialRecord) -> str:
+    """The SHA-256 of a record's canonical JSON: equal only if every bit of every number is.
+
+    Raises:
+        EvidenceError: The record cannot be written.
+    """
+    return text_digest(record_to_json(record))
+
+
+def text_digest(text: str) -> str:
+    """The SHA-256 of a text, as 64 hexadecimal digits."""
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+def is_digest(text: object) -> bool:
+    """Tell whether something is a SHA-256 in 64 lower-case hexadecimal digits."""
+    return isinstance(text, str) and _DIGEST.fullmatch(text) is not None

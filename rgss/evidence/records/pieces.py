@@ -1,0 +1,72 @@
+"""The pieces of trials, kept so that each is made once: plans, timings, executions, benches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.documents import digest as digest_of
+from rgss.errors import EvidenceError
+from rgss.evidence.records.digests import is_digest, text_digest
+from rgss.evidence.records.packing import pack, unpack
+from rgss.findings import shown
+
+
+class PieceKind(str, Enum):
+    """What a trial is cut into."""
+
+    PLAN = "plan"
+    TIMING = "timing"
+    EXECUTION = "execution"
+    BENCH = "bench"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Piece:
+    """One piece of the trials that share it.
+
+    Attributes:
+        digest: SHA-256 of exactly its inputs: what it is known by.
+        kind: What it is.
+        text: Its content as JSON.
+    """
+
+    digest: str
+    kind: PieceKind
+    text: str
+
+
+def piece_row(piece: Piece) -> tuple[str, str, str, str, bytes]:
+    """The row that keeps a piece: digest, kind, digest of the content, seal, packed content.
+
+    Raises:
+        EvidenceError: Its digest is none, or its text is too long.
+    """
+    if not is_digest(piece.digest):
+        raise EvidenceError(f"{shown(piece.digest)} is not the digest of a piece", hint="it is a SHA-256 of its inputs")
+    kind, content = PieceKind(piece.kind).value, text_digest(piece.text)
+    return (piece.digest, kind, content, _seal(piece.digest, kind, content), pack(piece.text, "piece"))
+
+
+def read_piece(row: tuple[object, ...]) -> Piece:
+    """Read a row that `piece_row` made.
+
+    Raises:
+        EvidenceError: It is not as it was made; the message says what is wrong with it.
+    """
+    name, kind, content_digest, seal, content = row
+    if not (is_digest(name) and isinstance(name, str)):
+        raise EvidenceError("its digest is none")
+    if kind not in {known.value for known in PieceKind}:
+        raise EvidenceError(f"there is no kind {shown(kind)}")
+    text = unpack(content, "content")
+    if text_digest(text) != content_digest:
+        raise EvidenceError("its content is not the one that was put")
+    if _seal(name, str(kind), str(content_digest)) != seal:
+        raise EvidenceError("its content belongs to another piece")
+    return Piece(digest=name, kind=PieceKind(kind), text=text)
+
+
+def _seal(name: str, kind: str, content: str) -> str:
+    """Binds the parts of a row to each other, so that rows cannot be mixed up."""
+    return digest_of([name, kind, content])

@@ -1,0 +1,75 @@
+"""Where a record comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from types import MappingProxyType
+
+from rgss.documents import canonical_json
+from rgss.errors import DefinitionError, EvidenceError
+from rgss.evidence.records.codec import plain_json, read_plain
+from rgss.evidence.records.numerics import Numerics
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Provenance:
+    """What went into a trial, and what made it.
+
+    None of this but the digests of the pieces enters a trial's key or the digest of its record.
+
+    Attributes:
+        inputs: SHA-256 of each of its pieces' inputs by name: ``plan``, ``timing``, ``execution``,
+            ``trial``.
+        versions: Version of the code and of each engine by name.
+        inputs_digest: What the store knows the trial's named inputs by, to say later which of
+            them changed; empty if they were not kept.
+        files: SHA-256 of each input file by its name in the project.
+        revision: Revision of the code in its version control; empty if it is not known.
+        machine: What it ran on: system, processor, Python; empty if it is not known.
+        numerics: What the mathematics of the process computed, part by part; empty if that was not recorded.
+    """
+
+    inputs: Mapping[str, str]
+    versions: Mapping[str, str]
+    inputs_digest: str = ""
+    files: Mapping[str, str] = field(default_factory=dict)
+    revision: str = ""
+    machine: str = ""
+    numerics: Numerics = field(default_factory=dict)
+
+
+_FIRST_FIELDS = {"inputs", "versions"}
+"""What a provenance of schema 1 says."""
+
+_LATER_FIELDS: Mapping[str, object] = MappingProxyType(
+    {"inputs_digest": "", "files": {}, "revision": "", "machine": "", "numerics": {}}
+)
+"""What later ones say besides, in the order in which it came, with what it is taken for where it is missing."""
+
+
+def provenance_to_json(provenance: Provenance) -> str:
+    """Write a provenance as canonical JSON.
+
+    Raises:
+        EvidenceError: It holds something else than texts.
+    """
+    try:
+        text = canonical_json({each.name: getattr(provenance, each.name) for each in fields(provenance)})
+    except DefinitionError as error:
+        raise EvidenceError(f"the provenance cannot be written: {error.message}", hint=error.hint) from error
+    provenance_from_json(text)
+    return text
+
+
+def provenance_from_json(text: str) -> Provenance:
+    """Read a provenance that `provenance_to_json` wrote, or an earlier rgss did.
+
+    Raises:
+        EvidenceError: The text is no such provenance.
+    """
+    data = plain_json(text, "provenance")
+    known_sets = (_FIRST_FIELDS, {*_FIRST_FIELDS, *_LATER_FIELDS} - {"numerics"})
+    if isinstance(data, dict) and data.keys() in known_sets:
+        data = {**_LATER_FIELDS, **data}
+    return read_plain(data, Provenance, "provenance")

@@ -1,0 +1,78 @@
+"""What one trial leaves behind: plain, frozen values that survive a round trip through JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rgss.evidence.records.outcomes import Failure, Fidelity, Phase, PhaseOutcome, PlanOutcome
+
+Metric = float | int | None | tuple[float | int | None, ...]
+"""A number, a row of numbers, or None where the trial cannot know it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PhaseRecord:
+    """One of the eight states as it was run.
+
+    Attributes:
+        phase: Which state.
+        outcome: How it ended.
+        duration_s: Simulated time that it took; None if it did not run.
+        metrics: What was observed in it, by name with unit, such as ``slip_m``.
+    """
+
+    phase: Phase
+    outcome: PhaseOutcome
+    duration_s: float | None
+    metrics: Mapping[str, Metric]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanningRecord:
+    """The planning of one of the five moves.
+
+    Attributes:
+        subtask: The move.
+        outcome: How its planning ended.
+        checks: State-validity checks of the search (without simplification).
+        simplification_checks: State-validity checks spent on shortening the path.
+        time_s: Planning time by the trial's planning clock; None if it did not run.
+        path_length_m: Length of the tool's path; None if there is no path.
+    """
+
+    subtask: Phase
+    outcome: PlanOutcome
+    checks: int
+    simplification_checks: int
+    time_s: float | None
+    path_length_m: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialRecord:
+    """One variant tried once.
+
+    Attributes:
+        variant: Id of the design variant.
+        seed: The trial's seed.
+        fidelity: How much physics it had.
+        success: All eight states complete and the object standing where it should.
+        failure: What ended it; None on success.
+        failed_phase: The phase that failed; None on success.
+        failure_detail: The numbers that show the failure, in one line; empty on success.
+        phases: The eight states in order.
+        planning: The five planned moves in order.
+        metrics: What was observed over the whole trial, by name with unit.
+    """
+
+    variant: int
+    seed: int
+    fidelity: Fidelity
+    success: bool
+    failure: Failure | None
+    failed_phase: Phase | None
+    failure_detail: str
+    phases: tuple[PhaseRecord, ...]
+    planning: tuple[PlanningRecord, ...]
+    metrics: Mapping[str, Metric]

@@ -1,0 +1,73 @@
+"""The named inputs of trials, kept once by content, so that a change can be named later."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rgss.documents import canonical_json
+from rgss.errors import DefinitionError, EvidenceError
+from rgss.evidence.records.codec import plain_json
+from rgss.evidence.records.digests import is_digest, text_digest
+from rgss.evidence.records.packing import pack, unpack
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialInputs:
+    """The named inputs of trials.
+
+    Attributes:
+        digest: What they are known by.
+        values: The inputs by name: plain data.
+    """
+
+    digest: str
+    values: Mapping[str, Any]
+
+
+def inputs_digest(inputs: Mapping[str, Any]) -> str:
+    """What the store knows named inputs by: the SHA-256 of their canonical JSON.
+
+    Raises:
+        EvidenceError: They are not plain data.
+    """
+    return text_digest(_text(inputs))
+
+
+def inputs_row(inputs: Mapping[str, Any]) -> tuple[str, bytes]:
+    """The row that keeps named inputs: their digest and their packed text.
+
+    Raises:
+        EvidenceError: They are not plain data, or too long.
+    """
+    text = _text(inputs)
+    return text_digest(text), pack(text, "inputs")
+
+
+def read_inputs(row: tuple[object, ...]) -> TrialInputs:
+    """Read a row that `inputs_row` made.
+
+    Raises:
+        EvidenceError: It is not as it was made; the message says what is wrong with it.
+    """
+    name, content = row
+    if not (is_digest(name) and isinstance(name, str)):
+        raise EvidenceError("its digest is none")
+    text = unpack(content, "content")
+    if text_digest(text) != name:
+        raise EvidenceError("its content is not the one that was put")
+    data = plain_json(text, "content")
+    if not isinstance(data, dict):
+        raise EvidenceError("its content is not a mapping")
+    return TrialInputs(digest=name, values=data)
+
+
+def _text(inputs: Mapping[str, Any]) -> str:
+    try:
+        text = canonical_json(inputs)
+    except DefinitionError as error:
+        raise EvidenceError(f"the inputs cannot be written: {error.message}", hint=error.hint) from error
+    if not isinstance(inputs, Mapping):
+        raise EvidenceError("the inputs cannot be written: they are not a mapping")
+    return text

@@ -1,0 +1,93 @@
+"""Trials as rows of the store, sealed when they are written and checked when they are read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.documents import digest
+from rgss.errors import EvidenceError
+from rgss.evidence.records.codec import record_from_json, record_to_json
+from rgss.evidence.records.digests import is_digest, text_digest
+from rgss.evidence.records.packing import pack, unpack
+from rgss.evidence.records.provenance import Provenance, provenance_from_json, provenance_to_json
+from rgss.evidence.records.records import TrialRecord
+from rgss.findings import shown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredTrial:
+    """A trial of the store.
+
+    Attributes:
+        key: SHA-256 of what went into the trial.
+        content_digest: SHA-256 of the record's canonical JSON.
+        record: What came out of it.
+        provenance: Where it comes from.
+    """
+
+    key: str
+    content_digest: str
+    record: TrialRecord
+    provenance: Provenance
+
+
+TrialRow = tuple[str, int, int, str, str, str, bytes, bytes]
+
+
+def trial_row(key: str, record: TrialRecord, provenance: Provenance) -> TrialRow:
+    """The row that keeps a trial: key, variant, seed, fidelity, digest, seal, packed record and provenance.
+
+    Raises:
+        EvidenceError: The key or the record is malformed.
+    """
+    require_key(key)
+    text, origin = record_to_json(record), provenance_to_json(provenance)
+    for name, number in (("variant", record.variant), ("seed", record.seed)):
+        if abs(number) >= 2**63:
+            raise EvidenceError(f"record.{name} is beyond 64 bits: {shown(number)}")
+    content = text_digest(text)
+    return (
+        key,
+        record.variant,
+        record.seed,
+        record.fidelity.value,
+        content,
+        _seal(key, content, origin),
+        pack(text, "record"),
+        pack(origin, "provenance"),
+    )
+
+
+def read_trial(row: tuple[object, ...]) -> StoredTrial:
+    """Read a row that `trial_row` made.
+
+    Raises:
+        EvidenceError: It is not as it was made; the message says what is wrong with it.
+    """
+    key, variant, seed, fidelity, content, seal, packed_record, packed_provenance = row
+    if not (is_digest(key) and isinstance(key, str)):
+        raise EvidenceError("its key is none")
+    text, origin = unpack(packed_record, "record"), unpack(packed_provenance, "provenance")
+    if text_digest(text) != content:
+        raise EvidenceError("its record is not the one that was put")
+    if _seal(key, str(content), origin) != seal:
+        raise EvidenceError("its record or provenance belongs to another row")
+    record, provenance = record_from_json(text), provenance_from_json(origin)
+    if (variant, seed, fidelity) != (record.variant, record.seed, record.fidelity.value):
+        raise EvidenceError("it is filed under another variant, seed or fidelity than its record has")
+    return StoredTrial(key=key, content_digest=str(content), record=record, provenance=provenance)
+
+
+def require_key(key: object) -> None:
+    """Make sure that something is the key of a trial.
+
+    Raises:
+        EvidenceError: It is not.
+    """
+    if not is_digest(key):
+        raise EvidenceError(f"{shown(key)} is not the key of a trial", hint="keys are made by trial_key")
+
+
+def _seal(key: str, content: str, provenance: str) -> str:
+    """Binds the parts of a row to each other, so that rows cannot be mixed up."""
+    return digest([key, content, provenance])

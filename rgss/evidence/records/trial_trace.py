@@ -1,0 +1,83 @@
+"""The course of one trial over time: what pictures and plots of it are made from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.evidence.records.outcomes import Phase
+
+Series = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PhaseSpan:
+    """When a phase ran.
+
+    Attributes:
+        phase: Which of the eight states.
+        start_s: When it began.
+        end_s: When it ended.
+        last: Index of its last sample.
+    """
+
+    phase: Phase
+    start_s: float
+    end_s: float
+    last: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TrialTrace:
+    """Time series of the phases that physics ran; n samples, in simulated time without planning.
+
+    A sample stands for the physics steps from it to the next: its forces are the greatest of them
+    and its grip margin the least, so that a coarse rate hides no peak. All else is as at its time.
+
+    Attributes:
+        spans: The phases in order.
+        time_s: Times (n,) of the samples, from the start of the first phase.
+        joint_positions_rad: Positions (n, joints) of the arm.
+        finger_travel_m: How far each finger had closed (n, fingers).
+        workpiece_position_m: Position (n, 3) of the workpiece in the world.
+        workpiece_quaternion_xyzw: Orientation (n, 4) of the workpiece in the world, scalar last.
+        tool_position_m: Position (n, 3) of the grasp centre in the world.
+        tool_speed_m_s: Speed (n,) of the grasp centre.
+        tool_speed_limit_m_s: Greatest speed that the design allows it.
+        finger_forces_n: Normal force (n, fingers) of each finger on the workpiece.
+        commanded_force_n: Force (n,) that each finger was told to press with; NaN where none.
+        grip_margin: Friction available over friction needed (n,); NaN while nothing is carried.
+    """
+
+    spans: tuple[PhaseSpan, ...]
+    time_s: Series
+    joint_positions_rad: Series
+    finger_travel_m: Series
+    workpiece_position_m: Series
+    workpiece_quaternion_xyzw: Series
+    tool_position_m: Series
+    tool_speed_m_s: Series
+    tool_speed_limit_m_s: float
+    finger_forces_n: Series
+    commanded_force_n: Series
+    grip_margin: Series
+
+    @property
+    def duration_s(self) -> float:
+        """Time of the last sample."""
+        return float(self.time_s[-1])
+
+    def sample_at(self, time_s: float) -> int:
+        """Index of the sample nearest to a time."""
+        after = int(np.searchsorted(self.time_s, time_s))
+        if after == 0:
+            return 0
+        if after == len(self.time_s):
+            return after - 1
+        return after if self.time_s[after] - time_s < time_s - self.time_s[after - 1] else after - 1
+
+    def span_at(self, sample: int) -> PhaseSpan:
+        """The phase to which a sample belongs."""
+        return next(span for span in self.spans if sample <= span.last)

@@ -1,0 +1,27 @@
+"""The evidence store: SQLite file, ledger, verification, rescue, export and merge."""
+
+from rgss.evidence.store.census import numerics_census
+from rgss.evidence.store.collection import Garbage, collect_garbage, find_garbage
+from rgss.evidence.store.connection import error_of
+from rgss.evidence.store.contents import Contents, TrialName, contents_of
+from rgss.evidence.store.exporting import export_trials, require_exportable
+from rgss.evidence.store.store import EvidenceStore
+from rgss.evidence.store.verification import Verification, salvage, take_away, verify
+
+__all__ = [
+    "Contents",
+    "EvidenceStore",
+    "Garbage",
+    "TrialName",
+    "Verification",
+    "collect_garbage",
+    "contents_of",
+    "error_of",
+    "export_trials",
+    "find_garbage",
+    "numerics_census",
+    "require_exportable",
+    "salvage",
+    "take_away",
+    "verify",
+]

@@ -1,0 +1,30 @@
+"""How many trials of a store were computed with which numerics."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from rgss.errors import EvidenceError
+from rgss.evidence.records import Numerics, provenance_from_json, unpack
+from rgss.evidence.store.connection import Database
+
+
+def numerics_census(database: Database) -> tuple[tuple[Numerics, int], ...]:
+    """The numerics of the trials of a store with the number of trials of each, the most frequent first.
+
+    Trials that do not say are counted under empty numerics. A damaged row is left out; `verify` names it.
+
+    Args:
+        database: The store's file.
+
+    Raises:
+        EvidenceError: The file cannot be read.
+    """
+    found: Counter[tuple[tuple[str, str], ...]] = Counter()
+    for (packed,) in database.rows("SELECT provenance FROM trials ORDER BY key"):
+        try:
+            numerics = provenance_from_json(unpack(packed, "provenance")).numerics
+        except EvidenceError:
+            continue
+        found[tuple(sorted(numerics.items()))] += 1
+    return tuple((dict(parts), count) for parts, count in found.most_common())

@@ -1,0 +1,184 @@
+"""Garbage of a store: what nobody names any more, found and removed."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+from pathlib import Path
+
+from rgss.errors import EvidenceError
+from rgss.evidence.records import provenance_from_json, unpack
+from rgss.evidence.store import connection as connecting
+from rgss.evidence.store.connection import Database, in_our_words
+from rgss.evidence.store.contents import TrialName, trial_names
+from rgss.evidence.store.creation import require_content
+from rgss.evidence.store.ledger import require_ledger, write_ledger
+from rgss.evidence.store.schema import prepare, require_sound_pages
+from rgss.evidence.store.tables import FAILURES, INPUTS, PIECES, TRIALS
+
+_PATIENCE_MS = 2000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Garbage:
+    """What nobody names.
+
+    Attributes:
+        trials: The trials.
+        pieces: Digests of the pieces that neither a kept trial nor a named one has.
+        inputs: Digests of the named inputs that no kept trial refers to.
+        failures: Keys of the failures of what nobody names.
+        size_bytes: Bytes of all of that, without what the file needs to keep it.
+    """
+
+    trials: tuple[TrialName, ...]
+    pieces: tuple[str, ...]
+    inputs: tuple[str, ...]
+    failures: tuple[str, ...]
+    size_bytes: int
+
+    def __bool__(self) -> bool:
+        return bool(self.trials or self.pieces or self.inputs or self.failures)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Collection:
+    """What a collection removed.
+
+    Attributes:
+        garbage: What was removed.
+        before_bytes: Bytes of the file before.
+        after_bytes: Bytes of the file after.
+        shrunk: Whether the file gave back what was freed; if not, it is used again by what comes.
+    """
+
+    garbage: Garbage
+    before_bytes: int
+    after_bytes: int
+    shrunk: bool
+
+
+def find_garbage(database: Database, *, trials: AbstractSet[str], pieces: AbstractSet[str]) -> Garbage:
+    """Find what nobody names: all trials but the named ones, and what no kept trial refers to.
+
+    Args:
+        database: The store's file.
+        trials: Keys of the trials that are to stay.
+        pieces: Digests of pieces that are to stay even if no kept trial has them, such as those of
+            trials that are still to be run.
+
+    Raises:
+        EvidenceError: The store is damaged or cannot be read.
+    """
+    gone = tuple(name for name in trial_names(database) if name.key not in trials)
+    used_pieces, used_inputs = _references(database, trials)
+    unused_pieces = _unused(database.rows(_PIECES), used_pieces | pieces)
+    unused_inputs = _unused(database.rows(_INPUTS), used_inputs)
+    named = trials | pieces
+    failures = tuple(key for (key,) in database.rows("SELECT key FROM failures ORDER BY key") if key not in named)
+    return Garbage(
+        trials=gone,
+        pieces=tuple(unused_pieces),
+        inputs=tuple(unused_inputs),
+        failures=failures,
+        size_bytes=sum(name.size_bytes for name in gone) + sum((unused_pieces | unused_inputs).values()),
+    )
+
+
+def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet[str], label: str) -> Collection:
+    """Remove what nobody names, in one transaction, and give its space back.
+
+    Nothing else may have the store open: a running sweep has pieces in it that no trial refers to yet.
+
+    Args:
+        path: The file.
+        trials: As in `find_garbage`.
+        pieces: As in `find_garbage`.
+        label: The file's name in messages.
+
+    Raises:
+        EvidenceError: Another process has the store open, or it is damaged or cannot be written.
+    """
+    require_content(path, label=label)
+    with in_our_words(label):
+        connection = connecting.connect(path)
+    database = Database(connection, label)
+    try:
+        with in_our_words(label):
+            prepare(connection, label)
+            require_sound_pages(connection, label)
+            require_ledger(database)
+        _take_for_oneself(database)
+        before = database.size_bytes()
+        with database.transaction():
+            garbage = find_garbage(database, trials=trials, pieces=pieces)
+            for table, keys in (
+                (TRIALS, [name.key for name in garbage.trials]),
+                (PIECES, garbage.pieces),
+                (INPUTS, garbage.inputs),
+                (FAILURES, garbage.failures),
+            ):
+                for key in keys:
+                    database.change(f"{table.delete} WHERE {table.key} = ?", [key])
+            write_ledger(connection)
+        shrunk = _give_back(connection)
+        return Collection(garbage=garbage, before_bytes=before, after_bytes=database.size_bytes(), shrunk=shrunk)
+    finally:
+        database.close()
+
+
+def _take_for_oneself(database: Database) -> None:
+    """Keep every other process out until the file is closed.
+
+    Leaving write-ahead logging needs a lock that nobody gets while another has the file open; the
+    next process that opens it goes back to logging.
+    """
+    try:
+        database.connection.execute(f"PRAGMA busy_timeout = {_PATIENCE_MS}")
+        database.connection.execute("PRAGMA locking_mode = EXCLUSIVE")
+        database.connection.execute("PRAGMA journal_mode = DELETE")
+    except sqlite3.OperationalError as error:
+        if "locked" not in str(error):
+            with in_our_words(database.name):
+                raise
+        raise EvidenceError(
+            f"another process has the evidence store {database.name} open", hint="wait until the sweep is done"
+        ) from error
+
+
+def _give_back(connection: sqlite3.Connection) -> bool:
+    """Write the file anew without its free pages; a full disk leaves it as it is, which does no harm."""
+    try:
+        connection.execute("VACUUM")
+    except sqlite3.OperationalError:
+        return False
+    return True
+
+
+def _references(database: Database, trials: AbstractSet[str]) -> tuple[set[str], set[str]]:
+    """Digests of the pieces and of the named inputs that the trials to be kept refer to."""
+    pieces: set[str] = set()
+    inputs: set[str] = set()
+    for key in sorted(trials):
+        row = database.one("SELECT provenance FROM trials WHERE key = ?", [key])
+        if row is None:
+            continue
+        try:
+            provenance = provenance_from_json(unpack(row[0], "provenance"))
+        except EvidenceError as error:
+            raise EvidenceError(
+                f"{database.name}: trial {key[:12]} is damaged: {error.message}",
+                hint="'rgss evidence verify --mend' takes it away",
+            ) from error
+        pieces.update(provenance.inputs.values())
+        inputs.add(provenance.inputs_digest)
+    return pieces, inputs
+
+
+def _unused(rows: list[tuple[str, int]], used: AbstractSet[str]) -> dict[str, int]:
+    return {name: int(size) for name, size in rows if name not in used}
+
+
+_PIECES = "SELECT digest, length(content) FROM pieces ORDER BY digest"
+_INPUTS = "SELECT digest, length(content) FROM inputs ORDER BY digest"

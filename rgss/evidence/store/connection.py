@@ -1,0 +1,216 @@
+"""The database file of a store: opening it, transactions, errors in our words."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sqlite3
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+from typing import Any
+
+from rgss.errors import EvidenceError, StorageError
+from rgss.evidence.records import LARGEST_TEXT
+
+BUSY_TIMEOUT_S = 30.0
+"""How long a connection waits for another process that is writing."""
+
+LARGEST_ROW = LARGEST_TEXT + 1024 * 1024
+"""Bytes of the longest row that is read: a text that cannot be compressed, and what stands beside it."""
+
+Row = tuple[Any, ...]
+
+PROBLEMS = (sqlite3.Error, UnicodeError)
+"""What a database file can raise; the second when an error's text repeats bytes of a damaged schema."""
+
+_HINTS: Mapping[str, str] = {
+    "locked": "another process is using it; try again when it is done",
+    "readonly": "choose a file and a folder that can be written",
+    "unable to open": "check that it is a file in a folder that can be written",
+    "not a database": "choose another file; this one is left as it is",
+    "malformed": "'rgss evidence verify' tells what is left of it",
+    "full": "free some space on the disk; what was put before is kept",
+    "disk I/O": "free some space on the disk or look for its health; what was put before is kept",
+    "closed": "open the store again",
+    "thread": "open the store in the thread that uses it",
+}
+
+_OUTSIDE = ("locked", "full", "disk I/O")
+"""What is nobody's mistake, by the words in which SQLite says so."""
+
+_OUTSIDE_LATER = (*_OUTSIDE, "readonly", "unable to open")
+"""The same once a file could be opened and written."""
+
+_NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EMFILE, errno.ENFILE)
+SPACE_HINT = "free some space on the disk, or raise the limit; what was put before is kept"
+
+
+class Database:
+    """An open database file; every error of SQLite comes as one of ours, with the file's name.
+
+    Attributes:
+        connection: The connection, in autocommit mode.
+        name: The file's name in messages.
+    """
+
+    def __init__(self, connection: sqlite3.Connection, name: str) -> None:
+        self.connection = connection
+        self.name = name
+
+    def one(self, statement: str, values: Iterable[object] = ()) -> Row | None:
+        """The first row of a query; None if there is none."""
+        with self.in_our_words():
+            row: Row | None = self.connection.execute(statement, tuple(values)).fetchone()
+        return row
+
+    def rows(self, statement: str, values: Iterable[object] = ()) -> list[Row]:
+        """All rows of a query."""
+        with self.in_our_words():
+            return self.connection.execute(statement, tuple(values)).fetchall()
+
+    def change(self, statement: str, values: Iterable[object] = ()) -> int:
+        """Change rows; returns how many were."""
+        with self.in_our_words():
+            return self.connection.execute(statement, tuple(values)).rowcount
+
+    def size_bytes(self) -> int:
+        """Bytes of the pages, with those that are still in the log and those that are free."""
+        return int(self.one("PRAGMA page_count")[0]) * int(self.one("PRAGMA page_size")[0])  # type: ignore[index]
+
+    @contextmanager
+    def transaction(self, kind: str = "IMMEDIATE") -> Iterator[None]:
+        """Let what is done within take effect as a whole, or not at all.
+
+        Args:
+            kind: ``IMMEDIATE`` to write, ``DEFERRED`` to read.
+
+        Raises:
+            EvidenceError: The database cannot be read or written.
+        """
+        with self.in_our_words():
+            self.connection.execute(f"BEGIN {kind}")
+            try:
+                yield
+                self.connection.execute("COMMIT")
+            except BaseException:
+                # SQLite may have rolled back by itself, as it does when the disk is full.
+                if self.connection.in_transaction:
+                    self.connection.execute("ROLLBACK")
+                raise
+
+    def close(self) -> None:
+        """Close the file; a second time does nothing."""
+        with self.in_our_words():
+            self.connection.close()
+
+    def in_our_words(self) -> AbstractContextManager[None]:
+        """Turn errors of SQLite into ours, knowing that the file could be opened."""
+        return in_our_words(self.name, outside=_OUTSIDE_LATER)
+
+
+def is_writable(path: Path) -> bool:
+    """Whether a file can be written, and the logs beside it that SQLite needs for that."""
+    effective = os.access in os.supports_effective_ids
+    return all(os.access(place, os.W_OK, effective_ids=effective) for place in (path, path.parent))
+
+
+def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False) -> sqlite3.Connection:
+    """Open a database file so that a commit outlasts a loss of power and nothing in the file can act.
+
+    Args:
+        path: The file.
+        though_damaged: Also if it is shorter than it says that it is; only for reading.
+        read_only: Make no file beside it and change nothing, where nothing can be written.
+
+    Raises:
+        sqlite3.Error: It cannot be opened.
+    """
+    # In autocommit mode, so that transactions begin and end where the store says.
+    connection = sqlite3.connect(
+        _read_only_name(path) if read_only else path, timeout=BUSY_TIMEOUT_S, isolation_level=None, uri=read_only
+    )
+    # A text that is not Unicode is damage of one row, which the row's digests will tell.
+    connection.text_factory = lambda content: content.decode("utf-8", "surrogateescape")
+    try:
+        if sys.version_info >= (3, 11):
+            # A longer row is an error before it is read.
+            connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_ROW)
+        if though_damaged:
+            # SQLite reads such a file only for who may mend its schema.
+            connection.execute("PRAGMA writable_schema = ON")
+            connection.execute("PRAGMA query_only = ON")
+        for setting in (
+            "synchronous = FULL",
+            "fullfsync = ON",
+            "checkpoint_fullfsync = ON",
+            # Nothing that a foreign file defines in its schema may call functions.
+            "trusted_schema = OFF",
+            "cell_size_check = ON",
+            # A file that is cut short under a map would end the process.
+            "mmap_size = 0",
+        ):
+            connection.execute(f"PRAGMA {setting}")
+    except BaseException:
+        connection.close()
+        raise
+    return connection
+
+
+def _read_only_name(path: Path) -> str:
+    """The file as SQLite is asked to read it: without its logs, unless another user is writing now."""
+    log = path.with_name(f"{path.name}-wal")
+    in_use = log.exists() and log.stat().st_size > 0
+    return f"{path.resolve().as_uri()}?{'mode=ro' if in_use else 'immutable=1'}"
+
+
+def problem_of(error: Exception) -> str:
+    """What one of the `PROBLEMS` says, in one line."""
+    if isinstance(error, UnicodeError):
+        return "a text of its schema is not Unicode"
+    text = "".join(character if character.isprintable() else " " for character in str(error))
+    return " ".join(text.split())[:200] or type(error).__name__
+
+
+@contextmanager
+def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path | None = None) -> Iterator[None]:
+    """Turn errors of SQLite into ours.
+
+    Args:
+        name: The file's name in messages.
+        outside: What is nobody's mistake, by the words in which SQLite says so.
+        folder: Where a file was to be opened: SQLite does not say why it could not be.
+
+    Raises:
+        StorageError: The disk is full or fails, or another process keeps the file locked.
+        EvidenceError: For any other error of SQLite.
+    """
+    try:
+        yield
+    except PROBLEMS as error:
+        problem = problem_of(error)
+        obstacle = _obstacle(folder) if folder is not None and "unable to open" in problem else None
+        if obstacle is not None:
+            raise StorageError(
+                f"the evidence store {name} cannot be used: {os.strerror(obstacle)}", hint=SPACE_HINT
+            ) from error
+        hints = (hint for words, hint in _HINTS.items() if words in problem)
+        hint = next(hints, "'rgss evidence verify' looks for damage")
+        kind = StorageError if any(words in problem for words in outside) else EvidenceError
+        raise kind(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error
+
+
+def _obstacle(folder: Path) -> int | None:
+    """Why the system has no room for another file in a folder, as its error number; None if it has."""
+    try:
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        return error.errno if error.errno in _NO_SPACE else None
+    return None
+
+
+def error_of(error: OSError) -> type[EvidenceError]:
+    """The kind of error that a file's is: `StorageError` if the disk is full or fails, or no more files can be open."""
+    return StorageError if error.errno in _NO_SPACE else EvidenceError

@@ -1,0 +1,149 @@
+"""Creation of a store: complete under another name, then linked to its own, so that no empty file is ever a store."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import secrets
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rgss.errors import EvidenceError, StorageError
+from rgss.evidence.store.connection import SPACE_HINT, connect, error_of, in_our_words
+from rgss.evidence.store.schema import make
+
+_NO_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)
+_ENDING = "new"
+_ATTEMPTS = 5
+_LOGS = ("", "-wal", "-shm", "-journal")
+
+
+def create_store(path: Path, *, label: str) -> None:
+    """Make a store without rows where there is no file, with its folder; one that appears meanwhile is kept.
+
+    A process that dies meanwhile leaves at most a hidden file, which the next one removes.
+
+    Args:
+        path: The file.
+        label: Its name in messages.
+
+    Raises:
+        StorageError: The disk is full or fails.
+        EvidenceError: The folder or the file cannot be made.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        kind = error_of(error)
+        hint = SPACE_HINT if kind is StorageError else "choose a folder that can be written"
+        raise kind(f"the folder of {label} cannot be made: {error.strerror}", hint=hint) from error
+    for attempt in range(_ATTEMPTS):
+        try:
+            _make_and_link(path, label)
+        except FileNotFoundError:  # noqa: PERF203 - it is tried again
+            # On a shared disk a process of another machine may have taken ours for one that has died.
+            if attempt == _ATTEMPTS - 1:
+                raise
+        except OSError as error:
+            raise error_of(error)(f"{label} cannot be made: {error.strerror}") from error
+        else:
+            return
+
+
+def _make_and_link(path: Path, label: str) -> None:
+    for left in _left_behind(path):
+        _remove(left)
+    part = path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.{_ENDING}")
+    try:
+        with in_our_words(label, folder=path.parent):
+            connection = connect(part)
+            try:
+                make(connection)
+            finally:
+                connection.close()
+        with _alone_in(path.parent):
+            if not path.exists():
+                # The log of a file that was moved away is not the log of this one.
+                _remove(path)
+                _link(part, path)
+    finally:
+        _remove(part)
+
+
+@contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """Keep other processes from making a store in a folder, where the file system can."""
+    if sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def _link(part: Path, path: Path) -> None:
+    try:
+        os.link(part, path)
+    except FileExistsError:
+        return
+    except OSError as error:
+        if error.errno not in _NO_LINKS:
+            raise
+        # A file system without links: another process could only put an empty store there meanwhile.
+        if not path.exists():
+            part.rename(path)
+
+
+def _left_behind(path: Path) -> Iterator[Path]:
+    """What processes have left that died while they made this store."""
+    for file in path.parent.glob(f".{path.name}.*.{_ENDING}"):
+        process = file.name.removeprefix(f".{path.name}.").partition("-")[0]
+        with contextlib.suppress(OSError):
+            if process.isdecimal() and not _is_alive(int(process)) and file.stat().st_uid == os.geteuid():
+                yield file
+
+
+def _is_alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        return True
+    return True
+
+
+def _remove(file: Path) -> None:
+    for ending in _LOGS:
+        with contextlib.suppress(OSError):
+            file.with_name(file.name + ending).unlink(missing_ok=True)
+
+
+def require_content(path: Path, *, label: str) -> None:
+    """Make sure that a file which is there is not empty.
+
+    A store is never empty, not even while it is made: such a file was cut to nothing, or was made by
+    something else.
+
+    Args:
+        path: The file.
+        label: Its name in messages.
+
+    Raises:
+        EvidenceError: It is empty.
+    """
+    with contextlib.suppress(OSError):
+        if path.is_file() and path.stat().st_size == 0:
+            raise EvidenceError(f"{label} is empty, which no evidence store is: it was cut to nothing", hint=_EMPTY)
+
+
+_EMPTY = "put a copy of it back, or remove the file to begin anew"

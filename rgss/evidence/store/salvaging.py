@@ -1,0 +1,97 @@
+"""Reading what is left of a damaged store, row by row, and copying it into a new one."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from rgss.errors import EvidenceError
+from rgss.evidence.store.connection import PROBLEMS, Database, Row, connect, in_our_words, problem_of
+from rgss.evidence.store.creation import create_store
+from rgss.evidence.store.ledger import write_ledger
+from rgss.evidence.store.schema import prepare
+from rgss.evidence.store.tables import Table
+
+
+def copy_rows(rows: Iterable[tuple[Table[Any], Row]], to: Path) -> int:
+    """Put rows into a new store, those with a key that is there already left out.
+
+    Args:
+        rows: Each row with its table.
+        to: The new file.
+
+    Returns:
+        How many were copied.
+
+    Raises:
+        EvidenceError: The new file cannot be written.
+    """
+    create_store(to, label=str(to))
+    with in_our_words(str(to)):
+        new = Database(connect(to), str(to))
+        try:
+            prepare(new.connection, new.name)
+            with new.transaction():
+                copied = sum(new.change(table.put, row) for table, row in rows)
+                write_ledger(new.connection)
+                return copied
+        finally:
+            new.close()
+
+
+def readable_rows(connection: sqlite3.Connection, table: Table[Any]) -> Iterator[tuple[int, Row]]:
+    """The rows of a table that are sound, each with its number.
+
+    Args:
+        connection: The damaged store.
+        table: The table.
+    """
+    for number in row_numbers(connection, table)[0]:
+        try:
+            row = numbered_row(connection, table, number)
+            table.read(row)
+        except (*PROBLEMS, EvidenceError):
+            continue
+        yield number, row
+
+
+def row_numbers(connection: sqlite3.Connection, table: Table[Any]) -> tuple[list[int], list[str]]:
+    """The numbers of a table's rows, and what is in the way of reading them.
+
+    They stand in the table and once more in the index of its keys, so that where pages of one are
+    damaged the other still tells of the rows on the sound pages.
+
+    Args:
+        connection: The store.
+        table: The table.
+    """
+    statement = table.present.replace("SELECT 1", "SELECT rowid", 1)
+    found: set[int] = set()
+    problems = []
+    for order in ("rowid", table.key):
+        try:
+            for (number,) in connection.execute(f"{statement} ORDER BY {order}"):
+                found.add(number)
+        except PROBLEMS as error:  # noqa: PERF203 - what came before it counts
+            problems.append(problem_of(error))
+    return sorted(found), problems
+
+
+def numbered_row(connection: sqlite3.Connection, table: Table[Any], number: int) -> Row:
+    """The whole row with a number.
+
+    Args:
+        connection: The store.
+        table: The table.
+        number: The row's number.
+
+    Raises:
+        EvidenceError: It cannot be found again.
+        sqlite3.Error: It cannot be read.
+    """
+    row: Row | None = connection.execute(f"{table.select} WHERE rowid = ?", (number,)).fetchone()
+    if row is None:
+        raise EvidenceError("it cannot be found again")
+    return row

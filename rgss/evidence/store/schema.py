@@ -1,0 +1,228 @@
+"""The database file of a store: what makes it one, and what is refused."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+from collections.abc import Sequence
+
+from rgss.errors import EvidenceError
+from rgss.evidence.store import connection as connecting
+from rgss.evidence.store.ledger import LEDGER_TABLE, write_ledger
+from rgss.evidence.store.migration import FIRST_TABLE, migrate_from_first
+
+APPLICATION_ID = 0x72677373
+"""``rgss`` in ASCII, in the header of the file."""
+
+SCHEMA_VERSION = 3
+_BEFORE_LEDGER = 2
+
+_PAUSE_S = 0.02
+
+_TABLES: Sequence[tuple[str, str]] = (
+    (
+        "trials",
+        """CREATE TABLE trials (
+    key TEXT NOT NULL PRIMARY KEY,
+    variant INTEGER NOT NULL,
+    seed INTEGER NOT NULL,
+    fidelity TEXT NOT NULL,
+    content_digest TEXT NOT NULL,
+    seal TEXT NOT NULL,
+    record BLOB NOT NULL,
+    provenance BLOB NOT NULL
+)""",
+    ),
+    (
+        "pieces",
+        """CREATE TABLE pieces (
+    digest TEXT NOT NULL PRIMARY KEY,
+    kind TEXT NOT NULL,
+    content_digest TEXT NOT NULL,
+    seal TEXT NOT NULL,
+    content BLOB NOT NULL
+)""",
+    ),
+    (
+        "inputs",
+        """CREATE TABLE inputs (
+    digest TEXT NOT NULL PRIMARY KEY,
+    content BLOB NOT NULL
+)""",
+    ),
+    (
+        "failures",
+        """CREATE TABLE failures (
+    key TEXT NOT NULL PRIMARY KEY,
+    what TEXT NOT NULL,
+    kind TEXT NOT NULL,
+    detail TEXT NOT NULL,
+    attempts INTEGER NOT NULL,
+    seal TEXT NOT NULL
+)""",
+    ),
+)
+
+_LEDGER = ("ledger", LEDGER_TABLE)
+
+_INDEX = ("trials_by_variant", "CREATE INDEX trials_by_variant ON trials (variant, seed, fidelity)")
+
+
+def make(connection: sqlite3.Connection) -> None:
+    """Make an empty database a store, in one transaction.
+
+    Args:
+        connection: An open database, in autocommit mode.
+
+    Raises:
+        sqlite3.Error: It cannot be written.
+    """
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+        _make_tables(connection)
+        write_ledger(connection)
+        connection.execute("COMMIT")
+    except BaseException:
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+        raise
+    _log_ahead(connection)
+
+
+def prepare(connection: sqlite3.Connection, name: str) -> None:
+    """Check that a database is a store, and bring one of an older schema to this one.
+
+    Args:
+        connection: An open database, in autocommit mode.
+        name: What to call it in messages.
+
+    Raises:
+        EvidenceError: It is the database of something else, of a newer version, or has been
+            given views, triggers or other tables.
+        sqlite3.Error: It is no database, is damaged, or cannot be written.
+    """
+    if _version(connection, name) != SCHEMA_VERSION:
+        _migrate(connection, name)
+    require_own_schema(connection, name)
+    _log_ahead(connection)
+
+
+def require_present(connection: sqlite3.Connection, name: str) -> None:
+    """Check that a database is a store of this schema, where it cannot be brought to it.
+
+    Raises:
+        EvidenceError: It is none, or one of another schema.
+        sqlite3.Error: It is no database, or damaged.
+    """
+    version = _version(connection, name)
+    if version != SCHEMA_VERSION:
+        hint = "make the file and its folder writable, so that it can be brought to the present schema"
+        raise EvidenceError(f"{name} has the older schema {version} and cannot be written", hint=hint)
+    require_own_schema(connection, name)
+
+
+def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
+    """Make sure that a database has the tables of a store and nothing else.
+
+    Raises:
+        EvidenceError: It has others, or views or triggers.
+        sqlite3.Error: It cannot be read.
+    """
+    _check_schema(connection, name, (*_TABLES, _LEDGER), [_INDEX])
+
+
+def require_sound_pages(connection: sqlite3.Connection, name: str) -> None:
+    """Make sure that a file is whole before anything is written to it; some milliseconds for ten thousand trials.
+
+    Raises:
+        EvidenceError: It is not.
+        sqlite3.Error: It cannot be read.
+    """
+    _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' tells what is left of it")
+
+
+def _make_tables(connection: sqlite3.Connection) -> None:
+    for _, statement in (*_TABLES, _LEDGER, _INDEX):
+        connection.execute(statement)
+    connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
+
+
+def _migrate(connection: sqlite3.Connection, name: str) -> None:
+    """Bring a store of an older schema to this one, all in one transaction."""
+    connection.execute("BEGIN IMMEDIATE")
+    try:
+        version = _version(connection, name)
+        if version == _BEFORE_LEDGER:
+            _check_schema(connection, name, _TABLES, [_INDEX])
+            connection.execute(LEDGER_TABLE)
+            connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
+            write_ledger(connection)
+        # Another process may have done it since this one looked.
+        elif version != SCHEMA_VERSION:
+            _check_schema(connection, name, [("trials", FIRST_TABLE)], [])
+            # Wholly, for what is left behind now is gone.
+            _require_sound(connection, name, "integrity_check(1)", "move the file away and run the sweep again")
+            migrate_from_first(connection, _make_tables)
+            write_ledger(connection)
+        connection.execute("COMMIT")
+    except BaseException:
+        if connection.in_transaction:
+            connection.execute("ROLLBACK")
+        raise
+
+
+def _version(connection: sqlite3.Connection, name: str) -> int:
+    if _pragma(connection, "application_id") != APPLICATION_ID:
+        raise EvidenceError(f"{name} is not an evidence store", hint="choose another file; this one is left as it is")
+    version = _pragma(connection, "user_version")
+    if version not in (1, _BEFORE_LEDGER, SCHEMA_VERSION):
+        age = "newer" if isinstance(version, int) and version > SCHEMA_VERSION else "unknown"
+        hint = "use the rgss that wrote it, or another file"
+        raise EvidenceError(f"{name} has the {age} schema {version}; this rgss reads {SCHEMA_VERSION}", hint=hint)
+    return int(str(version))
+
+
+def _check_schema(
+    connection: sqlite3.Connection,
+    name: str,
+    tables: Sequence[tuple[str, str]],
+    indices: Sequence[tuple[str, str]],
+) -> None:
+    expected: list[tuple[str, str, str, str | None]] = [("table", table, table, text) for table, text in tables]
+    expected += [("index", f"sqlite_autoindex_{table}_1", table, None) for table, _ in tables]
+    expected += [("index", index, "trials", text) for index, text in indices]
+    found = connection.execute("SELECT type, name, tbl_name, sql FROM sqlite_master").fetchmany(len(expected) + 1)
+    if sorted(found, key=repr) != sorted(expected, key=repr):
+        raise EvidenceError(
+            f"{name} has a schema that is not its own", hint="move the file away and run the sweep again"
+        )
+
+
+def _require_sound(connection: sqlite3.Connection, name: str, check: str, hint: str) -> None:
+    problem = _pragma(connection, check)
+    if problem != "ok":
+        raise EvidenceError(f"{name} is damaged: {' '.join(str(problem).split())[-120:]}", hint=hint)
+
+
+def _log_ahead(connection: sqlite3.Connection) -> None:
+    """Switch the file to write-ahead logging, which it then keeps."""
+    attempts_left = int(connecting.BUSY_TIMEOUT_S / _PAUSE_S)
+    while not _is_logging_ahead(connection, may_fail=attempts_left > 0):
+        attempts_left -= 1
+        time.sleep(_PAUSE_S)
+
+
+def _is_logging_ahead(connection: sqlite3.Connection, *, may_fail: bool) -> bool:
+    try:
+        connection.execute("PRAGMA journal_mode = WAL")
+    except sqlite3.OperationalError as error:
+        # SQLite does not wait here by itself when two processes switch at once.
+        if may_fail and "locked" in str(error):
+            return False
+        raise
+    return True
+
+
+def _pragma(connection: sqlite3.Connection, name: str) -> object:
+    return connection.execute(f"PRAGMA {name}").fetchone()[0]

@@ -1,0 +1,341 @@
+"""The evidence store: one SQLite file with trials, the pieces that they share, and what could not be made."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any, TypeVar
+
+from rgss.errors import EvidenceError
+from rgss.evidence.records import (
+    Fidelity,
+    Piece,
+    Provenance,
+    RunFailure,
+    StoredTrial,
+    TrialRecord,
+    failure_row,
+    inputs_row,
+    piece_row,
+    read_trial,
+    require_alike,
+    require_key,
+    trial_row,
+)
+from rgss.evidence.store.connection import Database, Row, connect, in_our_words, is_writable
+from rgss.evidence.store.creation import create_store, require_content
+from rgss.evidence.store.ledger import require_ledger
+from rgss.evidence.store.schema import prepare, require_present, require_sound_pages
+from rgss.evidence.store.tables import FAILURES, INPUTS, PIECES, TRIALS, Table, brief
+from rgss.evidence.store.writing import EvidenceWriter, RowChanges
+
+Value = TypeVar("Value")
+
+_AT_ONCE = 16
+"""Rows of one step of an iteration: enough to be quick, few enough to be small."""
+
+
+class EvidenceStore:
+    """Trials by the digest of their inputs, in a file that several processes may share.
+
+    Every write is a transaction: a process that is killed leaves what it has put and no part of
+    anything else. Every read checks the digests of the row. A store belongs to the process and
+    thread that opened it; workers hand their results to it.
+
+    Attributes:
+        database: The file, for what looks at it as a whole.
+    """
+
+    def __init__(self, database: Database, path: Path) -> None:
+        """Use `EvidenceStore.open` instead."""
+        self.database = database
+        self._writer = EvidenceWriter(database, path)
+
+    @classmethod
+    def open(cls, path: Path, *, create: bool = True, label: str | None = None) -> EvidenceStore:
+        """Open a store; one of an older schema is brought to the present one.
+
+        Args:
+            path: The file.
+            create: Make the file and its folder if they are not there. Without it, a file that cannot be
+                written is opened for reading alone.
+            label: The file's name in messages; the path itself by default.
+
+        Raises:
+            EvidenceError: The file is missing, is empty or no store, is one of a newer rgss, is
+                damaged, or cannot be written.
+        """
+        name = label if label is not None else str(path)
+        if not path.exists():
+            if not create:
+                raise EvidenceError(f"there is no evidence in {name}", hint="run the sweep first")
+            create_store(path, label=name)
+        require_content(path, label=name)
+        read_only = not create and not is_writable(path)
+        with in_our_words(name, folder=path.parent):
+            connection = connect(path, read_only=read_only)
+            try:
+                (require_present if read_only else prepare)(connection, name)
+                require_sound_pages(connection, name)
+                database = Database(connection, name)
+                require_ledger(database)
+                return cls(database, path)
+            except BaseException:
+                connection.close()
+                raise
+
+    def __enter__(self) -> EvidenceStore:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the file; a second time does nothing."""
+        self.database.close()
+
+    def put(self, key: str, record: TrialRecord, provenance: Provenance) -> bool:
+        """Keep a trial, on disk when this returns; see `put_many`.
+
+        Returns:
+            Whether it is new; False if the same trial with the same result was there.
+        """
+        return self.put_many(trials=[(key, record, provenance)]) == 1
+
+    def put_piece(self, piece: Piece) -> bool:
+        """Keep a piece, on disk when this returns; see `put_many`.
+
+        Returns:
+            Whether it is new; False if the same piece with the same content was there.
+        """
+        return self.put_many(pieces=[piece]) == 1
+
+    def put_inputs(self, inputs: Mapping[str, Any]) -> str:
+        """Keep the named inputs of trials, once by content; returns the digest that they are known by.
+
+        Raises:
+            EvidenceError: They are not plain data, or the file cannot be written.
+        """
+        row = inputs_row(inputs)
+        if not self._is_there(INPUTS, row[0]):
+            with self._writer.transaction([(INPUTS, row)]) as changes:
+                changes.put(INPUTS, row)
+        return row[0]
+
+    def put_many(
+        self,
+        *,
+        trials: Iterable[tuple[str, TrialRecord, Provenance]] = (),
+        pieces: Iterable[Piece] = (),
+        inputs: Iterable[Mapping[str, Any]] = (),
+    ) -> int:
+        """Keep trials, pieces and named inputs: all of them, on disk when this returns, or none.
+
+        What is kept of a trial or piece that could not be made before, its failure, is taken away.
+
+        Args:
+            trials: Key, record and provenance of each.
+            pieces: The pieces.
+            inputs: Named inputs, which the trials may refer to.
+
+        Returns:
+            How many of the trials and pieces are new; the others were there with the same content.
+
+        Raises:
+            EvidenceError: A trial or piece is there with another content, a trial refers to named
+                inputs that are not there, something is malformed, or the file cannot be written.
+        """
+        inputs_rows = [inputs_row(each) for each in inputs]
+        piece_rows = [piece_row(piece) for piece in pieces]
+        trial_rows = [(trial_row(key, record, origin), origin.inputs_digest) for key, record, origin in trials]
+        if not (inputs_rows or piece_rows or trial_rows):
+            return 0
+        pending: list[tuple[Table[Any], Row]] = [
+            *((INPUTS, row) for row in inputs_rows),
+            *((PIECES, row) for row in piece_rows),
+            *((TRIALS, row) for row, _ in trial_rows),
+        ]
+        with self._writer.transaction(pending) as changes:
+            for inputs_put in inputs_rows:
+                changes.put(INPUTS, inputs_put)
+            new = sum(self._put(changes, PIECES, piece, f"{piece[1]} {piece[0][:12]}") for piece in piece_rows)
+            for row, needed in trial_rows:
+                what = f"trial {row[0][:12]} of variant {row[1]}, seed {row[2]}"
+                if needed and not self._is_there(INPUTS, needed):
+                    raise EvidenceError(f"{what} refers to inputs that are not kept", hint="put its inputs first")
+                new += self._put(changes, TRIALS, row, what)
+        return new
+
+    def put_failure(self, failure: RunFailure) -> bool:
+        """Keep a failure of the run, in place of an earlier one of the same trial or piece.
+
+        Returns:
+            Whether it was kept; False if the trial or piece has been made meanwhile.
+
+        Raises:
+            EvidenceError: It is malformed, or the file cannot be written.
+        """
+        row = failure_row(failure)
+        with self._writer.transaction([(FAILURES, row)]) as changes:
+            made = self._is_there(TRIALS, row[0]) or self._is_there(PIECES, row[0])
+            if not made:
+                changes.remove(FAILURES, row[0])
+                changes.put(FAILURES, row)
+        return not made
+
+    def clear_failures(self, keys: Iterable[str]) -> int:
+        """Forget the failures of trials and pieces, so that they are tried again; returns their number.
+
+        Raises:
+            EvidenceError: A key is malformed, or the file cannot be written.
+        """
+        wanted = list(keys)
+        for key in wanted:
+            require_key(key)
+        with self._writer.transaction() as changes:
+            return sum(changes.remove(FAILURES, key) for key in wanted)
+
+    def confirm(self) -> None:
+        """Read back what was put since the last time, and check the file that has the store's name.
+
+        Raises:
+            StorageError: The file was removed, replaced or damaged meanwhile; the message says where what
+                could be saved of it is.
+            EvidenceError: The file cannot be read.
+        """
+        self._writer.confirm()
+
+    def get(self, key: str) -> StoredTrial | None:
+        """The trial with a key; None if there is none.
+
+        Raises:
+            EvidenceError: Its row is damaged, or the file cannot be read.
+        """
+        return self._get(TRIALS, key)
+
+    def piece(self, digest: str) -> Piece | None:
+        """The piece with a digest; None if there is none.
+
+        Raises:
+            EvidenceError: Its row is damaged, or the file cannot be read.
+        """
+        return self._get(PIECES, digest)
+
+    def inputs(self, digest: str) -> Mapping[str, Any] | None:
+        """The named inputs with a digest; None if there are none.
+
+        Raises:
+            EvidenceError: Their row is damaged, or the file cannot be read.
+        """
+        found = self._get(INPUTS, digest)
+        return None if found is None else found.values
+
+    def failures(self, keys: Iterable[str]) -> Mapping[str, RunFailure]:
+        """Those of the trials or pieces that could not be made, with what happened, in the order of the keys.
+
+        Raises:
+            EvidenceError: A row is damaged, or the file cannot be read.
+        """
+        return self._those(FAILURES, keys)
+
+    def has(self, keys: Iterable[str]) -> set[str]:
+        """Those of the keys whose trials are in the store.
+
+        Raises:
+            EvidenceError: The file cannot be read.
+        """
+        return self._those_there(TRIALS, keys)
+
+    def has_pieces(self, digests: Iterable[str]) -> set[str]:
+        """Those of the digests whose pieces are in the store.
+
+        Raises:
+            EvidenceError: The file cannot be read.
+        """
+        return self._those_there(PIECES, digests)
+
+    def records(self, keys: Iterable[str]) -> Mapping[str, TrialRecord]:
+        """The records of those of the keys that are in the store, in the order of the keys.
+
+        Raises:
+            EvidenceError: A row is damaged, or the file cannot be read.
+        """
+        wanted = list(keys)
+        with self.database.transaction("DEFERRED"):
+            # The rest of each trial is let go at once: of many, it is larger than the records.
+            return {key: trial.record for key in wanted if (trial := self._get(TRIALS, key)) is not None}
+
+    def trials_of(self, variant: int, seed: int, fidelity: Fidelity) -> tuple[StoredTrial, ...]:
+        """All trials of a variant with a seed, whatever else went into them.
+
+        Those that say what their named inputs were come first, and among equals the key decides.
+
+        Raises:
+            EvidenceError: A row is damaged, or the file cannot be read.
+        """
+        statement = f"{TRIALS.select} WHERE variant = ? AND seed = ? AND fidelity = ? ORDER BY key"
+        rows = self.database.rows(statement, [variant, seed, Fidelity(fidelity).value])
+        found = [TRIALS.value(row, self.database.name) for row in rows]
+        return tuple(sorted(found, key=lambda trial: (not trial.provenance.inputs_digest, trial.key)))
+
+    def iterate(self) -> Iterator[StoredTrial]:
+        """Every trial in the order of keys, a few at a time; writing meanwhile does no harm.
+
+        Raises:
+            EvidenceError: A row is damaged, or the file cannot be read.
+        """
+        last = ""
+        while True:
+            rows = self.database.rows(f"{TRIALS.select} WHERE key > ? ORDER BY key LIMIT {_AT_ONCE}", [last])
+            for row in rows:
+                trial = TRIALS.value(row, self.database.name)
+                last = trial.key
+                yield trial
+            if len(rows) < _AT_ONCE:
+                return
+
+    def all(self) -> tuple[StoredTrial, ...]:
+        """Every trial, in the order of keys, whatever the order in which they came; see `iterate`."""
+        return tuple(self.iterate())
+
+    def __len__(self) -> int:
+        (row,) = self.database.rows("SELECT count(*) FROM trials")
+        return int(row[0])
+
+    def _put(self, changes: RowChanges, table: Table[Value], row: Row, what: str) -> bool:
+        """Put a row whose content is told by a digest; what was there may differ from it in nothing."""
+        changes.remove(FAILURES, row[0])
+        if changes.put(table, row):
+            return True
+        there = self.database.one(table.by_key, [row[0]])
+        if there is not None and there[table.content or 0] != row[table.content or 0]:
+            if table is TRIALS:
+                made, makes = read_trial(there).provenance, read_trial(row).provenance
+                require_alike(f"{what} in the store", made.numerics, makes.numerics)
+            kept, other = brief(there[table.content or 0]), brief(row[table.content or 0])
+            hint = f"the same inputs must give the same content; {kept} is kept, {other} is not"
+            raise EvidenceError(f"non-determinism: {what} has another result than before", hint=hint)
+        return False
+
+    def _get(self, table: Table[Value], key: str) -> Value | None:
+        require_key(key)
+        row = self.database.one(table.by_key, [key])
+        return None if row is None else table.value(row, self.database.name)
+
+    def _those(self, table: Table[Value], keys: Iterable[str]) -> dict[str, Value]:
+        wanted = list(keys)
+        with self.database.transaction("DEFERRED"):
+            return {key: value for key in wanted if (value := self._get(table, key)) is not None}
+
+    def _those_there(self, table: Table[Value], keys: Iterable[str]) -> set[str]:
+        wanted = list(keys)
+        for key in wanted:
+            require_key(key)
+        with self.database.transaction("DEFERRED"):
+            return {key for key in wanted if self._is_there(table, key)}
+
+    def _is_there(self, table: Table[Value], key: str) -> bool:
+        return self.database.one(table.is_there, [key]) is not None

@@ -1,0 +1,166 @@
+"""Writing to a store: rows with their ledger in one transaction, and proof that they reached the file of its name."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any
+
+from rgss.errors import EvidenceError, StorageError
+from rgss.evidence.store.connection import Database, Row, connect, in_our_words
+from rgss.evidence.store.custody import Custody
+from rgss.evidence.store.ledger import LedgerChanges, require_ledger
+from rgss.evidence.store.rescue import rescued
+from rgss.evidence.store.schema import require_own_schema, require_sound_pages
+from rgss.evidence.store.tables import FAILURES, TABLES, Table
+
+Rows = Sequence[tuple[Table[Any], Row]]
+
+
+class RowChanges:
+    """Changes of the rows within one transaction."""
+
+    def __init__(self, database: Database) -> None:
+        """Begin with none.
+
+        Args:
+            database: The file, in a transaction.
+        """
+        self._database = database
+        self.ledger = LedgerChanges()
+        self.written: dict[tuple[str, str], bytes] = {}
+
+    def put(self, table: Table[Any], row: Row) -> bool:
+        """Put a row unless its key is there; returns whether it was put.
+
+        Raises:
+            EvidenceError: The file cannot be written.
+        """
+        if self._database.change(table.put, row) != 1:
+            return False
+        self.ledger.added(table, row)
+        # A failure may be taken away again, by any process that makes what had failed.
+        if table is not FAILURES:
+            self.written[table.name, row[0]] = _fingerprint(row)
+        return True
+
+    def remove(self, table: Table[Any], key: str) -> int:
+        """Delete the row with a key; returns the number of rows deleted.
+
+        Raises:
+            EvidenceError: The file cannot be written.
+        """
+        row = self._database.one(table.by_key, [key])
+        if row is None:
+            return 0
+        self.ledger.removed(table, row)
+        return self._database.change(f"{table.delete} WHERE {table.key} = ?", [key])
+
+
+class EvidenceWriter:
+    """The writing side of an open store."""
+
+    def __init__(self, database: Database, path: Path) -> None:
+        """Take note of the files as they are.
+
+        Args:
+            database: The open file.
+            path: Its path.
+
+        Raises:
+            EvidenceError: The file has gone since it was opened.
+        """
+        self._database = database
+        self._written: dict[tuple[str, str], bytes] = {}
+        self._lost: StorageError | None = None
+        try:
+            self._custody = Custody(path)
+        except OSError as error:
+            raise EvidenceError(f"the evidence store {database.name} cannot be used: {error.strerror}") from error
+
+    @contextmanager
+    def transaction(self, pending: Rows = ()) -> Iterator[RowChanges]:
+        """Let changes take effect as a whole, or not at all, in the file that has the store's name.
+
+        Args:
+            pending: What is to be put, which is saved elsewhere if the store was lost.
+
+        Raises:
+            StorageError: The disk is full or fails; or the store was lost, and the message says where
+                what is left of it was saved.
+            EvidenceError: The file cannot be written.
+        """
+        if self._lost is not None:
+            raise self._lost
+        changes = RowChanges(self._database)
+        try:
+            with self._database.transaction():
+                yield changes
+                changes.ledger.write(self._database)
+        except EvidenceError as error:
+            problem = self._custody.problem()
+            if problem:
+                raise self._loss(problem, pending) from error
+            raise
+        problem = self._custody.problem()
+        if problem:
+            raise self._loss(problem)
+        self._written.update(changes.written)
+
+    def confirm(self) -> None:
+        """Read back what was written since the last time, as another process would, and check the whole file.
+
+        Raises:
+            StorageError: The store was lost; the message says where what is left of it was saved.
+        """
+        if self._lost is not None:
+            raise self._lost
+        problem = self._custody.problem() or (self._difference() if self._written else "")
+        if problem:
+            raise self._loss(problem)
+        self._written.clear()
+
+    def _difference(self) -> str:
+        """In what the file differs from what was written, read through a connection that has nothing in memory."""
+        try:
+            with (
+                in_our_words(self._database.name),
+                closing(connect(self._custody.path)) as connection,
+            ):
+                require_own_schema(connection, "it")
+                require_sound_pages(connection, "it")
+                again = Database(connection, "it")
+                require_ledger(again)
+                missing = sum(1 for _ in self._missing(again))
+        except StorageError:
+            raise
+        except EvidenceError as error:
+            return f"cannot be read back: {error.message}"
+        return f"does not have {missing} of {len(self._written)} rows that were written" if missing else ""
+
+    def _missing(self, again: Database) -> Iterable[str]:
+        tables = {table.name: table for table in TABLES}
+        for (name, key), fingerprint in self._written.items():
+            row = again.one(tables[name].by_key, [key])
+            if row is None or _fingerprint(row) != fingerprint:
+                yield key
+
+    def _loss(self, problem: str, pending: Rows = ()) -> StorageError:
+        """The error that the store was lost, after what can be saved was saved."""
+        saved = rescued(self._database.connection, self._custody.path, pending)
+        if saved.rows:
+            self._custody.discard_orphaned_logs()
+        self._lost = StorageError(
+            f"the evidence store {self._database.name} {problem} while it was in use; {saved.text}", hint=saved.hint
+        )
+        return self._lost
+
+
+def _fingerprint(row: Row) -> bytes:
+    hashed = hashlib.blake2b(digest_size=16)
+    for value in row:
+        content = value if isinstance(value, bytes) else repr(value).encode("utf-8", "backslashreplace")
+        hashed.update(b"%d:" % len(content) + content)
+    return hashed.digest()

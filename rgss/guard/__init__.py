@@ -1,0 +1,20 @@
+"""The regression guard of a study: metrics and decision compared with a baseline."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.guard.designs import guard_findings
+    from rgss.guard.guard import baseline_name, compare_with_baseline, make_baseline
+    from rgss.guard.runs import guard_of
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "baseline_name",
+    "compare_with_baseline",
+    "guard_findings",
+    "guard_of",
+    "make_baseline",
+]

@@ -1,0 +1,386 @@
+"""Guarding a study's metrics and decision against a baseline."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Mapping, Sequence
+from pathlib import Path
+
+from rgss.errors import DefinitionError, EvidenceError
+from rgss.evidence import EvidenceStore, Phase
+from rgss.findings import shown
+from rgss.guard.decision import decision_of, explained_by_noise, p_values
+from rgss.guard.inputs import BASELINE_SUFFIX, inputs_of_trials, origin_of_trials, shared_inputs
+from rgss.guard.runs import (
+    Records,
+    RunTrials,
+    WatchedTrials,
+    fingerprints_of,
+    guard_of,
+    series_of,
+    subjects_of,
+    watched_trials,
+)
+from rgss.regression import (
+    Baseline,
+    BaselineRun,
+    Behaviour,
+    Candidate,
+    Change,
+    ChangedTrial,
+    Failing,
+    FailureCause,
+    InputChange,
+    InputKind,
+    Inputs,
+    Power,
+    RegressionReport,
+    Subject,
+    changed_trials,
+    decision_changes,
+    origin_changes,
+    powers,
+    run_failings,
+    schema_failings,
+    settle,
+    unchanged_phases,
+    value_changes,
+)
+from rgss.studies import Project, RegressionGuard
+from rgss.trials import METRICS
+
+LONGEST_REASON = 500
+
+_PHASES = tuple(phase.value for phase in Phase)
+
+
+def baseline_name(label: str) -> str:
+    """The baseline's file of a study, beside it."""
+    return Path(label).with_suffix(BASELINE_SUFFIX).as_posix()
+
+
+def make_baseline(
+    project: Project, store: EvidenceStore, run_trials: RunTrials, *, before: Baseline | None, reason: str
+) -> Baseline:
+    """Make a baseline of what there is now: every run at its cap, so that any look has its pairs.
+
+    Args:
+        project: The project with its study.
+        store: The evidence.
+        run_trials: Runs the trials that the store has not.
+        before: The baseline that is replaced, whose history goes on; None if it is the first.
+        reason: Why, in one line.
+
+    Raises:
+        DefinitionError: The study guards nothing, there is no reason, or a phase that is named
+            observes nothing.
+        EvidenceError: A trial could not be run.
+    """
+    guard = guard_of(project)
+    words = _reason(reason)
+    if not words:
+        raise DefinitionError("--update needs a reason", hint="say with --reason why the numbers may move")
+    watched = watched_trials(project, guard)
+    records = Records(store, run_trials)
+    records.fetch([(trials, trials.run.cap) for trials in watched])
+    for trials in watched:
+        lost = records.lost(trials, trials.run.cap)
+        if lost:
+            variant, seed = lost[0]
+            raise EvidenceError(
+                f"{len(lost)} trials of run {trials.run.id} could not be run, the first of variant {variant} "
+                f"with seed {seed}",
+                hint="a baseline needs all of them",
+            )
+    origin = origin_of_trials(project, records.provenances())
+    inputs = inputs_of_trials(watched)
+    shared = shared_inputs(inputs)
+    decision = None
+    if guard.decision is not None:
+        trials = next(one for one in watched if one.run.id == guard.decision)
+        decision = decision_of(trials, records.of(trials, trials.run.replicates))
+    history = () if before is None else before.history
+    return Baseline(
+        study=project.study.id,
+        units=_units(guard),
+        record=_record_schema(),
+        runs={trials.run.id: _baseline_run(guard, trials, records, inputs, shared) for trials in watched},
+        decision=decision,
+        origin=origin,
+        history=(*history, Change(reason=words, revision=origin.revision)),
+        inputs=shared,
+    )
+
+
+def compare_with_baseline(
+    project: Project,
+    store: EvidenceStore,
+    run_trials: RunTrials,
+    baseline: Baseline,
+    *,
+    label: str,
+    on_look: Callable[[int, int], None] | None = None,
+    accepted: str = "",
+) -> RegressionReport:
+    """Compare what there is now with the baseline, with more seeds while something is inconclusive.
+
+    Args:
+        project: The project with its study.
+        store: The evidence.
+        run_trials: Runs the trials that the store has not.
+        baseline: The baseline.
+        label: The name of its file.
+        on_look: Callback before each look, with its number and how many comparisons are open.
+        accepted: Why changed behaviour is accepted in this run; empty if it is not.
+
+    Raises:
+        DefinitionError: The study guards nothing, the baseline is of another study, or the reason is too long.
+        EvidenceError: The store is damaged.
+    """
+    guard = guard_of(project)
+    if baseline.study != project.study.id:
+        raise DefinitionError(
+            f"the baseline {label} is of study {shown(baseline.study)}, not of {project.study.id!r}",
+            hint="name another with --baseline",
+        )
+    return _Comparing(project, guard, Records(store, run_trials), baseline, label).run(on_look, _reason(accepted))
+
+
+def _reason(text: str) -> str:
+    words = " ".join(text.split())
+    if len(words) > LONGEST_REASON:
+        raise DefinitionError(f"the reason has {len(words)} characters", hint=f"say it in {LONGEST_REASON}")
+    return words
+
+
+class _Comparing:
+    """One comparison while it runs."""
+
+    def __init__(
+        self, project: Project, guard: RegressionGuard, records: Records, baseline: Baseline, label: str
+    ) -> None:
+        self._project = project
+        self._guard = guard
+        self._records = records
+        self._baseline = baseline
+        self._label = label
+        self._watched = watched_trials(project, guard)
+        self._seeds = {trials.run.id: 0 for trials in self._watched}
+
+    def run(self, on_look: Callable[[int, int], None] | None, accepted: str) -> RegressionReport:
+        failing = list(schema_failings(self._baseline, _units(self._guard), _record_schema()))
+        for trials in self._watched:
+            failing += run_failings(
+                trials.run.id,
+                self._baseline.runs.get(trials.run.id),
+                fidelity=trials.run.fidelity.value,
+                variants=trials.ids,
+                seeds=trials.seeds(trials.run.cap),
+            )
+        for name in sorted(self._baseline.runs.keys() - self._seeds.keys()):
+            text = f"run {name} of the baseline is not in the study"
+            failing.append(Failing(trouble=FailureCause.FEWER_REPLICATES, text=text))
+        failing += self._unguarded()
+        settled = settle(
+            self._candidates_at,
+            looks=max(trials.run.looks for trials in self._watched),
+            error_rate=self._guard.error_rate,
+            on_look=on_look,
+        )
+        latest = settled.comparisons
+        for trials in self._watched:
+            for variant, seed in self._records.lost(trials, self._seeds[trials.run.id]):
+                text = f"run {trials.run.id}: the trial of variant {variant} with seed {seed} could not be run"
+                failing.append(Failing(trouble=FailureCause.NOT_RUN, text=text))
+        unstable, notes = self._decision()
+        inputs = self._changed_inputs()
+        return RegressionReport(
+            study=self._project.study.label,
+            baseline=self._label,
+            comparisons=tuple(latest[subject] for subject in sorted(latest, key=_order)),
+            behaviour=self._behaviour(inputs),
+            failing=(*failing, *unstable),
+            notes=(*self._of_the_baseline(), *notes),
+            looks=settled.looks,
+            trials=dict(self._seeds),
+            error_rate=self._guard.error_rate,
+            inputs=inputs,
+            powers=self._powers(),
+            accepted=accepted,
+        )
+
+    def _candidates_at(self, look: int, only: Collection[str] | None) -> list[Candidate]:
+        growing = [trials for trials in self._watched if only is None or trials.run.id in only]
+        for trials in growing:
+            self._seeds[trials.run.id] = trials.run.seeds_at(look)
+        self._records.fetch([(trials, self._seeds[trials.run.id]) for trials in growing])
+        found = []
+        for trials in self._watched:
+            before = self._baseline.runs.get(trials.run.id)
+            if before is None or before.fidelity != trials.run.fidelity.value:
+                continue
+            count = self._seeds[trials.run.id]
+            seeds = trials.seeds(count)
+            records = self._records.of(trials, count)
+            same = unchanged_phases(before, fingerprints_of(records), seeds, _PHASES)
+            for metric, phase in subjects_of(self._guard, trials.run.id):
+                baseline = self._values(trials.run.id, metric.metric, phase)
+                if baseline is None:
+                    continue
+                found.append(
+                    Candidate(
+                        subject=Subject(run=trials.run.id, metric=metric.metric, phase=phase),
+                        guard=metric.guard.for_baseline(_mean_of(baseline)),
+                        baseline=baseline,
+                        current=series_of(records, metric.metric, phase),
+                        seeds=seeds,
+                        identical=phase in same,
+                    )
+                )
+        return found
+
+    def _values(self, run: str, metric: str, phase: str) -> dict[int, dict[int, float | None]] | None:
+        """The baseline's values by variant and seed; None if it has none."""
+        before = self._baseline.runs[run]
+        rows = before.values.get(metric, {}).get(phase)
+        if rows is None:
+            return None
+        return {int(variant): dict(zip(before.seeds, row, strict=True)) for variant, row in rows.items()}
+
+    def _powers(self) -> dict[Subject, Power]:
+        """The power of each comparison, were all seeds of the baseline compared."""
+        candidates = []
+        for trials in self._watched:
+            if trials.run.id not in self._baseline.runs:
+                continue
+            for metric, phase in subjects_of(self._guard, trials.run.id):
+                values = self._values(trials.run.id, metric.metric, phase)
+                if values is not None:
+                    candidates.append(
+                        Candidate(
+                            subject=Subject(run=trials.run.id, metric=metric.metric, phase=phase),
+                            guard=metric.guard.for_baseline(_mean_of(values)),
+                            baseline=values,
+                            current={},
+                            seeds=(),
+                            identical=False,
+                        )
+                    )
+        looks = range(1, 1 + max(trials.run.looks for trials in self._watched))
+        seeds_at = {trials.run.id: [trials.run.seeds_at(look) for look in looks] for trials in self._watched}
+        return powers(candidates, seeds_at, error_rate=self._guard.error_rate)
+
+    def _unguarded(self) -> list[Failing]:
+        """What stands on one side alone: named by the study, or kept by the baseline."""
+        failing = []
+        for trials in self._watched:
+            before = self._baseline.runs.get(trials.run.id)
+            if before is None:
+                continue
+            guarded = {(metric.metric, phase): metric for metric, phase in subjects_of(self._guard, trials.run.id)}
+            kept = {(metric, phase) for metric, phases in before.values.items() for phase in phases}
+            for metric, phase in sorted(kept - guarded.keys()):
+                if metric in _units(self._guard):
+                    text = f"run {trials.run.id}: the baseline guards {metric} at {phase}, the study no longer does"
+                    failing.append(Failing(trouble=FailureCause.MISSING_METRIC, text=text))
+            for (metric, phase), entry in sorted(guarded.items(), key=lambda item: item[0]):
+                if (metric, phase) not in kept and not entry.wherever and metric in self._baseline.units:
+                    text = f"run {trials.run.id}: the study guards {metric} at {phase}, the baseline does not"
+                    failing.append(Failing(trouble=FailureCause.CHANGED_SCHEMA, text=text))
+        return failing
+
+    def _changed_inputs(self) -> tuple[InputChange, ...]:
+        now = inputs_of_trials(self._watched)
+        origin = origin_of_trials(self._project, self._records.provenances())
+        changes = (
+            *value_changes(self._baseline, now),
+            *origin_changes(self._baseline.origin, origin, with_values=self._baseline.has_values),
+        )
+        return tuple(one for one in changes if one.kind is not InputKind.FILE or one.name != self._label)
+
+    def _of_the_baseline(self) -> list[str]:
+        if self._baseline.has_values:
+            return []
+        text = "the baseline was written by an earlier rgss and lacks the values of inputs, so that changes of them "
+        return [f"{text}are not named; write it anew with 'rgss regress --update --reason TEXT'"]
+
+    def _behaviour(self, inputs: Sequence[InputChange]) -> Behaviour:
+        changed: list[ChangedTrial] = []
+        compared = 0
+        for trials in self._watched:
+            before = self._baseline.runs.get(trials.run.id)
+            if before is not None:
+                count = self._seeds[trials.run.id]
+                records = self._records.of(trials, count)
+                changed += changed_trials(trials.run.id, before, fingerprints_of(records), trials.seeds(count))
+                compared += sum(len(set(row) & set(before.seeds)) for row in records.values())
+        # A file may have changed where no trial reads it. A baseline without values cannot show that.
+        harmless = {InputKind.MACHINE, *((InputKind.FILE,) if self._baseline.has_values else ())}
+        machines = [f"{one.then} → {one.now}" for one in inputs if one.kind is InputKind.MACHINE]
+        only_machine = bool(machines) and all(one.kind in harmless for one in inputs)
+        return Behaviour(compared=compared, changed=tuple(changed), machine=machines[0] if only_machine else "")
+
+    def _decision(self) -> tuple[Sequence[Failing], Sequence[str]]:
+        before, run = self._baseline.decision, self._guard.decision
+        if before is None and run is None:
+            return (), ()
+        if before is None or run is None or before.run != run:
+            was, is_now = ("none" if one is None else one for one in (before.run if before else None, run))
+            text = f"the guarded decision was that of run {was} and is that of run {is_now}"
+            return (Failing(trouble=FailureCause.CHANGED_SCHEMA, text=text),), ()
+        trials = next(one for one in self._watched if one.run.id == run)
+        count = trials.run.replicates
+        if self._records.lost(trials, count):
+            return (Failing(trouble=FailureCause.NOT_RUN, text="decision: trials that it needs could not be run"),), ()
+        records = self._records.of(trials, count)
+        now = decision_of(trials, records)
+        explained: Mapping[str, float] = {} if now == before else explained_by_noise(trials, records, before, now)
+        by_luck = p_values(trials.project, before, now)
+        return decision_changes(before, now, explained=explained, by_luck=by_luck, error_rate=self._guard.error_rate)
+
+
+def _mean_of(series: Mapping[int, Mapping[int, float | None]]) -> float | None:
+    known = [value for row in series.values() for value in row.values() if value is not None]
+    return math.fsum(known) / len(known) if known else None
+
+
+def _baseline_run(
+    guard: RegressionGuard, trials: WatchedTrials, records: Records, inputs: Inputs, shared: Mapping[str, str]
+) -> BaselineRun:
+    rows = records.of(trials, trials.run.cap)
+    values: dict[str, dict[str, dict[str, tuple[float | None, ...]]]] = {}
+    for metric, phase in subjects_of(guard, trials.run.id):
+        series = series_of(rows, metric.metric, phase)
+        if all(value is None for row in series.values() for value in row.values()):
+            if metric.wherever:
+                continue
+            raise DefinitionError(
+                f"run {trials.run.id} observes no {metric.metric} at {phase}",
+                hint="guard it in another run or phase; with 'phases: all' only those that observe it count",
+            )
+        by_variant = {str(variant): tuple(row.values()) for variant, row in series.items()}
+        values.setdefault(metric.metric, {})[phase] = by_variant
+    return BaselineRun(
+        fidelity=trials.run.fidelity.value,
+        seeds=trials.seeds(trials.run.cap),
+        values=values,
+        fingerprints={str(variant): tuple(row.values()) for variant, row in fingerprints_of(rows).items()},
+        inputs={
+            str(variant): {name: value for name, value in values.items() if name not in shared}
+            for variant, values in inputs[trials.run.id].items()
+        },
+    )
+
+
+def _units(guard: RegressionGuard) -> dict[str, str]:
+    return {metric.metric: metric.guard.unit for metric in guard.metrics}
+
+
+def _record_schema() -> dict[str, str]:
+    return {
+        name: kind.unit if kind.length is None else f"{kind.length} × {kind.unit}" for name, kind in METRICS.items()
+    }
+
+
+def _order(subject: Subject) -> tuple[str, str, int]:
+    return subject.run, subject.metric, _PHASES.index(subject.phase) if subject.phase in _PHASES else -1

@@ -1,0 +1,135 @@
+"""Inputs of the watched trials: their values, what made them, and the numbers in the code."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import fields
+from pathlib import Path
+
+from rgss.evidence import Provenance
+from rgss.evidence.records import code_revision, file_digests, machine
+from rgss.guard.runs import WatchedTrials
+from rgss.regression import BaselineOrigin, Inputs
+from rgss.studies import CODE, FOLDERS, Project, named_inputs
+from rgss.sweep import values_by_name
+from rgss.trials.code import code_of_trials, versions
+
+BASELINE_SUFFIX = ".baseline.json"
+"""What a study's file has in place of its own ending in the name of its baseline."""
+
+_CODE = "rgss-"
+_COMPARED_ELSEWHERE = frozenset({"inputs", "versions", "inputs_digest", "files", "revision", "machine"})
+
+
+def inputs_of_trials(watched: Iterable[WatchedTrials]) -> Inputs:
+    """The values of every input of every watched trial but its code, by run, variant and dotted name."""
+    return {
+        trials.run.id: {
+            spec.variant: values_by_name(
+                {name: value for name, value in named_inputs(spec).values.items() if name != CODE}
+            )
+            for spec in trials.specs(1)
+        }
+        for trials in watched
+    }
+
+
+def shared_inputs(inputs: Inputs) -> dict[str, str]:
+    """The inputs that have one value in all trials."""
+    every = [values for variants in inputs.values() for values in variants.values()]
+    if not every:
+        return {}
+    return {
+        name: value
+        for name, value in every[0].items()
+        if all(name in values and values[name] == value for values in every[1:])
+    }
+
+
+def origin_of_trials(project: Project, provenances: Sequence[Provenance]) -> BaselineOrigin:
+    """Where the watched trials come from: what their provenance says, or what is installed where it says nothing.
+
+    Every field of a provenance counts that is not compared in another way, so that what is added to it later
+    is guarded, too.
+
+    Args:
+        project: The project.
+        provenances: Those of the trials.
+    """
+    installed = versions()
+    engines = {name: version for name, version in installed.items() if not name.startswith(_CODE)}
+    modules = code_of_trials()
+    inputs = file_digests(project.folder, FOLDERS)
+    return BaselineOrigin(
+        revision=code_revision(),
+        machine=_joined(one.machine for one in provenances) or machine(),
+        engines={**engines, **_engines_of(provenances)},
+        code={name.removeprefix(_CODE): version for name, version in installed.items() if name.startswith(_CODE)},
+        # A baseline is not an input of the trials, and cannot contain its own digest.
+        inputs={name: value for name, value in inputs.items() if not name.endswith(BASELINE_SUFFIX)},
+        modules=modules,
+        constants=constants_of(modules),
+    )
+
+
+def constants_of(modules: Iterable[str]) -> dict[str, str]:
+    """Every number that is given a name in a module or in a class of it, as text, by its dotted name.
+
+    The digest of a module says that it changed; these say which gain or threshold in it.
+
+    Args:
+        modules: Names of modules; those whose source is not there are left out.
+    """
+    found: dict[str, str] = {}
+    for module in sorted(modules):
+        spec = importlib.util.find_spec(module)
+        if spec is None or spec.origin is None or not spec.origin.endswith(".py"):
+            continue
+        tree = ast.parse(Path(spec.origin).read_bytes())
+        found |= {f"{module}.{name}": text for name, text in _numbers(tree.body, "")}
+    return found
+
+
+def _numbers(statements: Iterable[ast.stmt], prefix: str) -> Iterator[tuple[str, str]]:
+    for node in statements:
+        if isinstance(node, ast.ClassDef):
+            yield from _numbers(node.body, f"{prefix}{node.name}.")
+        elif isinstance(node, ast.Assign) and len(node.targets) == 1:
+            yield from _named_number(node.targets[0], node.value, prefix)
+        elif isinstance(node, ast.AnnAssign) and node.value is not None:
+            yield from _named_number(node.target, node.value, prefix)
+
+
+def _named_number(target: ast.expr, value: ast.expr, prefix: str) -> Iterator[tuple[str, str]]:
+    if isinstance(target, ast.Name) and any(isinstance(each, ast.Constant) for each in ast.walk(value)):
+        leaves = (each for each in ast.walk(value) if not isinstance(each, _ARITHMETIC))
+        if all(isinstance(each, ast.Constant) and isinstance(each.value, (int, float)) for each in leaves):
+            yield f"{prefix}{target.id}", ast.unparse(value)
+
+
+_ARITHMETIC = (ast.Tuple, ast.List, ast.BinOp, ast.UnaryOp, ast.operator, ast.unaryop, ast.expr_context)
+
+
+def _engines_of(provenances: Sequence[Provenance]) -> dict[str, str]:
+    """Versions and every further field of the provenances; several values of one are joined."""
+    said: dict[str, list[str]] = {}
+    for provenance in provenances:
+        named = {name: value for name, value in provenance.versions.items() if not name.startswith(_CODE)}
+        for each in fields(provenance):
+            if each.name not in _COMPARED_ELSEWHERE:
+                named |= _flat(each.name, getattr(provenance, each.name))
+        for name, value in named.items():
+            said.setdefault(name, []).append(value)
+    return {name: _joined(values) for name, values in said.items()}
+
+
+def _flat(name: str, value: object) -> dict[str, str]:
+    if isinstance(value, Mapping):
+        return {f"{name}.{key}": str(item) for key, item in value.items()}
+    return {name: str(value)} if value else {}
+
+
+def _joined(texts: Iterable[str]) -> str:
+    return " | ".join(sorted({text for text in texts if text}))

@@ -1,0 +1,63 @@
+"""The digest of all that a measure's value is defined by."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rgss.documents import digest
+from rgss.measures.definitions import Constant, InputSymbol, Measure, MeasureSet
+
+
+def definition_digest(measures: MeasureSet, id: str) -> str:  # noqa: A002 - the domain's word
+    """The SHA-256 of a measure's definition and of the definitions of all that it is computed from.
+
+    It changes with an expression, a constant, the source of an input, a unit, the estimator, or
+    what a definition says in words, anywhere below the measure. It does not change with names,
+    with who traces to the measure, with its order in the file, nor with measures beside it.
+
+    Args:
+        measures: The measures of a project.
+        id: The measure.
+
+    Raises:
+        DefinitionError: There is no such measure.
+    """
+    measure = measures.measure(id)
+    below = measures.used[measure.id]
+    return digest(
+        {
+            "measures": {one.id: _of_measure(one) for one in (measure, *measures.measures) if one.id in {id, *below}},
+            "inputs": {one.id: _of_input(one) for one in measures.inputs if one.id in below},
+            "constants": {one.id: _of_constant(one) for one in measures.constants if one.id in below},
+        }
+    )
+
+
+def _of_measure(measure: Measure) -> dict[str, Any]:
+    rule = measure.estimate
+    return {
+        "definition": _flat(measure.definition),
+        "unit": measure.unit,
+        "expression": _flat(measure.expression.text),
+        "estimate": None if rule is None else [rule.statistic, rule.over],
+        "summary": measure.summary,
+        "length": measure.length,
+    }
+
+
+def _of_input(symbol: InputSymbol) -> dict[str, Any]:
+    return {
+        "definition": _flat(symbol.definition),
+        "source": symbol.source,
+        "unit": symbol.unit,
+        "length": symbol.length,
+    }
+
+
+def _of_constant(constant: Constant) -> dict[str, Any]:
+    # The unit is only how the value is shown.
+    return {"definition": _flat(constant.definition), "value": constant.value}
+
+
+def _flat(text: str) -> str:
+    return " ".join(text.split())

@@ -1,0 +1,167 @@
+"""Diagrams of behaviour that are graphs: use cases, activities, state machines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from rgss.reports.diagrams.drawing import Drawing, draw_graph
+from rgss.reports.diagrams.graph import Cluster, Edge, Graph, Node, Shape
+from rgss.requirements import Behaviour, BehaviourKind, Block
+from rgss.requirements.behaviour import FlowNode, FlowNodeKind, State, StateKind, StateMachine
+
+_SYSTEM = "system"
+_LONGEST_LABEL = 4
+"""With more failures than this on one way, each line of its label holds two."""
+
+_FLOW_SHAPES = {
+    FlowNodeKind.INITIAL: Shape.INITIAL,
+    FlowNodeKind.ACTION: Shape.ROUND,
+    FlowNodeKind.DECISION: Shape.DIAMOND,
+    FlowNodeKind.MERGE: Shape.DIAMOND,
+    FlowNodeKind.FORK: Shape.BAR,
+    FlowNodeKind.JOIN: Shape.BAR,
+    FlowNodeKind.FINAL: Shape.FINAL,
+}
+
+
+def use_case_diagram(behaviours: Iterable[Behaviour], blocks: Iterable[Block]) -> Drawing | None:
+    """Draw all use cases with their actors; None if there is no use case.
+
+    Args:
+        behaviours: The behaviours of the model; those that are no use case are left out.
+        blocks: Its structure, for the names of actors.
+
+    Raises:
+        DefinitionError: The package ``pygraphviz`` is not installed.
+    """
+    cases = {one.id: one for one in behaviours if one.kind is BehaviourKind.USE_CASE}
+    if not cases:
+        return None
+    names = {block.id: block.name for block in blocks}
+    actors = dict.fromkeys(actor for case in cases.values() for actor in case.actors)
+    nodes = [
+        Node(id=actor, shape=Shape.ACTOR, name=names.get(actor, actor), texts=(actor,), tint="") for actor in actors
+    ]
+    nodes += [
+        Node(id=case.id, shape=Shape.ELLIPSE, name=case.name, texts=(case.id,), tint="behaviour", cluster=_SYSTEM)
+        for case in cases.values()
+    ]
+    edges = [Edge(source=actor, target=case.id, head="") for case in cases.values() for actor in case.actors]
+    edges += [
+        Edge(source=case.id, target=other, dashed=True, labels=("«include»",))
+        for case in cases.values()
+        for other in case.includes
+        if other in cases
+    ]
+    return draw_graph(
+        Graph(
+            nodes=tuple(nodes),
+            edges=tuple(edges),
+            clusters=(Cluster(id=_SYSTEM, title="System of interest"),),
+            rightwards=True,
+            node_width=130.0,
+        ),
+        name="use-cases",
+        title="Use-case diagram",
+        description=f"{len(cases)} use cases and {len(actors)} actors.",
+        telling=" ".join(
+            f"{edge.source} {'includes' if edge.labels else 'takes part in'} {edge.target}." for edge in edges
+        ),
+    )
+
+
+def activity_diagram(activity: Behaviour) -> Drawing | None:
+    """Draw what an activity does and in which order; None while its flow is open.
+
+    Args:
+        activity: The activity.
+
+    Raises:
+        DefinitionError: The package ``pygraphviz`` is not installed.
+    """
+    flow = activity.flow
+    if flow is None:
+        return None
+    edges = tuple(
+        Edge(
+            source=edge.source,
+            target=edge.target,
+            head="filled",
+            labels=(f"[{edge.guard}]",) if edge.guard else (),
+        )
+        for edge in flow.edges
+    )
+    return draw_graph(
+        Graph(nodes=tuple(map(_flow_node, flow.nodes)), edges=edges, node_width=200.0),
+        name=f"activity-{activity.id}",
+        title=f"Activity diagram: {activity.name}",
+        description=f"{activity.id}: {activity.text}",
+        telling=_told(edges, {node.id: node.text or node.kind.value for node in flow.nodes}),
+    )
+
+
+def state_diagram(behaviour: Behaviour) -> Drawing | None:
+    """Draw the states of a machine and what leads from one to the next; None while it is open.
+
+    Transitions with the same ends are one arrow with a line for each.
+
+    Args:
+        behaviour: The behaviour.
+
+    Raises:
+        DefinitionError: The package ``pygraphviz`` is not installed.
+    """
+    machine = behaviour.machine
+    if machine is None:
+        return None
+    edges = tuple(_transitions(machine))
+    return draw_graph(
+        Graph(nodes=tuple(map(_state_node, machine.states)), edges=edges, node_width=210.0),
+        name=f"states-{behaviour.id}",
+        title=f"State diagram: {behaviour.name}",
+        description=f"{behaviour.id}: {behaviour.text}",
+        telling=_told(edges, {state.id: state.name for state in machine.states}),
+    )
+
+
+def _flow_node(node: FlowNode) -> Node:
+    shape = _FLOW_SHAPES[node.kind]
+    texts = (f"calls {node.does}",) if node.does else ()
+    return Node(id=node.id, shape=shape, name=node.text, texts=texts, tint="behaviour" if shape is Shape.ROUND else "")
+
+
+def _state_node(state: State) -> Node:
+    if state.kind is StateKind.INITIAL:
+        return Node(id=state.id, shape=Shape.INITIAL, name=state.name)
+    if state.kind is StateKind.FINAL:
+        return Node(id=state.id, shape=Shape.FINAL, name=state.name)
+    texts = [f"phase {state.phase}"] if state.phase else []
+    texts += [f"do / {state.does}"] if state.does else []
+    tint = "fail" if state.kind is StateKind.FAILED else "behaviour"
+    return Node(id=state.id, shape=Shape.ROUND, name=state.name, texts=tuple(texts), tint=tint)
+
+
+def _transitions(machine: StateMachine) -> Iterable[Edge]:
+    ways: dict[tuple[str, str], list[str]] = {}
+    failed = {state.id for state in machine.states if state.kind is StateKind.FAILED}
+    for transition in machine.transitions:
+        told = [f"[{transition.guard}]"] if transition.guard else []
+        told += [transition.failure] if transition.failure else []
+        ways.setdefault((transition.source, transition.target), []).append(" ".join(told))
+    for (source, target), labels in ways.items():
+        there = [label for label in labels if label]
+        lines = there if len(there) <= _LONGEST_LABEL else _paired(there)
+        fails = target in failed
+        yield Edge(source=source, target=target, head="filled", labels=tuple(lines), dashed=fails, straight=not fails)
+
+
+def _paired(labels: list[str]) -> list[str]:
+    lines = [", ".join(labels[index : index + 2]) for index in range(0, len(labels), 2)]
+    return [f"{line}," for line in lines[:-1]] + lines[-1:]
+
+
+def _told(edges: Iterable[Edge], names: Mapping[str, str]) -> str:
+    return " ".join(
+        f"From {names[edge.source]} to {names[edge.target]}{': ' + '; '.join(edge.labels) if edge.labels else ''}."
+        for edge in edges
+    )

@@ -1,0 +1,112 @@
+"""Every diagram of a model, for a page or as files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from rgss.documents import replaced_file
+from rgss.reports.diagrams.behaviour import activity_diagram, state_diagram, use_case_diagram
+from rgss.reports.diagrams.drawing import Drawing
+from rgss.reports.diagrams.requirements import MOST_IN_GROUP, requirement_diagrams, too_large
+from rgss.reports.diagrams.sequence import sequence_diagram
+from rgss.reports.diagrams.trees import block_definition_diagrams, containment_map
+from rgss.requirements import RequirementSet
+from rgss.trace.evidence import success_criterion
+
+MOST_ELEMENTS = 600
+"""A model with more requirements, blocks and behaviours is not drawn as a whole: its map alone is."""
+
+_NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_.-]")
+
+
+def diagrams_of(requirements: RequirementSet) -> tuple[Drawing, ...]:
+    """Draw the containment map, and what a model of moderate size has of each other kind of diagram.
+
+    These are requirement diagrams, block definition diagrams, a use-case diagram, activities,
+    sequences and state machines.
+
+    Args:
+        requirements: The requirements and the architecture.
+
+    Raises:
+        DefinitionError: The package ``pygraphviz`` is not installed.
+    """
+    return tuple(_all(requirements))
+
+
+def missing_diagrams(requirements: RequirementSet) -> str:
+    """What is not drawn because it is too large, in words; empty if everything is."""
+    if len(requirements.elements) > MOST_ELEMENTS:
+        return (
+            f"The model has {len(requirements.elements)} elements. Of more than {MOST_ELEMENTS}, "
+            "the containment map alone is drawn."
+        )
+    groups = too_large(requirements)
+    if groups:
+        return f"These groups have more than {MOST_IN_GROUP} requirements and no diagram: {', '.join(groups)}."
+    return ""
+
+
+def drawings_for_page(drawings: Sequence[Drawing]) -> list[dict[str, Any]]:
+    """Diagrams as the template of a page shows them."""
+    from markupsafe import Markup
+
+    return [
+        {
+            "anchor": f"d-{file_stem(drawing)}",
+            "title": drawing.title,
+            "description": drawing.description,
+            "svg": Markup(drawing.to_svg(with_style=False)),  # noqa: S704 - everything in it is escaped
+        }
+        for drawing in drawings
+    ]
+
+
+def write_diagrams(drawings: Sequence[Drawing], folder: Path) -> tuple[Path, ...]:
+    """Write each diagram as an SVG file, whole or not at all.
+
+    Args:
+        drawings: The diagrams.
+        folder: Where they go; it is made if need be.
+
+    Returns:
+        The files.
+
+    Raises:
+        OSError: The folder cannot be written to.
+    """
+    texts = {folder / f"{file_stem(drawing)}.svg": drawing.to_svg() for drawing in drawings}
+    folder.mkdir(parents=True, exist_ok=True)
+    for path, text in texts.items():
+        with replaced_file(path) as part:
+            part.write_text(text, encoding="utf-8")
+    return tuple(texts)
+
+
+def file_stem(drawing: Drawing) -> str:
+    """The name of a diagram's file without its ending."""
+    return _NOT_IN_NAMES.sub("_", drawing.name)
+
+
+def _all(requirements: RequirementSet) -> Iterator[Drawing]:
+    yield containment_map(requirements)
+    if len(requirements.elements) > MOST_ELEMENTS:
+        return
+    architecture = requirements.architecture
+    yield from requirement_diagrams(requirements)
+    yield from block_definition_diagrams(architecture.blocks)
+    use_cases = use_case_diagram(architecture.behaviours, architecture.blocks)
+    if use_cases is not None:
+        yield use_cases
+    names = {block.id: block.name for block in architecture.blocks}
+    bounds = {requirement.id: success_criterion(requirement) for requirement in requirements.system}
+    behaviours = architecture.behaviours
+    drawn = [
+        *map(state_diagram, behaviours),
+        *map(activity_diagram, behaviours),
+        *(sequence_diagram(behaviour, names, bounds) for behaviour in behaviours),
+    ]
+    yield from (drawing for drawing in drawn if drawing is not None)

@@ -1,0 +1,110 @@
+"""A finished diagram, and the drawing of one that is a graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.reports.diagrams.canvas import Canvas, Point
+from rgss.reports.diagrams.graph import Edge, Graph
+from rgss.reports.diagrams.layout import Layout, label_size, layout
+from rgss.reports.diagrams.nodes import content_of, draw_node
+from rgss.reports.diagrams.style import FONT, SMALL
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drawing:
+    """A diagram that is drawn.
+
+    Attributes:
+        name: Its name in file names and anchors, such as ``states-task``.
+        title: What it is called.
+        description: What it shows, in a sentence or two.
+        telling: What it shows part by part, for those who do not see it; may be empty.
+        width: Its width in pixels.
+        height: Its height in pixels.
+        canvas: Its parts.
+    """
+
+    name: str
+    title: str
+    description: str
+    telling: str
+    width: float
+    height: float
+    canvas: Canvas
+
+    def to_svg(self, *, with_style: bool = True) -> str:
+        """The diagram as SVG; the same diagram gives the same text.
+
+        Args:
+            with_style: Whether the style is in it, as a file needs it. A page has it once for all.
+        """
+        return self.canvas.document(
+            name=self.name,
+            title=self.title,
+            description=" ".join(part for part in (self.description, self.telling) if part),
+            width=self.width,
+            height=self.height,
+            with_style=with_style,
+        )
+
+
+def draw_graph(graph: Graph, *, name: str, title: str, description: str, telling: str = "") -> Drawing:
+    """Place and draw a diagram of nodes and edges.
+
+    Args:
+        graph: The diagram.
+        name: Its name in file names and anchors.
+        title: What it is called.
+        description: What it shows.
+        telling: What it shows part by part.
+
+    Raises:
+        DefinitionError: The package ``pygraphviz`` is not installed.
+    """
+    contents = {node.id: content_of(node, graph.node_width) for node in graph.nodes}
+    placed = layout(graph, {name: (content.width, content.height) for name, content in contents.items()})
+    canvas = Canvas()
+    for cluster in graph.clusters:
+        frame = placed.frames[cluster.id]
+        canvas.rectangle(frame.x, frame.y, frame.width, frame.height, "shape open", rounding=4)
+        canvas.text(frame.x + frame.width / 2, frame.y + 1.6 * FONT, cluster.title, "name", anchor="middle")
+    for index, edge in enumerate(graph.edges):
+        _draw_edge(canvas, edge, placed.curves[index])
+    for node in graph.nodes:
+        draw_node(canvas, node, contents[node.id], placed.nodes[node.id])
+    # Last, so that no line crosses a label.
+    for index, edge in enumerate(graph.edges):
+        _draw_label(canvas, edge, placed.labels[index])
+    width, height = _extent(placed, graph)
+    return Drawing(
+        name=name,
+        title=title,
+        description=description,
+        telling=telling,
+        width=width,
+        height=height,
+        canvas=canvas,
+    )
+
+
+def _draw_edge(canvas: Canvas, edge: Edge, points: tuple[Point, ...]) -> None:
+    with canvas.group(f"{edge.source} → {edge.target} {' '.join(edge.labels)}".strip()):
+        canvas.curve(points, "line dashed" if edge.dashed else "line")
+        canvas.arrow(points[-1], points[-2], edge.head)
+
+
+def _draw_label(canvas: Canvas, edge: Edge, centre: Point | None) -> None:
+    if centre is not None:
+        top = centre[1] - label_size(edge)[1] / 2
+        canvas.lines(centre[0], top, edge.labels, SMALL, "label", anchor="middle")
+
+
+def _extent(placed: Layout, graph: Graph) -> tuple[float, float]:
+    """The size of the diagram; labels and heads of arrows may reach beyond what was laid out."""
+    width, height = placed.width, placed.height
+    for edge, centre in zip(graph.edges, placed.labels, strict=True):
+        if centre is not None:
+            width = max(width, centre[0] + label_size(edge)[0] / 2 + 4)
+            height = max(height, centre[1] + label_size(edge)[1] / 2 + 4)
+    return width, height

@@ -1,0 +1,169 @@
+"""Places for the nodes and edges of a diagram, by Graphviz.
+
+Graphviz gets sizes and links, and never a text: what it computes depends on no font, and nothing
+in a requirement can reach it. The same diagram gets the same places on every machine with the
+same release of Graphviz, which the package pygraphviz carries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rgss.errors import DefinitionError
+from rgss.reports.diagrams.canvas import Point
+from rgss.reports.diagrams.graph import Edge, Graph, Node, Shape
+from rgss.reports.diagrams.style import FONT, LINE, SMALL
+from rgss.reports.diagrams.text import text_width
+
+Size = tuple[float, float]
+"""Width and height in pixels."""
+
+_POINTS_PER_INCH = 72.0
+_MARGIN = 14.0
+_ROUND = (Shape.INITIAL, Shape.FINAL)
+_SHAPES = {Shape.ELLIPSE: "ellipse", Shape.DIAMOND: "diamond", Shape.INITIAL: "circle", Shape.FINAL: "circle"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame:
+    """Where a cluster is: its left and upper edge, its size."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layout:
+    """Where everything of a diagram is, in pixels from the upper left corner.
+
+    Attributes:
+        width: Width of the diagram.
+        height: Height of the diagram.
+        nodes: The centre of each node, by its id.
+        curves: For each edge, the points of its Bézier curves from source to target.
+        labels: For each edge, the centre of its labels; None without one.
+        frames: Where each cluster is, by its id.
+    """
+
+    width: float
+    height: float
+    nodes: Mapping[str, Point]
+    curves: tuple[tuple[Point, ...], ...]
+    labels: tuple[Point | None, ...]
+    frames: Mapping[str, Frame]
+
+
+def require_graphviz() -> None:
+    """Make sure that diagrams can be laid out.
+
+    Raises:
+        DefinitionError: The package ``pygraphviz`` is not installed.
+    """
+    try:
+        import pygraphviz  # noqa: F401
+    except ImportError as error:
+        raise DefinitionError(
+            "diagrams need the package pygraphviz, which is not installed", hint="pip install 'pygraphviz>=2.0'"
+        ) from error
+
+
+def layout(graph: Graph, sizes: Mapping[str, Size]) -> Layout:
+    """Place a diagram.
+
+    Args:
+        graph: The diagram.
+        sizes: Width and height of each node in pixels, by its id.
+
+    Raises:
+        DefinitionError: The package ``pygraphviz`` is not installed.
+    """
+    require_graphviz()
+    import pygraphviz
+
+    drawn = pygraphviz.AGraph(strict=False, directed=True)
+    drawn.graph_attr.update(
+        rankdir="LR" if graph.rightwards else "TB", nodesep="0.3", ranksep="0.5", splines="true", margin="0"
+    )
+    drawn.node_attr.update(shape="box", fixedsize="true", label="", margin="0")
+    drawn.edge_attr.update(arrowhead="none", arrowtail="none")
+    names = {node.id: f"n{index}" for index, node in enumerate(graph.nodes)}
+    for node in graph.nodes:
+        width, height = sizes[node.id]
+        drawn.add_node(
+            names[node.id],
+            # What has a text above or below it is no circle any more.
+            shape="box" if node.name and node.shape in _ROUND else _SHAPES.get(node.shape, "box"),
+            width=f"{width / _POINTS_PER_INCH:.4f}",
+            height=f"{height / _POINTS_PER_INCH:.4f}",
+        )
+    for index, cluster in enumerate(graph.clusters):
+        within = [names[node.id] for node in graph.nodes if node.cluster == cluster.id]
+        title = _blank(text_width(cluster.title, FONT, bold=True) + 16, LINE * FONT + 4)
+        drawn.add_subgraph(within, name=f"cluster_{index}", label=title, margin="14")
+    nodes = {node.id: node for node in graph.nodes}
+    edges = [_add_edge(drawn, names, nodes, edge, index) for index, edge in enumerate(graph.edges)]
+    drawn.layout(prog="dot")
+    return _read(drawn, graph, names, edges)
+
+
+def label_size(edge: Edge) -> Size:
+    """Width and height of the labels of an edge, in pixels."""
+    width = max((text_width(label, SMALL) for label in edge.labels), default=0.0)
+    return width + 6, LINE * SMALL * len(edge.labels) + 2
+
+
+def _add_edge(drawn: Any, names: Mapping[str, str], nodes: Mapping[str, Node], edge: Edge, index: int) -> Any:
+    source, target = names[edge.source], names[edge.target]
+    attributes = {"label": _blank(*label_size(edge))} if edge.labels else {}
+    first, last = nodes[edge.source], nodes[edge.target]
+    if first.name and first.shape is Shape.INITIAL:
+        attributes["tailport"] = "s"
+    if last.name and last.shape is Shape.FINAL:
+        attributes["headport"] = "n"
+    if edge.straight:
+        attributes["weight"] = "20"
+    if edge.backwards:
+        source, target = target, source
+    drawn.add_edge(source, target, key=f"e{index}", **attributes)
+    return drawn.get_edge(source, target, key=f"e{index}")
+
+
+def _blank(width: float, height: float) -> str:
+    """A label that holds room for a text, and no text."""
+    cell = f'<TD FIXEDSIZE="TRUE" WIDTH="{width:.0f}" HEIGHT="{height:.0f}"></TD>'
+    return f'<<TABLE BORDER="0" CELLBORDER="0" CELLPADDING="0" CELLSPACING="0"><TR>{cell}</TR></TABLE>>'
+
+
+def _read(drawn: Any, graph: Graph, names: Mapping[str, str], edges: Sequence[Any]) -> Layout:
+    left, bottom, right, top = _floats(drawn.graph_attr["bb"])
+
+    def place(text: str) -> Point:
+        x, y = _floats(text)
+        return x - left + _MARGIN, top - y + _MARGIN
+
+    frames = {}
+    for index, cluster in enumerate(graph.clusters):
+        x, low, end, high = _floats(drawn.get_subgraph(f"cluster_{index}").graph_attr["bb"])
+        frames[cluster.id] = Frame(x=x - left + _MARGIN, y=top - high + _MARGIN, width=end - x, height=high - low)
+    curves = []
+    for edge, made in zip(graph.edges, edges, strict=True):
+        points = [place(point) for point in made.attr["pos"].split() if point[0] not in "se"]
+        curves.append(tuple(reversed(points) if edge.backwards else points))
+    return Layout(
+        width=right - left + 2 * _MARGIN,
+        height=top - bottom + 2 * _MARGIN,
+        nodes={node.id: place(drawn.get_node(names[node.id]).attr["pos"]) for node in graph.nodes},
+        curves=tuple(curves),
+        labels=tuple(
+            place(made.attr["lp"]) if edge.labels else None for edge, made in zip(graph.edges, edges, strict=True)
+        ),
+        frames=frames,
+    )
+
+
+def _floats(text: str) -> list[float]:
+    return [float(part) for part in text.split(",")]

@@ -1,0 +1,147 @@
+"""How large the node of a diagram is, and how it is drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.reports.diagrams.canvas import Canvas, Point
+from rgss.reports.diagrams.graph import Node, Shape
+from rgss.reports.diagrams.style import FONT, LINE, SMALL
+from rgss.reports.diagrams.text import text_width, wrapped
+
+_PAD_X, _PAD_Y = 10.0, 7.0
+_BETWEEN = 5.0
+_DOT, _BAR = 16.0, (70.0, 6.0)
+_AWAY = 3.0
+_FIGURE = (26.0, 44.0)
+_SMALL_SHAPES = frozenset({Shape.INITIAL, Shape.FINAL, Shape.BAR})
+"""The shapes that have no room for a text."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Content:
+    """The lines of a node, and the size that they need.
+
+    Attributes:
+        stereotype: Lines of the stereotype.
+        name: Lines of the name.
+        texts: Lines of each further text.
+        width: Width of the node, in pixels.
+        height: Height of the node, in pixels.
+        beside: Lines that stand beside the node, for they have no room in it.
+    """
+
+    stereotype: tuple[str, ...]
+    name: tuple[str, ...]
+    texts: tuple[tuple[str, ...], ...]
+    width: float
+    height: float
+    beside: tuple[str, ...] = ()
+
+
+def content_of(node: Node, line_width: float) -> Content:
+    """Break the texts of a node into lines, and measure it.
+
+    Args:
+        node: The node.
+        line_width: The greatest width of a line, in pixels.
+    """
+    if node.shape in _SMALL_SHAPES:
+        beside = tuple(line for text in (node.name, *node.texts) for line in wrapped(text, line_width, SMALL))
+        width, height = _with_beside(node.shape, beside)
+        return Content(stereotype=(), name=(), texts=(), width=width, height=height, beside=beside)
+    stereotype = (f"«{node.stereotype}»",) if node.stereotype else ()
+    name = wrapped(node.name, line_width, FONT, bold=True)
+    texts = tuple(wrapped(text, line_width, SMALL) for text in node.texts)
+    widths = [text_width(line, SMALL) for line in stereotype]
+    widths += [text_width(line, FONT, bold=True) for line in name]
+    widths += [text_width(line, SMALL) for lines in texts for line in lines]
+    inner = max(widths, default=0.0)
+    height = LINE * (SMALL * len(stereotype) + FONT * len(name))
+    height += sum(LINE * SMALL * len(lines) + 2 * _BETWEEN for lines in texts)
+    width, height = _outer(node.shape, inner, height)
+    return Content(stereotype=stereotype, name=name, texts=texts, width=width, height=height)
+
+
+def draw_node(canvas: Canvas, node: Node, content: Content, centre: Point) -> None:
+    """Draw a node about its centre."""
+    x, y = centre
+    width, height = content.width, content.height
+    left, top = x - width / 2, y - height / 2
+    style = f"shape {node.tint}".strip()
+    told = [*content.stereotype, " ".join(content.name), *map(" ".join, (*content.texts, content.beside))]
+    with canvas.group(" ".join(part for part in told if part) or node.shape.value):
+        if node.shape is Shape.BOX:
+            canvas.rectangle(left, top, width, height, style)
+        elif node.shape is Shape.ROUND:
+            canvas.rectangle(left, top, width, height, style, rounding=10)
+        elif node.shape is Shape.ELLIPSE:
+            canvas.ellipse(x, y, width, height, style)
+        elif node.shape is Shape.DIAMOND:
+            canvas.polygon([(x, top), (left + width, y), (x, top + height), (left, y)], style)
+        elif node.shape in _SMALL_SHAPES:
+            _draw_small(canvas, node.shape, content, centre)
+        else:
+            _draw_figure(canvas, x, top)
+            top += _FIGURE[1]
+            height -= _FIGURE[1]
+        _write(canvas, content, x, left, top, height, node.shape)
+
+
+def _with_beside(shape: Shape, lines: tuple[str, ...]) -> tuple[float, float]:
+    """The size of a small shape with its text: above an initial node, below a final one, right of a bar.
+
+    That is where no edge comes or goes. A bar has the same room on its left, so that it stays in the middle.
+    """
+    text = max((text_width(line, SMALL) for line in lines), default=0.0)
+    height = LINE * SMALL * len(lines)
+    if shape is Shape.BAR:
+        return _BAR[0] + (2 * (text + 6) if lines else 0), max(_BAR[1], height)
+    return max(_DOT, text), _DOT + (height + _AWAY if lines else 0)
+
+
+def _draw_small(canvas: Canvas, shape: Shape, content: Content, centre: Point) -> None:
+    x, y = centre
+    top, bottom = y - content.height / 2, y + content.height / 2
+    if shape is Shape.BAR:
+        canvas.rectangle(x - _BAR[0] / 2, y - _BAR[1] / 2, *_BAR, "solid")
+        canvas.lines(x + _BAR[0] / 2 + 6, top, content.beside, SMALL, "", anchor="start")
+    elif shape is Shape.INITIAL:
+        canvas.lines(x, top, content.beside, SMALL, "", anchor="middle")
+        canvas.ellipse(x, bottom - _DOT / 2, _DOT, _DOT, "solid")
+    else:
+        canvas.ellipse(x, top + _DOT / 2, _DOT, _DOT, "hollow")
+        canvas.ellipse(x, top + _DOT / 2, _DOT * 0.55, _DOT * 0.55, "solid")
+        canvas.lines(x, top + _DOT + _AWAY, content.beside, SMALL, "", anchor="middle")
+
+
+def _outer(shape: Shape, inner: float, height: float) -> tuple[float, float]:
+    if shape is Shape.ELLIPSE:
+        # The rectangle of the text touches the ellipse at its corners.
+        return 1.42 * inner + _PAD_X, 1.42 * height + _PAD_Y
+    if shape is Shape.DIAMOND:
+        return (2 * inner + _PAD_X, 2 * height + _PAD_Y) if inner else (24.0, 24.0)
+    if shape is Shape.ACTOR:
+        return max(inner, _FIGURE[0]) + 4, height + _FIGURE[1] + 2
+    return inner + 2 * _PAD_X, height + 2 * _PAD_Y
+
+
+def _write(canvas: Canvas, content: Content, x: float, left: float, top: float, height: float, shape: Shape) -> None:
+    text = LINE * (SMALL * len(content.stereotype) + FONT * len(content.name))
+    text += sum(LINE * SMALL * len(lines) + 2 * _BETWEEN for lines in content.texts)
+    y = top + (height - text) / 2
+    y = canvas.lines(x, y, content.stereotype, SMALL, "soft", anchor="middle")
+    y = canvas.lines(x, y, content.name, FONT, "name", anchor="middle")
+    for lines in content.texts:
+        if shape is Shape.BOX and lines:
+            canvas.line([(left, y + _BETWEEN / 2), (left + content.width, y + _BETWEEN / 2)], "line thin")
+        inset, anchor = (left + _PAD_X, "start") if shape is Shape.BOX else (x, "middle")
+        y = canvas.lines(inset, y + _BETWEEN, lines, SMALL, "", anchor=anchor) + _BETWEEN
+
+
+def _draw_figure(canvas: Canvas, x: float, top: float) -> None:
+    """A stick figure."""
+    canvas.ellipse(x, top + 7, 12, 12, "shape")
+    canvas.line([(x, top + 13), (x, top + 28)], "line")
+    canvas.line([(x - 12, top + 18), (x + 12, top + 18)], "line")
+    canvas.line([(x - 10, top + 42), (x, top + 28), (x + 10, top + 42)], "line")

@@ -1,0 +1,171 @@
+"""Sequence diagrams: lifelines, messages below each other, and bounds on the time between them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rgss.reports.diagrams.canvas import Canvas
+from rgss.reports.diagrams.drawing import Drawing
+from rgss.reports.diagrams.style import FONT, LINE, SMALL
+from rgss.reports.diagrams.text import text_width, wrapped
+from rgss.requirements import Behaviour
+from rgss.requirements.behaviour import Interaction, Message, TimingConstraint
+
+_MARGIN = 16.0
+_HEAD_WIDTH, _HEAD_GAP = 130.0, 26.0
+_LABEL_WIDTH = 230.0
+_LOOP = 34.0
+_AFTER = 14.0
+_BOUND = 120.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Row:
+    """A message with its place: the lines above its arrow, and the height of the arrow."""
+
+    message: Message
+    lines: tuple[str, ...]
+    top: float
+    y: float
+
+
+def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Mapping[str, str]) -> Drawing | None:
+    """Draw who asks whom for what, from top to bottom; None while the interaction is open.
+
+    Args:
+        behaviour: The sequence.
+        names: The name of each block by its id.
+        bounds: The success criterion of each requirement by its id, in words.
+    """
+    interaction = behaviour.interaction
+    if interaction is None:
+        return None
+    heads = {name: wrapped(names.get(name, name), _HEAD_WIDTH, FONT, bold=True) for name in interaction.lifelines}
+    ids = {name: wrapped(name, _HEAD_WIDTH, SMALL) for name in interaction.lifelines}
+    xs, right = _columns(interaction)
+    head_height = max((LINE * (FONT * len(heads[n]) + SMALL * len(ids[n])) for n in heads), default=0.0) + 12
+    rows = _rows(interaction, xs, _MARGIN + head_height + 16)
+    bottom = (rows[-1].y if rows else _MARGIN + head_height) + 30
+    canvas = Canvas()
+    for x in xs.values():
+        canvas.line([(x, _MARGIN + head_height), (x, bottom)], "line dotted")
+    for name, x in xs.items():
+        with canvas.group(f"{names.get(name, name)} ({name})"):
+            left = x - _HEAD_WIDTH / 2 - 6
+            canvas.rectangle(left, _MARGIN, _HEAD_WIDTH + 12, head_height, "shape")
+            y = canvas.lines(x, _MARGIN + 6, heads[name], FONT, "name", anchor="middle")
+            canvas.lines(x, y, ids[name], SMALL, "soft", anchor="middle")
+    for row in rows:
+        _draw_message(canvas, row, xs)
+    right = _draw_bounds(canvas, interaction, rows, bounds, right)
+    return Drawing(
+        name=f"sequence-{behaviour.id}",
+        title=f"Sequence diagram: {behaviour.name}",
+        description=f"{behaviour.id}: {behaviour.text}",
+        telling=_told(interaction, names, bounds),
+        width=right + _MARGIN,
+        height=bottom + _MARGIN,
+        canvas=canvas,
+    )
+
+
+def _columns(interaction: Interaction) -> tuple[dict[str, float], float]:
+    """Where each lifeline stands: so far from the next that the messages between them fit."""
+    order = {name: index for index, name in enumerate(interaction.lifelines)}
+    gaps = [_HEAD_WIDTH + 12 + _HEAD_GAP] * len(order)
+    for message in interaction.messages:
+        first, last = sorted((order[message.source], order[message.target]))
+        width = min(_label_width(message), _LABEL_WIDTH) + 24
+        if first == last:
+            gaps[first] = max(gaps[first], width + _LOOP)
+        else:
+            share = width / (last - first)
+            gaps[first:last] = [max(gap, share) for gap in gaps[first:last]]
+    xs: dict[str, float] = {}
+    x = _MARGIN + _HEAD_WIDTH / 2 + 6
+    for name, gap in zip(interaction.lifelines, gaps, strict=True):
+        xs[name] = x
+        x += gap
+    last_gap = gaps[-1] if gaps else 0.0
+    return xs, max(x - last_gap + _HEAD_WIDTH / 2 + 6, x - _HEAD_GAP - _HEAD_WIDTH / 2)
+
+
+def _rows(interaction: Interaction, xs: Mapping[str, float], top: float) -> list[_Row]:
+    rows = []
+    for message in interaction.messages:
+        own = message.source == message.target
+        room = _LABEL_WIDTH if own else max(_LABEL_WIDTH, abs(xs[message.source] - xs[message.target]) - 24)
+        lines = tuple(line for text in _texts(message) for line in wrapped(text, room, SMALL))
+        y = top + LINE * SMALL * len(lines) + 3
+        rows.append(_Row(message=message, lines=lines, top=top, y=y))
+        top = y + _AFTER + (14 if own else 0)
+    return rows
+
+
+def _draw_message(canvas: Canvas, row: _Row, xs: Mapping[str, float]) -> None:
+    message = row.message
+    start, end = xs[message.source], xs[message.target]
+    style, head = ("line dashed", "open") if message.reply else ("line", "filled")
+    with canvas.group(f"{message.source} → {message.target}: {' '.join(_texts(message))}"):
+        if start == end:
+            canvas.lines(start + 8, row.top, row.lines, SMALL, "label", anchor="start")
+            canvas.line(
+                [(start, row.y), (start + _LOOP, row.y), (start + _LOOP, row.y + 14), (start, row.y + 14)], style
+            )
+            canvas.arrow((start, row.y + 14), (start + _LOOP, row.y + 14), head)
+        else:
+            canvas.lines((start + end) / 2, row.top, row.lines, SMALL, "label", anchor="middle")
+            canvas.line([(start, row.y), (end, row.y)], style)
+            canvas.arrow((end, row.y), (start, row.y), head)
+
+
+def _draw_bounds(
+    canvas: Canvas, interaction: Interaction, rows: list[_Row], bounds: Mapping[str, str], right: float
+) -> float:
+    """Write each bound beside its messages, in a column of its own; returns the new right edge."""
+    places = {row.message.id: row.y for row in rows}
+    texts = [
+        tuple(line for text in _bound(timing, bounds) for line in wrapped(text, _BOUND, SMALL))
+        for timing in interaction.timings
+    ]
+    columns = []
+    for lines in texts:
+        columns.append(right + 18)
+        right = columns[-1] + 8 + max(text_width(line, SMALL) for line in lines)
+    ends = [sorted((places[timing.first], places[timing.last])) for timing in interaction.timings]
+    # The lines of all come first, so that those of one bound strike through no words of another.
+    for x, heights in zip(columns, ends, strict=True):
+        for y in heights:
+            canvas.line([(_MARGIN, y), (x - 8, y)], "line dotted thin")
+    for timing, x, (first, last), lines in zip(interaction.timings, columns, ends, texts, strict=True):
+        with canvas.group(" ".join(_bound(timing, bounds))):
+            for y in (first, last):
+                canvas.line([(x - 8, y), (x + 8, y)], "line thin")
+            canvas.line([(x, first), (x, last)], "line")
+            canvas.arrow((x, first), (x, last), "open")
+            canvas.arrow((x, last), (x, first), "open")
+            top = (first + last) / 2 - LINE * SMALL * len(lines) / 2
+            canvas.lines(x + 8, top, lines, SMALL, "label", anchor="start")
+    return right
+
+
+def _texts(message: Message) -> tuple[str, ...]:
+    return (message.text, f"calls {message.does}") if message.does else (message.text,)
+
+
+def _bound(timing: TimingConstraint, bounds: Mapping[str, str]) -> tuple[str, ...]:
+    return (f"{{{bounds.get(timing.criterion_of, '')}}}", timing.text, timing.criterion_of)
+
+
+def _label_width(message: Message) -> float:
+    return max(text_width(text, SMALL) for text in _texts(message))
+
+
+def _told(interaction: Interaction, names: Mapping[str, str], bounds: Mapping[str, str]) -> str:
+    told = []
+    for one in interaction.messages:
+        source, target = names.get(one.source, one.source), names.get(one.target, one.target)
+        told.append(f"{source} {'answers' if one.reply else 'to'} {target}: {one.text}.")
+    told += [f"From {one.first} to {one.last}: {' '.join(_bound(one, bounds))}." for one in interaction.timings]
+    return " ".join(told)

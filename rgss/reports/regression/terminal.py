@@ -1,0 +1,53 @@
+"""A guard's report as lines for a terminal: one for each finding."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.regression import Outcome, RegressionReport
+from rgss.reports.regression.words import (
+    behaviour_of,
+    counts_of,
+    detail_of,
+    inputs_of,
+    listed,
+    power_lines,
+    reasons_of,
+    remedy_of,
+    title_of,
+)
+
+
+def report_lines(report: RegressionReport, *, everything: bool = False) -> Iterator[str]:
+    """The lines; characters that would steer a terminal are replaced.
+
+    Args:
+        report: The report.
+        everything: Also a line for each metric that is the same, and the power of those that have enough.
+    """
+    yield _safe(f"{report.study} against {report.baseline}: {report.verdict}")
+    for failing in report.failing:
+        yield _safe(f"  FAILED        {failing.trouble.value}: {failing.text}")
+    for reason in reasons_of(report):
+        word = "ACCEPTED" if report.accepted else "CHANGED"
+        yield _safe(f"  {word:<13} {reason}")
+    for comparison in listed(report):
+        if everything or comparison.outcome is not Outcome.SAME:
+            word = comparison.outcome.value.upper()
+            yield _safe(f"  {word:<13} {title_of(comparison)}: {detail_of(comparison)}")
+    yield _safe(counts_of(report))
+    if not report.behaviour.is_changed:
+        yield _safe(behaviour_of(report))
+    for line in inputs_of(report):
+        yield _safe(line)
+    for note in report.notes:
+        yield _safe(f"note: {note}")
+    for line in power_lines(report, everything=everything):
+        yield _safe(line)
+    remedy = remedy_of(report)
+    if remedy:
+        yield _safe(remedy)
+
+
+def _safe(text: str) -> str:
+    return "".join(character if character.isprintable() else "�" for character in text)

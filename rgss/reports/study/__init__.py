@@ -1,0 +1,17 @@
+"""Contents of the study's report, section by section."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.reports.study.document import report_document
+    from rgss.reports.study.trials import NotableTrial, notable_trials
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "NotableTrial",
+    "notable_trials",
+    "report_document",
+]

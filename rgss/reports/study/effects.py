@@ -1,0 +1,78 @@
+"""What each factor of the design does to each measure, as a report shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.robustness import MeasureEffects, StudyEffects
+from rgss.reports.study.numbers import Plain, plain_number, plain_numbers
+
+
+def factor_columns(measured: Sequence[VariantMeasures], effects: StudyEffects) -> list[Plain]:
+    """The factors that vary, with the level that each variant has of each; -1 for a value of a range.
+
+    Args:
+        measured: Every variant.
+        effects: Names the factors.
+    """
+    return [
+        {
+            "id": factor.id,
+            "parameters": list(factor.parameters),
+            "levels": list(factor.levels),
+            "level": [
+                factor.levels.index(level) if (level := entry.variant.levels.get(factor.id)) in factor.levels else -1
+                for entry in measured
+            ],
+        }
+        for factor in effects.factors
+    ]
+
+
+def effect_columns(effects: StudyEffects) -> list[Plain]:
+    """The main effects of all factors on each measure, and the shares of interactions.
+
+    Args:
+        effects: As the trade-off computes them.
+    """
+    return [_effects(one) for one in effects.measures]
+
+
+def _effects(one: MeasureEffects) -> Plain:
+    analysis = one.analysis
+    terms = [] if analysis is None else list(analysis.effects)
+    levels = {factor.id: list(factor.levels) for factor in one.factors}
+    return {
+        "measure": one.measure,
+        "unit": one.unit,
+        "designs": one.designs,
+        "left_out": list(one.left_out),
+        "mean": None if analysis is None else plain_number(analysis.mean),
+        "main": [
+            {
+                "factor": term.factors[0],
+                "levels": levels[term.factors[0]],
+                "effect": plain_numbers(term.levels.tolist()),
+                "low": None if term.low is None else plain_numbers(term.low.tolist()),
+                "high": None if term.high is None else plain_numbers(term.high.tolist()),
+                "share": plain_number(term.share),
+            }
+            for term in terms
+            if len(term.factors) == 1
+        ],
+        "interactions": [
+            {"factors": list(term.factors), "share": plain_number(term.share)}
+            for term in terms
+            if len(term.factors) > 1 and term.share > 0.0
+        ],
+        "shares": [
+            {
+                "factor": factor,
+                "share": plain_number(index.share),
+                "low": plain_number(index.low),
+                "high": plain_number(index.high),
+            }
+            for factor, index in one.sampled.items()
+        ],
+    }

@@ -1,0 +1,92 @@
+"""How long planning took in a report: every search once, with the variants that share it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rgss.assessment import VariantMeasures
+from rgss.evidence import PlanOutcome, TrialRecord
+from rgss.reports.study.numbers import Plain, plain_number, plain_numbers
+from rgss.studies import Project, trial_specs
+from rgss.sweep import key_of
+from rgss.trials.code import versions
+from rgss.trials.pieces import TrialSpec, digests_of
+
+MOST_SEARCHES = 20_000
+"""With more searches than this, quantiles stand for each planner's distribution, whatever is brushed."""
+
+_QUANTILES = 1_001
+
+
+def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> Plain:
+    """Planning times by planner.
+
+    Variants that share a search differ in when it was stopped; it is taken as the one with the
+    longest limit saw it. A move that was not planned, because one before it failed, has no search.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its trials.
+
+    Returns:
+        The planners, and a row for each search: planner, planning time (None where it found no
+        path), the longest limit, and the group of variants that share it.
+    """
+    records = {
+        key: (place, record)
+        for place, entry in enumerate(measured)
+        for key, record in zip(entry.trials, entry.records, strict=True)
+    }
+    now = versions()
+    longest: dict[str, tuple[TrialSpec, TrialRecord]] = {}
+    sharing: dict[str, list[int]] = {}
+    for spec in trial_specs(project, variants=[entry.variant for entry in measured]):
+        key = key_of(spec)
+        if key not in records:
+            continue
+        place, record = records[key]
+        plan = digests_of(spec, now).plan
+        sharing.setdefault(plan, []).append(place)
+        if plan not in longest or spec.planning_limit_s > longest[plan][0].planning_limit_s:
+            longest[plan] = (spec, record)
+    groups: dict[tuple[int, ...], int] = {}
+    rows = []
+    for plan, (spec, record) in longest.items():
+        group = groups.setdefault(tuple(dict.fromkeys(sharing[plan])), len(groups))
+        rows += [
+            (spec.planner, plain_number(planned.time_s if planned.outcome is PlanOutcome.SOLVED else None), group, spec)
+            for planned in record.planning
+            if planned.outcome is not PlanOutcome.NOT_RUN
+        ]
+    planners = sorted({row[0] for row in rows})
+    document: Plain = {
+        "planners": [
+            _summary(planner, [(time, spec.planning_limit_s) for name, time, _, spec in rows if name == planner])
+            for planner in planners
+        ],
+        "thinned": len(rows) > MOST_SEARCHES,
+    }
+    if len(rows) <= MOST_SEARCHES:
+        document |= {
+            "groups": [list(group) for group in groups],
+            "planner": [planners.index(row[0]) for row in rows],
+            "time_s": [row[1] for row in rows],
+            "group": [row[2] for row in rows],
+        }
+    return document
+
+
+def _summary(planner: str, searches: Sequence[tuple[float | None, float]]) -> Plain:
+    times = np.array([time for time, _ in searches if time is not None])
+    thinned = np.quantile(times, np.linspace(0.0, 1.0, _QUANTILES)) if len(times) else times
+    quartiles = np.quantile(times, (0.0, 0.25, 0.5, 0.75, 1.0)).tolist() if len(times) else []
+    return {
+        "name": planner,
+        "searches": len(searches),
+        "solved": len(times),
+        "longest_limit_s": max(limit for _, limit in searches),
+        "quartiles_s": plain_numbers(quartiles),
+        "quantiles_s": plain_numbers(thinned.tolist()) if len(times) > _QUANTILES else [],
+    }

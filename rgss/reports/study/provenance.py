@@ -1,0 +1,85 @@
+"""What a report stands on: assumptions with their reasons, files, versions, the evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from rgss.assessment import VariantMeasures
+from rgss.documents import load_document
+from rgss.errors import DocumentError
+from rgss.evidence import EvidenceStore
+from rgss.evidence.records import file_digests
+from rgss.reports.study.numbers import Plain
+from rgss.studies import FOLDERS, Project, StudyDocument
+from rgss.trials.code import versions
+
+
+def provenance_of(
+    project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore, *, evidence: str
+) -> Plain:
+    """Where the figures come from; nothing in it depends on when or where it is asked for.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its trials.
+        store: The evidence.
+        evidence: Its name as people see it.
+
+    Raises:
+        EvidenceError: The store is damaged, or an input file cannot be read.
+    """
+    study = project.study
+    keys = [key for entry in measured for key in entry.trials]
+    first = store.get(min(keys)) if keys else None
+    planning = study.planning
+    return {
+        "study": [
+            ["study", study.id],
+            ["file", study.label],
+            ["design space", study.design_space],
+            ["catalogue", study.catalogue],
+            ["scene", study.scene],
+            ["fidelity", study.fidelity.value],
+            ["seeds", ", ".join(map(str, study.seeds[:20])) + (" …" if len(study.seeds) > 20 else "")],
+            ["variants", str(len(measured))],
+            ["trials", str(len(keys))],
+            ["planning clock", "counted checks" if planning.counted else "wall"],
+            ["charge for a check", f"{planning.charge_per_check_s * 1e3:g} ms"],
+            ["simplification limit", f"{planning.simplification_limit_s:g} s"],
+            ["clearance", f"{planning.clearance_m * 1e3:g} mm"],
+            ["physics steps", f"{study.rate_hz:g} Hz"],
+            ["evidence", evidence],
+        ],
+        "files": sorted(file_digests(project.folder, FOLDERS).items()),
+        "versions": sorted(versions().items()),
+        "made_on": "" if first is None else first.provenance.machine,
+        "made_by": "" if first is None else first.provenance.revision,
+    }
+
+
+def assumptions_of(project: Project) -> list[Plain]:
+    """Every assumption of the project with its reason: of the study, the measures, the designs, the catalogue.
+
+    Args:
+        project: The project with its study.
+    """
+    return [{"where": where, "about": about, "why": why} for where, about, why in _assumptions(project)]
+
+
+def _assumptions(project: Project) -> Iterator[tuple[str, str, str]]:
+    try:
+        study = load_document(project.folder / project.study.label, StudyDocument, label=project.study.label).value
+    except (DocumentError, OSError):
+        # The project was read from it, so that only a change since then can bring us here.
+        study = None
+    for entry in () if study is None else study.assumptions:
+        yield project.study.label, entry.about, entry.rationale
+    for one in project.measures.assumptions:
+        yield "measures", f"{one.statement} ({', '.join(one.concerns)})", one.rationale
+    for parameter in project.designs.parameters:
+        if parameter.assumption:
+            yield project.study.design_space, f"{parameter.id} {parameter.name}", parameter.assumption
+    for component in project.designs.catalogue.components:
+        for name, rationale in component.assumptions.items():
+            value = component.cost if name == "cost" else component.properties[name]
+            yield project.study.catalogue, f"{component.id}.{name} = {value.value:g} {value.unit}", rationale

@@ -1,0 +1,296 @@
+"""A study's report as one self-contained HTML page with linked plots."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import quote
+
+from rgss.errors import DefinitionError
+from rgss.invisible_characters import visible_throughout
+from rgss.reports.page import render_page, template_text
+from rgss.reports.trace import TraceReport, trace_context
+from rgss.trace.views import share_in_words, value_in_words
+
+SCRIPTS = (
+    "report_core.js",
+    "report_tables.js",
+    "report_parallel.js",
+    "report_verdicts.js",
+    "report_weights.js",
+    "report_evidence.js",
+    "report_plots.js",
+    "report_trials.js",
+    "report_start.js",
+)
+"""The parts of the page's script, in their order; together they are one function of the document."""
+
+LARGEST_PLAIN = 2_000_000
+"""A longer document is packed."""
+
+_MOST_REPLAYS = 5
+_COLUMNS = ("value", "low", "high", "n")
+
+_SECTIONS = (
+    ("decision", "Decision"),
+    ("explore", "All variants"),
+    ("verdicts", "Verdicts"),
+    ("measures", "Measures"),
+    ("pareto", "Pareto front"),
+    ("weights", "Weights"),
+    ("acceptability", "Acceptability"),
+    ("effects", "Main effects"),
+    ("planning", "Planning times"),
+    ("trials", "Trials and failures"),
+    ("evidence", "Evidence of a variant"),
+    ("pictures", "Pictures"),
+    ("traceability", "Traceability"),
+    ("provenance", "Provenance"),
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TrialPictures:
+    """Pictures of one trial.
+
+    Attributes:
+        title: Which trial, and why it is looked at.
+        note: How it ended.
+        replay: The command that runs it again.
+        filmstrip: A PNG of the ends of its states; empty if nothing moved.
+        film: A GIF; empty if nothing moved.
+    """
+
+    title: str
+    note: str
+    replay: str
+    filmstrip: bytes
+    film: bytes
+
+
+def study_report_to_html(
+    document: Mapping[str, Any],
+    trace: TraceReport,
+    *,
+    drawings: Sequence[Mapping[str, Any]] = (),
+    drawings_notice: str = "",
+    pictures: Sequence[TrialPictures] = (),
+    pictures_notice: str = "",
+) -> str:
+    """Write a study's report as one page, which makes no request and runs only what it carries.
+
+    The same arguments give the same bytes.
+
+    Args:
+        document: What the report shows, as `rgss.reports.study.document.report_document` gives it.
+        trace: The traceability of the same project.
+        drawings: Its diagrams, as `rgss.reports.diagrams.diagrams.drawings_for_page` gives them.
+        drawings_notice: What there is to say of the diagrams.
+        pictures: Pictures of the trials that are worth looking at.
+        pictures_notice: What there is to say of the pictures, such as why there are none.
+
+    Raises:
+        DefinitionError: The package ``jinja2`` or ``plotly`` is not installed.
+    """
+    script = (
+        '"use strict";\nconst rgssReport = (data, later) => {\n' + "\n".join(map(template_text, SCRIPTS)) + "\n};\n"
+    )
+    plain = embedded_json(document)
+    packed = len(plain) > LARGEST_PLAIN
+    first, later = parted(document) if packed else (document, {})
+    return render_page(
+        "report.html.j2",
+        styles=[template_text("report.css")],
+        scripts=[script + template_text("report_data.js")],
+        # It takes a browser longer than all the rest, and is not needed until a plot comes into sight.
+        held_scripts=[plotting_library()],
+        images=True,
+        title=f"Report of the study {document['study']}",
+        report=document,
+        comparison=_comparison(document),
+        compared_trials=_compared_trials(document),
+        report_sections=_SECTIONS,
+        pictures=[_picture(one) for one in pictures],
+        pictures_notice=pictures_notice,
+        data=_markup(packed_json(embedded_json(first)) if packed else plain),
+        later=_markup(packed_json(embedded_json(later))),
+        packed=packed,
+        refused=_refused(document["decision"]["refused"]),
+        words=value_in_words,
+        share=share_in_words,
+        **trace_context(trace, drawings=drawings, drawings_notice=drawings_notice),
+    )
+
+
+def parted(document: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """A document without the columns of the measures that nothing weighs or demands, and these columns.
+
+    A page with many variants stands sooner without them, and adds them when it does.
+
+    Args:
+        document: What the report shows.
+
+    Returns:
+        The document, and the columns that were taken from it by the measure's id.
+    """
+    wanted = {requirement["measure"] for requirement in document["requirements"]}
+    measures, later = [], {}
+    for measure in document["measures"]:
+        decisive = measure["kind"] == "moe" or measure["weight"] is not None or measure["id"] in wanted
+        columns = {} if decisive else {name: measure[name] for name in _COLUMNS if isinstance(measure.get(name), list)}
+        measures.append({name: value for name, value in measure.items() if name not in columns})
+        if columns:
+            later[measure["id"]] = columns
+    return {**document, "measures": measures}, later
+
+
+def embedded_json(document: Any) -> str:
+    """A document as JSON that may stand in a script element, whatever texts it has.
+
+    Nothing in it can end the element or a line: what is not ASCII and the signs ``<``, ``>`` and
+    ``&`` are written as escapes, which JSON reads back as they were. Invisible characters are shown by
+    their code points, since the page shows the texts to people.
+
+    Args:
+        document: Dictionaries, lists, texts, finite numbers.
+    """
+    text = json.dumps(visible_throughout(document), allow_nan=False, ensure_ascii=True, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def packed_json(text: str) -> str:
+    """A JSON text that is packed with gzip and written in base 64, the same bytes every time.
+
+    Args:
+        text: The text.
+    """
+    return base64.b64encode(gzip.compress(text.encode("ascii"), compresslevel=9, mtime=0)).decode("ascii")
+
+
+def plotting_library() -> str:
+    """The script of Plotly, as its Python package carries it.
+
+    Raises:
+        DefinitionError: The package is not installed.
+    """
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError as error:
+        raise DefinitionError(
+            "a report needs the package plotly, which is not installed", hint="pip install plotly"
+        ) from (error)
+    # Nothing in a script element may look like its end, not even a text in it.
+    return str(get_plotlyjs()).replace("</script", "<\\/script").replace("<!--", "<\\!--")
+
+
+def _comparison(document: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The chosen variant beside the runner-up, a row for each parameter that varies and each weighted measure."""
+    decision, variants = document["decision"], document["variants"]
+    shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
+    if not shown:
+        return []
+
+    def at(column: Any, place: int) -> Any:
+        return column[place] if isinstance(column, list) else column
+
+    rows = [
+        {
+            "name": parameter["name"],
+            "weight": None,
+            "cells": [
+                _figure(document, place, parameter["id"], _value(at(parameter["values"], place), parameter["unit"]))
+                for place in shown
+            ],
+        }
+        for parameter in document["parameters"]
+        if parameter["varies"]
+    ]
+    measures = {measure["id"]: measure for measure in document["measures"]}
+    for weighted in document["weights"]["measures"]:
+        measure = measures[weighted["id"]]
+        rows.append(
+            {
+                "name": f"{measure['id']}: {measure['name']}",
+                "weight": weighted["weight"],
+                "cells": [_figure(document, place, measure["id"], _estimate(measure, place)) for place in shown],
+            }
+        )
+    values = [_figure(document, place, "value", _value(at(variants["value"], place))) for place in shown]
+    rows.append({"name": "weighted value", "weight": None, "cells": values})
+    return rows
+
+
+def _figure(document: Mapping[str, Any], place: int, name: str, text: str) -> dict[str, str]:
+    return {"text": text, "to": f"#variant-{document['variants']['id'][place]}/{quote(name, safe='')}"}
+
+
+def _refused(reasons: Mapping[str, str]) -> dict[str, list[str]]:
+    """What was not analysed, by the reason, each of which is told once."""
+    names: dict[str, list[str]] = {}
+    for name, reason in reasons.items():
+        names.setdefault(reason, []).append(name)
+    return names
+
+
+def _compared_trials(document: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The trials of the chosen variant and of the runner-up, each with the command that runs it again."""
+    decision, variants, trials = document["decision"], document["variants"], document["trials"]
+    shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
+    rows: dict[int, list[int]] = {place: [] for place in shown}
+    for row, place in enumerate(trials["variant"]):
+        if place in rows:
+            rows[place].append(row)
+    named = (
+        "" if document["study_file"] == document["default_study"] else f" --study {shlex.quote(document['study_file'])}"
+    )
+    return [
+        {
+            "trials": [
+                _figure(document, place, trials["key"][row], "")
+                | {"replay": f"rgss replay {trials['key'][row]}{named}"}
+                for row in rows[place][:_MOST_REPLAYS]
+            ],
+            "more": max(0, len(rows[place]) - _MOST_REPLAYS),
+            "to": _figure(document, place, "trials", "")["to"],
+        }
+        for place in shown
+    ]
+
+
+def _estimate(measure: Mapping[str, Any], place: int) -> str:
+    def at(name: str) -> Any:
+        column = measure.get(name)
+        return column[place] if isinstance(column, list) else column
+
+    text = _value(at("value"), measure["unit"])
+    low, high = at("low"), at("high")
+    return text if low is None or high is None or low == high else f"{text} ({_value(low)} to {_value(high)})"
+
+
+def _value(value: float | str | None, unit: str = "1") -> str:
+    return value if isinstance(value, str) else value_in_words(value, unit or "1")
+
+
+def _picture(one: TrialPictures) -> dict[str, Any]:
+    return {
+        "title": one.title,
+        "note": one.note,
+        "replay": one.replay,
+        "filmstrip": _data_address("image/png", one.filmstrip),
+        "film": _data_address("image/gif", one.film),
+    }
+
+
+def _data_address(kind: str, content: bytes) -> str:
+    return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}" if content else ""
+
+
+def _markup(text: str) -> Any:
+    from markupsafe import Markup
+
+    return Markup(text)  # noqa: S704 - nothing in it can end the element that it stands in

@@ -1,0 +1,169 @@
+"""A traceability report as tables that fit a terminal: ids, marks and numbers, and few words."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from rgss.reports.tables import Cell, Table, cell_text, chosen_table
+from rgss.reports.trace.report import MatrixPart, TraceReport
+from rgss.reports.trace.tables import LINKED, matrix_note
+from rgss.trace.evidence import KEY_DIGITS, VerificationRow
+from rgss.trace.views import Chain, ChainStep, Impact, ThingKind, end_in_words, estimate_in_words, verdict_in_words
+
+_WIDEST_GRID = 12
+_LONGEST = 76
+_MOST_NAMED = 6
+
+
+def terminal_tables(report: TraceReport, *, gaps_only: bool = False, table: str = "") -> tuple[Table, ...]:
+    """Every table of a report, short enough to be read in a terminal.
+
+    Args:
+        report: The report.
+        gaps_only: Leave out the matrices of links, and of the verification matrix what is met.
+        table: Name of the only table; empty for all, and then the gaps stand by themselves only
+            where they alone are wanted, since the coverage names them.
+
+    Raises:
+        DefinitionError: There is no such table.
+    """
+    coverage = Table(
+        name="coverage",
+        title="Coverage",
+        heads=("of the …", "covered", "of", "not covered"),
+        rows=[(metric.title, metric.covered, metric.total, _named(metric.missing)) for metric in report.metrics],
+        note=f"Evidence: {report.evidence.choice}.",
+    )
+    gaps = Table(
+        name="gaps",
+        title="Gaps",
+        heads=("id", "has", "text"),
+        rows=[(gap.id, ", ".join(gap.lacks), _short(gap.text)) for gap in report.gaps],
+        note="" if report.gaps else "There is none.",
+    )
+    rows = [row for row in report.verification if row.has_gap or not gaps_only]
+    verification = Table(
+        name="verification",
+        title="Verification matrix",
+        heads=("requirement", "method", "success criterion", "evidence", "verdict"),
+        rows=[
+            (
+                row.requirement.id,
+                "" if row.requirement.verification is None else row.requirement.verification.value,
+                _short(row.success),
+                _evidence(row),
+                verdict_in_words(row.verdict, row.causes),
+            )
+            for row in rows
+        ],
+    )
+    matrices = [] if gaps_only else [_matrix(part) for part in report.matrices]
+    whole = (coverage, gaps, *matrices, verification)
+    if table:
+        return chosen_table(whole, table)
+    return whole if gaps_only else (coverage, *matrices, verification)
+
+
+def table_lines(tables: Sequence[Table]) -> list[str]:
+    """Tables as aligned lines of text, each under its title; what cannot be printed is replaced."""
+    lines: list[str] = []
+    for table in tables:
+        if lines:
+            lines.append("")
+        lines.append(table.title)
+        lines += _folded(table.note)
+        if table.rows:
+            cells = [[_safe(cell_text(cell)) for cell in row] for row in (table.heads, *table.rows)]
+            widths = [max(len(row[column]) for row in cells) for column in range(len(table.heads))]
+            made = ["  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)) for row in cells]
+            made.insert(1, "  ".join("─" * width for width in widths))
+            lines += [line.rstrip() for line in made]
+    return lines
+
+
+def chain_lines(chain: Chain) -> list[str]:
+    """A chain as indented lines: the id, what is above it, what is below it."""
+    note = f" [{chain.note}]" if chain.note else ""
+    lines = [_safe(f"{chain.id} ({chain.kind.value}){note}")]
+    lines += [f"  {line}" for line in _folded(chain.text)]
+    for title, steps in (("Up, towards the need", chain.up), ("Down, towards the evidence", chain.down)):
+        lines += ["", f"{title}:"]
+        lines += [line for step in steps for line in _step_lines(step)] or ["  nothing"]
+    return lines
+
+
+def impact_lines(impact: Impact) -> list[str]:
+    """What a change touches as lines: one for each sort of thing, with how many and which."""
+    verdicts = [
+        f"{one.requirement} ({verdict_in_words(one.verdict)}{f', {one.variants} variants' if one.variants else ''})"
+        for one in impact.verdicts
+    ]
+    groups = (
+        ("Stakeholder requirements to hold it against", impact.needs),
+        ("System requirements", impact.requirements),
+        ("Blocks and behaviours", impact.elements),
+        ("Measures", impact.measures),
+        ("Verdicts to reach anew", verdicts),
+        ("Trials that they stand on", [key[:KEY_DIGITS] for key in impact.trials]),
+        ("Tests to run again", impact.tests),
+        ("Reviews to renew", impact.reviews),
+    )
+    lines = [_safe(f"What a change to {impact.id} ({impact.kind.value}) touches")]
+    for title, names in groups:
+        lines += ["", f"{title} ({len(names)})"]
+        separator = "\n" if title.startswith("Tests") else ", "
+        lines += [f"  {line}" for part in separator.join(names).splitlines() for line in _folded(part)]
+    return lines
+
+
+def _step_lines(step: ChainStep) -> list[str]:
+    indent = "  " * step.depth
+    note = f" [{_short(step.note)}]" if step.note else ""
+    name = step.id[:KEY_DIGITS] if step.kind is ThingKind.TRIAL else step.id
+    again = " (its links are told above)" if step.repeated else ""
+    text = f": {_short(step.text)}" if step.text else ""
+    return [_safe(f"{indent}{step.relation.value} {name}{text}{note}{again}")]
+
+
+def _matrix(part: MatrixPart) -> Table:
+    matrix = part.matrix
+    if len(matrix.columns) > _WIDEST_GRID:
+        rows: Sequence[tuple[Cell, ...]] = [(row, " ".join(matrix.linked_to_row(row))) for row in matrix.rows]
+        heads: tuple[str, ...] = (part.rows_are, part.relation)
+    else:
+        rows = [
+            (row, *(LINKED if index in indices else "" for index in range(len(matrix.columns))))
+            for row, indices in zip(matrix.rows, matrix.linked, strict=True)
+        ]
+        heads = (part.rows_are, *matrix.columns)
+    return Table(name=part.name, title=part.title, heads=heads, rows=rows, note=matrix_note(part))
+
+
+def _evidence(row: VerificationRow) -> str:
+    told = [] if row.estimate is None or row.estimate.value is None else [estimate_in_words(row.estimate)]
+    counts = Counter(end_in_words(test) for test in row.tests)
+    told += [f"{count} {'test' if count == 1 else 'tests'} {end}" for end, count in counts.items()]
+    return "; ".join(told) or "none"
+
+
+def _named(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
+    return " ".join(names[:_MOST_NAMED]) + more
+
+
+def _short(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 1].rstrip()}…"
+
+
+def _folded(text: str) -> list[str]:
+    import textwrap
+
+    # An id or the name of a test is whole, so that it can be copied.
+    return textwrap.wrap(_safe(" ".join(text.split())), width=100, break_on_hyphens=False, break_long_words=False)
+
+
+def _safe(text: str) -> str:
+    """Text that comes from a file must not steer the terminal."""
+    return "".join(character if character.isprintable() else "�" for character in text)

@@ -1,0 +1,18 @@
+"""Consistency checks of behaviours and of what they refer to."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.requirements.checks.behaviour import check_behaviours
+    from rgss.requirements.checks.declarations import declared_elements, declared_needs, declared_requirements
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "check_behaviours",
+    "declared_elements",
+    "declared_needs",
+    "declared_requirements",
+]

@@ -1,0 +1,50 @@
+"""Findings about the payload bench: designs and scenes outside of the range in which it is validated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.documents import read_document
+from rgss.evidence import Fidelity
+from rgss.findings import Finding, Severity
+from rgss.studies.expansion import trial_specs
+from rgss.studies.project import Project
+
+
+def bench_findings(project: Project) -> Iterator[Finding]:
+    """Warn of every quantity of the study's designs for which the payload bench gives no answer.
+
+    Args:
+        project: The project with its study.
+    """
+    if project.study.fidelity is not Fidelity.CONTACT:
+        return
+    from rgss.trials.payload_bench import outside, payload_bench
+
+    strange: dict[str, list[int]] = {}
+    known: dict[object, tuple[str, ...]] = {}
+    for spec in trial_specs(project, seeds=(project.study.seed,)):
+        if spec.gripper not in known:
+            known[spec.gripper] = outside(payload_bench(spec))
+        for sentence in known[spec.gripper]:
+            strange.setdefault(sentence, []).append(spec.variant)
+    document = read_document(project.folder / project.study.label, label=project.study.label)
+    for sentence, variants in strange.items():
+        yield document.finding(
+            "study.bench-range",
+            f"the payload bench gives no answer for {variants_text(variants)}: {sentence}",
+            ("design_space",),
+            severity=Severity.WARNING,
+            hint="bench_payload_kg is then missing, and with it every measure that depends on it",
+        )
+
+
+def variants_text(numbers: list[int]) -> str:
+    """The variants that a finding is about, in words.
+
+    Args:
+        numbers: Their ids.
+    """
+    if len(numbers) == 1:
+        return f"variant {numbers[0]}"
+    return f"{len(numbers)} variants, such as {numbers[0]}"

@@ -1,0 +1,60 @@
+"""All trials of a study on workers: task queue, resume, dry run and replay."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.sweep.agreement import Agreement, beyond_tolerance, deviation
+    from rgss.sweep.engine_process import compute
+    from rgss.sweep.evidence_writer import Origin, origin_of
+    from rgss.sweep.inline_workers import InlineWorkers
+    from rgss.sweep.input_changes import values_by_name
+    from rgss.sweep.persistent_pool import PersistentWorkerPool
+    from rgss.sweep.planning_history import planning_runs
+    from rgss.sweep.preview import Cause, DryRun, DueTrials, Reason, dry_run
+    from rgss.sweep.replaying import find_trial, replay
+    from rgss.sweep.running import (
+        FinishedTrial,
+        LostTrials,
+        Maker,
+        SweepResult,
+        SweepState,
+        WorkerLimits,
+        key_of,
+        sweep,
+        trials_of,
+    )
+    from rgss.sweep.workers import Workers
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "Agreement",
+    "Cause",
+    "DryRun",
+    "DueTrials",
+    "FinishedTrial",
+    "InlineWorkers",
+    "LostTrials",
+    "Maker",
+    "Origin",
+    "PersistentWorkerPool",
+    "Reason",
+    "SweepResult",
+    "SweepState",
+    "WorkerLimits",
+    "Workers",
+    "beyond_tolerance",
+    "compute",
+    "deviation",
+    "dry_run",
+    "find_trial",
+    "key_of",
+    "origin_of",
+    "planning_runs",
+    "replay",
+    "sweep",
+    "trials_of",
+    "values_by_name",
+]

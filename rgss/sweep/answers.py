@@ -1,0 +1,132 @@
+"""Answers of workers compared with their tasks, before anything is built on them or kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TypeGuard
+
+from rgss.errors import RgssError
+from rgss.evidence import (
+    PLANNED_PHASES,
+    Phase,
+    Piece,
+    PieceKind,
+    RunFailureKind,
+    TrialRecord,
+    record_from_json,
+    record_to_json,
+)
+from rgss.evidence.records import piece_row
+from rgss.findings import shown
+from rgss.sweep.workers import Ended, TaskError
+from rgss.trials import TrialSpec
+from rgss.trials.pieces import PieceTask, Task, bench_from_json, execution_from_json, plan_from_json, timing_from_json
+
+_READERS: Mapping[PieceKind, Callable[[str], object]] = {
+    PieceKind.PLAN: plan_from_json,
+    PieceKind.TIMING: timing_from_json,
+    PieceKind.EXECUTION: execution_from_json,
+    PieceKind.BENCH: bench_from_json,
+}
+
+
+def checked(ended: Ended, task: Task) -> Ended:
+    """The end of a task; one whose result is not what was asked for has failed by a wrong answer.
+
+    Args:
+        ended: How the task ended, from whatever worker.
+        task: The task.
+    """
+    if ended.trouble is not None:
+        return ended
+    problem = answer_problem(task, ended.result)
+    if problem:
+        return wrong_answer(ended.key, problem)
+    if isinstance(task, PieceTask):
+        return ended
+    # As it will be read: a text may have stood for a member of an enumeration.
+    return replace(ended, result=record_from_json(record_to_json(ended.result)))
+
+
+def wrong_answer(key: str, problem: str) -> Ended:
+    """The end of a task that was answered wrongly, which another worker may do better.
+
+    Args:
+        key: The task's name.
+        problem: What is wrong with the answer.
+    """
+    trouble = TaskError(kind=RunFailureKind.WRONG_ANSWER, detail=problem, may_pass=True)
+    return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+
+
+def answer_problem(task: Task, result: object) -> str:
+    """What is wrong with the result of a task; empty if it can be kept.
+
+    Args:
+        task: The task.
+        result: What the worker gave back.
+    """
+    try:
+        return _piece_problem(task, result) if isinstance(task, PieceTask) else record_problem(task.spec, result)
+    # Its parts may be of any kind, and break on anything.
+    except Exception as error:
+        return (
+            f"it is malformed: {error.message if isinstance(error, RgssError) else f'{type(error).__name__}: {error}'}"
+        )
+
+
+def record_problem(spec: TrialSpec, record: object) -> str:
+    """What is wrong with the record of a trial; empty if it can be kept.
+
+    Args:
+        spec: The trial.
+        record: Its record.
+
+    Raises:
+        EvidenceError: A part of it is of a wrong type, or is not finite.
+    """
+    if type(record) is not TrialRecord:
+        return f"a record was asked for, and it is a {type(record).__name__}"
+    record_to_json(record)
+    if (record.variant, record.seed, record.fidelity) != (spec.variant, spec.seed, spec.fidelity):
+        return "it is the record of another trial"
+    if tuple(each.phase for each in record.phases) != tuple(Phase):
+        return "it does not have the eight states in their order"
+    if tuple(each.subtask for each in record.planning) != PLANNED_PHASES:
+        return "it does not have the five planned moves in their order"
+    return ""
+
+
+def is_end_of(ended: object, key: str) -> TypeGuard[Ended]:
+    """Whether something is the end of the task with a name, and each part of it of its type.
+
+    Args:
+        ended: What a worker elsewhere has sent.
+        key: The task's name.
+    """
+    if type(ended) is not Ended or ended.key != key or type(ended.took_s) is not float:
+        return False
+    if not 0.0 <= ended.took_s < math.inf:
+        return False
+    trouble = ended.trouble
+    return trouble is None or (
+        type(trouble) is TaskError
+        and isinstance(trouble.kind, RunFailureKind)
+        and type(trouble.detail) is str
+        and type(trouble.may_pass) is bool
+    )
+
+
+def _piece_problem(task: PieceTask, result: object) -> str:
+    if type(result) is not Piece:
+        return f"a piece was asked for, and it is a {type(result).__name__}"
+    if result.kind is not task.kind:
+        return f"a piece of kind {task.kind.value} was asked for, and it is {shown(result.kind)}"
+    if result.digest != task.digest:
+        return f"piece {task.digest[:12]} was asked for, and it is {shown(result.digest)}"
+    # Its row is what is kept, and what will be read is what it says.
+    piece_row(result)
+    _READERS[task.kind](result.text)
+    return ""

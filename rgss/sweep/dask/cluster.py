@@ -1,0 +1,192 @@
+"""A Dask cluster on which sweeps may run: found, and held against this machine, before the first task."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import pickle
+import uuid
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+from rgss.errors import DefinitionError, SimulationError
+from rgss.evidence import RunFailureKind
+from rgss.evidence.records import machine
+from rgss.sweep.dask.tasks import Differs, Order, are_alike, environment, inspect
+from rgss.sweep.dask.workers import WITHOUT_WORKERS_S, DaskWorkers, stop_all
+from rgss.sweep.workers import Ended
+
+_PATIENCE_S = 10.0
+_ALIKE = "every worker needs the same engines and the same rgss"
+_CODE = "rgss-"
+
+
+class DaskCluster:
+    """A cluster whose workers were found to run what this process runs."""
+
+    def __init__(self, client: Any, order: Order, *, address: str, machine: str) -> None:
+        """Take note of what is known of it.
+
+        Args:
+            client: A client of the cluster.
+            order: What holds for all tasks.
+            address: The scheduler's address, for messages.
+            machine: The machines that its workers run on, in one line.
+        """
+        self._client = client
+        self._order = order
+        self._address = address
+        self.machine = machine
+
+    def workers(self, function: Callable[..., Any], *, without_workers_s: float = WITHOUT_WORKERS_S) -> DaskWorkers:
+        """Workers for one sweep; engines that they load are kept for the next.
+
+        Args:
+            function: What makes a result from a task's arguments; a function of a module.
+            without_workers_s: How long the cluster may be without any worker in the middle of it.
+
+        Raises:
+            SimulationError: The scheduler has gone.
+        """
+        return DaskWorkers(
+            self._client,
+            function,
+            self._order,
+            address=self._address,
+            differs=lambda differs: difference(differs, self._order.environment),
+            without_workers_s=without_workers_s,
+        )
+
+
+@contextmanager
+def dask_cluster(
+    address: str, *, time_limit_s: float, memory_limit_bytes: int, patience_s: float = _PATIENCE_S
+) -> Iterator[DaskCluster]:
+    """A cluster that already runs, for as long as the block lasts; no process of ours stays on it.
+
+    Args:
+        address: The scheduler's address, such as ``tcp://head:8786``.
+        time_limit_s: Greatest time of a task by the wall clock, from its beginning in its process.
+        memory_limit_bytes: Greatest size of an engine process's data; 0 for no limit.
+        patience_s: How long to wait for the scheduler, and then for its first worker.
+
+    Raises:
+        DefinitionError: Dask is not installed, no scheduler answers, certificates are missing, it has no
+            workers, or one of them runs other code or engines than this process.
+        SimulationError: An engine process cannot start there, or the scheduler has gone.
+    """
+    try:
+        import distributed
+    except ImportError as error:
+        raise DefinitionError(
+            "--dask needs the package distributed, which is not installed", hint="pip install 'rgss[dask]'"
+        ) from error
+    with _quiet():
+        # Certificates are in Dask's settings, if the address asks for them.
+        security = distributed.Security()
+        if address.startswith("tls://") and not security.get_connection_args("client").get("ssl_context"):
+            raise DefinitionError(
+                f"{address} asks for TLS, and Dask's settings name no certificates for a client",
+                hint="set distributed.comm.tls.ca-file, client.cert and client.key, as docs/scale-out.md shows",
+            )
+        try:
+            client = distributed.Client(
+                address, timeout=patience_s, security=security, set_as_default=False, name="rgss"
+            )
+        except (OSError, ValueError, TypeError) as error:
+            raise DefinitionError(
+                f"no Dask scheduler answers at {address}", hint="start one with 'dask scheduler', or mend the address"
+            ) from error
+        try:
+            order = Order(
+                name=uuid.uuid4().hex,
+                environment=environment(),
+                time_limit_s=time_limit_s,
+                memory_limit_bytes=memory_limit_bytes,
+            )
+            # To Python 3.10, the time-out of asyncio is none of its own.
+            with contextlib.suppress(TimeoutError, asyncio.TimeoutError):
+                client.wait_for_workers(1, timeout=patience_s)
+            try:
+                yield DaskCluster(client, order, address=address, machine=_inspected(client, address, order))
+            finally:
+                stop_all(client, order)
+        finally:
+            with contextlib.suppress(Exception):
+                client.close(timeout=1.0)
+
+
+def difference(differs: Differs, here: Mapping[str, str]) -> str:
+    """In what a Dask worker differs from this process, in one line.
+
+    Args:
+        differs: What the worker runs.
+        here: What this process runs.
+    """
+    who = f"the Dask worker {differs.where}"
+    if differs.why:
+        return f"{who} cannot run trials: {differs.why}"
+    names = [name for name in here if not are_alike({name: differs.found.get(name, "")}, {name: here[name]})]
+    code = [name.removeprefix(_CODE) for name in names if name.startswith(_CODE)]
+    parts = [
+        f"{name} {differs.found.get(name, 'nothing')} instead of {here[name]}"
+        for name in names
+        if not name.startswith(_CODE)
+    ]
+    if code:
+        parts.append(f"other code of rgss ({', '.join(code)})")
+    return f"{who} would make other records: it has {', '.join(parts)}"
+
+
+def _inspected(client: Any, address: str, order: Order) -> str:
+    """Hold every worker against this process; returns the machines that they run on."""
+    try:
+        answers = client.run(inspect, order, pickle.dumps((machine, ())), on_error="return")
+    except OSError as error:
+        raise SimulationError(f"the Dask scheduler at {address} has gone") from error
+    if not answers:
+        raise DefinitionError(
+            f"the Dask cluster at {address} has no workers",
+            hint=f"start some, such as 'dask worker {address} --nthreads 1'",
+        )
+    machines = {_machine_of(where, answer, order.environment) for where, answer in answers.items()}
+    return "; ".join(sorted(machines - {""}))
+
+
+def _machine_of(where: str, answer: object, expected: Mapping[str, str]) -> str:
+    if isinstance(answer, SimulationError):
+        raise answer
+    # Dask wraps what it cannot send as it is.
+    if isinstance(answer, ImportError) or "ModuleNotFoundError" in str(answer):
+        missing = " ".join(str(answer).split())
+        raise DefinitionError(f"the Dask worker {where} has no rgss that can be used: {missing}", hint=_ALIKE)
+    if isinstance(answer, Ended) and answer.trouble is None:
+        if isinstance(answer.result, Differs):
+            found = Differs(found=answer.result.found, why=answer.result.why, where=where)
+            raise DefinitionError(difference(found, expected), hint=_ALIKE)
+        return str(answer.result)
+    if isinstance(answer, Ended) and answer.trouble and answer.trouble.kind is RunFailureKind.TIMED_OUT:
+        # A limit that is too short even for this is too short for every task, which then says so.
+        return ""
+    why = (
+        answer.trouble.detail if isinstance(answer, Ended) and answer.trouble else f"{type(answer).__name__}: {answer}"
+    )
+    raise DefinitionError(f"the Dask worker {where} cannot run trials: {' '.join(why.split())}", hint=_ALIKE)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep Dask from writing on standard error: what matters of it is said in our words."""
+    logger = logging.getLogger("distributed")
+    before = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
+    try:
+        with warnings.catch_warnings():
+            # Versions are compared by us, the scheduler's alone left out.
+            warnings.filterwarnings("ignore", module=r"distributed\.")
+            yield
+    finally:
+        logger.setLevel(before)

@@ -1,0 +1,331 @@
+"""What a Dask worker does for a sweep: it hands each task to an engine process of its own.
+
+A task is not carried out in the Dask worker itself. A planner's random numbers are one sequence for
+a whole process, a crash of an engine would take the Dask worker along, and a thread that hangs
+cannot be ended. So each thread of a Dask worker has a supervised process beside it, the same as a
+sweep on one machine has; limits, crashes and threads are the same there and here, however many
+threads a Dask worker has. The processes end with their order, with their Dask worker, and when
+nobody has asked them for anything in a while.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import pickle
+import platform
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+from rgss.evidence import RunFailureKind
+from rgss.evidence.records import results_of
+from rgss.sweep.workers import Ended, TaskError, WorkerPool
+
+NUMERICS = "numerics of "
+"""What the names of an environment begin with that tell what the mathematics computes."""
+
+EXTENSION = "rgss"
+"""The name by which a Dask worker knows its engine processes."""
+
+_LOOK_S = 0.1
+_IDLE_S = 60.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """What holds for all tasks that one process asks for.
+
+    Attributes:
+        name: Its name, which no other has.
+        environment: What a process must run that carries out a task, as `environment` gives it.
+        time_limit_s: Greatest time of a task by the wall clock, from its beginning in its process.
+        memory_limit_bytes: Greatest size of an engine process's data; 0 for no limit.
+    """
+
+    name: str
+    environment: Mapping[str, str]
+    time_limit_s: float
+    memory_limit_bytes: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Differs:
+    """In place of a result: the process that was to make it would have made another.
+
+    Attributes:
+        found: What it runs; empty if that cannot be told.
+        why: Why it cannot be told, in one line; empty if it can.
+        where: Address of the Dask worker that the process belongs to.
+    """
+
+    found: Mapping[str, str]
+    why: str = ""
+    where: str = ""
+
+
+def environment() -> dict[str, str]:
+    """What this process runs, as far as results or the way here and back depend on it.
+
+    Beside the engines and the code these are Python (its `sum` of floats is another one from 3.12 on),
+    the kind of processor, what the mathematics computes, and Dask. It is looked up once: a process keeps what it
+    has loaded. Where this process makes no trials itself, the mathematics is that of the processes which do.
+
+    Raises:
+        PackageNotFoundError: An engine is not installed.
+        SimulationError: No process can be started to look at its mathematics.
+    """
+    return dict(_environment())
+
+
+def are_alike(found: Mapping[str, str], expected: Mapping[str, str]) -> bool:
+    """Tell whether two environments make the same results; what computes the same may go by another name.
+
+    Args:
+        found: The one environment, as `environment` gives it.
+        expected: The other.
+    """
+    return _compared(found) == _compared(expected)
+
+
+def _compared(environment: Mapping[str, str]) -> dict[str, str]:
+    return {**environment, **results_of({k: v for k, v in environment.items() if k.startswith(NUMERICS)})}
+
+
+def carry_out(order: Order, key: str, work: bytes) -> Ended:
+    """Carry out a task; runs in a thread of a Dask worker.
+
+    Args:
+        order: What holds for it.
+        key: The task's name.
+        work: A function and its arguments, pickled.
+
+    Returns:
+        Its end; its result is a `Differs` if the engine process does not run what is asked for.
+
+    Raises:
+        SimulationError: The engine process cannot start.
+    """
+    from distributed import get_worker
+
+    dask_worker = get_worker()
+    ended = _engines_of(dask_worker).carry_out(order, key, work)
+    if isinstance(ended.result, Differs):
+        return replace(ended, result=replace(ended.result, where=dask_worker.address))
+    return ended
+
+
+async def inspect(order: Order, work: bytes, dask_worker: Any) -> Ended:
+    """Do something in an engine process of a Dask worker without waiting for one of its threads.
+
+    Args:
+        order: What holds for it.
+        work: A function and its arguments, pickled.
+        dask_worker: The Dask worker, which Dask itself gives.
+
+    Raises:
+        SimulationError: The engine process cannot start.
+    """
+    import asyncio
+
+    return await asyncio.to_thread(_engines_of(dask_worker).carry_out, order, "", work)
+
+
+def stop(order: str, dask_worker: Any) -> None:
+    """End what is being done by an order on a Dask worker, and its engine processes.
+
+    Args:
+        order: The order's name.
+        dask_worker: The Dask worker, which Dask itself gives.
+    """
+    _engines_of(dask_worker).stop(order)
+
+
+def make_alike(expected: Mapping[str, str], work: bytes) -> Any:
+    """Make a result if this process makes the same as the one that asks for it; runs in an engine process.
+
+    Args:
+        expected: What this process must run.
+        work: A function and its arguments, pickled.
+    """
+    try:
+        found = environment()
+    except ImportError as error:
+        return Differs(found={}, why=" ".join(str(error).split()))
+    if not are_alike(found, expected):
+        return Differs(found=found)
+    # Who may use a Dask cluster may run anything on it: this adds nothing to what its scheduler allows.
+    function, arguments = pickle.loads(work)  # noqa: S301
+    return function(*arguments)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Idle:
+    pool: WorkerPool
+    order: Order
+    since: float
+
+
+class Engines:
+    """The engine processes beside a Dask worker: as many as it has tasks at once."""
+
+    def __init__(self, *, idle_s: float = _IDLE_S) -> None:
+        """Begin with none.
+
+        Args:
+            idle_s: How long a process may have nothing to do; who asked may have ended without a word.
+        """
+        self._idle_s = idle_s
+        self._lock = threading.Lock()
+        self._idle: list[_Idle] = []
+        self._stopped: set[str] = set()
+        self._closed = False
+        self._timer: threading.Timer | None = None
+
+    def carry_out(self, order: Order, key: str, work: bytes) -> Ended:
+        """Carry out a task in one of the processes.
+
+        Args:
+            order: What holds for it.
+            key: The task's name.
+            work: A function and its arguments, pickled.
+
+        Returns:
+            Its end; one without a result if it was stopped meanwhile.
+
+        Raises:
+            SimulationError: The process cannot start.
+        """
+        pool = self._taken(order)
+        try:
+            ended = self._ended(pool, order, key, work)
+        except BaseException:
+            pool.close()
+            raise
+        self._put_back(pool, order)
+        return ended or _stopped(key)
+
+    def stop(self, order: str) -> None:
+        """Let no task of an order go on, and end the processes that wait for more.
+
+        Args:
+            order: The order's name.
+        """
+        with self._lock:
+            self._stopped.add(order)
+        self._dismiss(lambda idle: idle.order.name == order)
+
+    def close(self) -> None:
+        """End every process; called by the Dask worker when it ends."""
+        with self._lock:
+            self._closed = True
+            if self._timer is not None:
+                self._timer.cancel()
+        self._dismiss(lambda _: True)
+
+    @property
+    def idle(self) -> int:
+        """How many processes wait for a task."""
+        return len(self._idle)
+
+    def _taken(self, order: Order) -> WorkerPool:
+        with self._lock:
+            for idle in self._idle:
+                if idle.order == order:
+                    self._idle.remove(idle)
+                    return idle.pool
+        return WorkerPool(
+            make_alike, size=1, time_limit_s=order.time_limit_s, memory_limit_bytes=order.memory_limit_bytes
+        )
+
+    def _ended(self, pool: WorkerPool, order: Order, key: str, work: bytes) -> Ended | None:
+        """How the task ends; None if it is stopped before."""
+        begun = False
+        while not self._is_over(order):
+            if not begun:
+                with self._lock, _free_to_have_children():
+                    pool.want(1)
+                if pool.free:
+                    pool.begin(key, (order.environment, work))
+                    begun = True
+            for ended in pool.wait(_LOOK_S):
+                return ended
+        return None
+
+    def _is_over(self, order: Order) -> bool:
+        return self._closed or order.name in self._stopped
+
+    def _put_back(self, pool: WorkerPool, order: Order) -> None:
+        with self._lock:
+            wanted = not self._is_over(order)
+            if wanted:
+                self._idle.append(_Idle(pool=pool, order=order, since=time.monotonic()))
+                self._look_later()
+        if not wanted:
+            pool.close()
+
+    def _look_later(self) -> None:
+        if self._timer is None:
+            self._timer = threading.Timer(self._idle_s, self._dismiss_idle)
+            self._timer.daemon = True
+            self._timer.start()
+
+    def _dismiss_idle(self) -> None:
+        now = time.monotonic()
+        self._dismiss(lambda idle: now - idle.since >= self._idle_s)
+        with self._lock:
+            self._timer = None
+            if self._idle and not self._closed:
+                self._look_later()
+
+    def _dismiss(self, unwanted: Callable[[_Idle], bool]) -> None:
+        with self._lock:
+            gone = [idle for idle in self._idle if unwanted(idle)]
+            self._idle = [idle for idle in self._idle if idle not in gone]
+        for idle in gone:
+            idle.pool.close()
+
+
+@lru_cache(maxsize=1)
+def _environment() -> Mapping[str, str]:
+    from importlib.metadata import version
+
+    from rgss.trials.code import fixed_numerics, versions
+
+    return {
+        **versions(),
+        "python": ".".join(platform.python_version_tuple()[:2]),
+        "processor": platform.machine(),
+        "distributed": version("distributed"),
+        **{f"{NUMERICS}{part}": text for part, text in fixed_numerics().items()},
+    }
+
+
+def _stopped(key: str) -> Ended:
+    trouble = TaskError(kind=RunFailureKind.CRASHED, detail="the sweep was stopped", may_pass=True)
+    return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+
+
+def _engines_of(dask_worker: Any) -> Engines:
+    """The engine processes of a Dask worker, which ends them when it ends itself."""
+    engines = dask_worker.extensions.setdefault(EXTENSION, Engines())
+    assert isinstance(engines, Engines)  # noqa: S101 - nobody else has this name
+    return engines
+
+
+@contextmanager
+def _free_to_have_children() -> Iterator[None]:
+    """Let this process start others although it is a daemon, as Dask's workers are by default.
+
+    Daemons may not, lest they leave children behind when they are killed; ours end with their parent.
+    """
+    process = multiprocessing.current_process()
+    before = process.daemon
+    process.daemon = False
+    try:
+        yield
+    finally:
+        process.daemon = before

@@ -1,0 +1,200 @@
+"""Carrying out tasks on a Dask cluster: workers of a sweep that are machines elsewhere.
+
+The sweep keeps the order of the work and the one store; the cluster is given tasks whose forerunners
+are there, with everything that they need by value, and gives back results. Each thread of the
+cluster has more than one task, so that the next one is there when one ends; Dask itself begins
+again what a worker had that is lost.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import pickle
+import queue
+import threading
+import time
+import uuid
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rgss.errors import SimulationError
+from rgss.evidence import RunFailureKind
+from rgss.sweep.answers import is_end_of, wrong_answer
+from rgss.sweep.dask.tasks import Differs, Order, carry_out, stop
+from rgss.sweep.workers import Ended, TaskError
+
+IN_FLIGHT = 2
+"""How many tasks each thread of the cluster has: one that is carried out, and the next."""
+
+WITHOUT_WORKERS_S = 300.0
+"""How long a cluster may be without any worker in the middle of a sweep."""
+
+_COUNTED_EVERY_S = 1.0
+_STOPPING_S = 0.7
+
+
+class DaskWorkers:
+    """The threads of a Dask cluster's workers, each with an engine process beside it."""
+
+    def __init__(
+        self,
+        client: Any,
+        function: Callable[..., Any],
+        order: Order,
+        *,
+        address: str,
+        differs: Callable[[Differs], str],
+        without_workers_s: float = WITHOUT_WORKERS_S,
+    ) -> None:
+        """Prepare to work; nothing is asked of the cluster yet.
+
+        Args:
+            client: A client of the cluster.
+            function: What makes a result from a task's arguments; a function of a module, since it is
+                imported there by its name.
+            order: What holds for all tasks.
+            address: The scheduler's address, for messages.
+            differs: Says in words in what a worker differs.
+            without_workers_s: How long the cluster may be without any worker.
+        """
+        self._client = client
+        self._function = function
+        self._order = order
+        self._address = address
+        self._differs = differs
+        self._without_workers_s = without_workers_s
+        self._running: dict[str, Any] = {}
+        self._done: queue.SimpleQueue[str] = queue.SimpleQueue()
+        self._threads = 0
+        self._counted_at = -_COUNTED_EVERY_S
+        self._there_at = time.monotonic()
+        self._count()
+
+    @property
+    def size(self) -> int:
+        """How many tasks the cluster carries out at once; 1 while it has no worker."""
+        return max(1, self._threads)
+
+    @property
+    def free(self) -> int:
+        """How many tasks can be begun now."""
+        return max(0, IN_FLIGHT * self._threads - len(self._running))
+
+    def want(self, tasks: int) -> None:
+        """The cluster has the workers that it has."""
+
+    def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
+        """Give the cluster a task.
+
+        Args:
+            key: A name for it.
+            arguments: What the function is called with.
+        """
+        # Pickled here, it stays as it is on its way: neither Dask nor its workers look into it.
+        work = pickle.dumps((self._function, arguments))
+        # Another sweep may give the same task to the same cluster.
+        name = f"rgss-{key[:16]}-{uuid.uuid4().hex}"
+        future = self._client.submit(carry_out, self._order, key, work, key=name, pure=False)
+        self._running[key] = future
+        future.add_done_callback(lambda _: self._done.put(key))
+
+    def wait(self, timeout_s: float) -> list[Ended]:
+        """Wait until tasks end or the time is over; returns what has ended.
+
+        Args:
+            timeout_s: The longest time to wait.
+
+        Raises:
+            SimulationError: The scheduler or all workers are lost, or a worker is not like this process.
+        """
+        self._count()
+        keys = []
+        with contextlib.suppress(queue.Empty):
+            keys.append(self._done.get(timeout=min(timeout_s, _COUNTED_EVERY_S)))
+            while True:
+                keys.append(self._done.get_nowait())
+        return [self._ended(key) for key in keys]
+
+    def close(self) -> None:
+        """Stop at once, whatever is being done; then no other workers can be had by the same order."""
+        futures, self._running = list(self._running.values()), {}
+        if futures:
+            stop_all(self._client, self._order, futures)
+
+    def _count(self) -> None:
+        """Count the cluster's threads from time to time: workers come and go."""
+        now = time.monotonic()
+        if now - self._counted_at < _COUNTED_EVERY_S:
+            return
+        try:
+            self._threads = sum(self._client.nthreads().values())
+        except OSError as error:
+            raise self._lost() from error
+        self._counted_at = now
+        if self._threads:
+            self._there_at = now
+        elif now - self._there_at > self._without_workers_s:
+            raise SimulationError(
+                f"the Dask cluster at {self._address} has had no workers for {self._without_workers_s:g} s",
+                hint="what was finished is kept; start workers and run the sweep again",
+            )
+
+    def _ended(self, key: str) -> Ended:
+        from concurrent.futures import CancelledError
+
+        from distributed import KilledWorker
+
+        future = self._running.pop(key)
+        try:
+            ended: object = future.result()
+        except KilledWorker as error:
+            detail = f"{error.allowed_failures + 1} Dask workers were lost at it"
+            trouble = TaskError(kind=RunFailureKind.CRASHED, detail=detail, may_pass=True)
+            return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+        except (CancelledError, OSError) as error:
+            raise self._lost() from error
+        except SimulationError:
+            raise
+        # Whatever a worker's environment breaks on comes back as it was raised there.
+        except Exception as error:
+            line = f"{type(error).__name__}: {' '.join(str(error).split())}"
+            raise SimulationError(
+                f"a worker of the Dask cluster at {self._address} cannot carry out tasks of rgss: {line}",
+                hint="install the same rgss on every worker",
+            ) from error
+        finally:
+            future.release()
+        if not is_end_of(ended, key):
+            return wrong_answer(key, "a Dask worker answered something else than it was asked")
+        if isinstance(ended.result, Differs):
+            raise SimulationError(
+                self._differs(ended.result), hint="every worker needs the same engines and the same rgss"
+            )
+        return ended
+
+    def _lost(self) -> SimulationError:
+        return SimulationError(
+            f"the Dask scheduler at {self._address} has gone or has dropped the sweep's tasks",
+            hint="what was finished is kept; run the sweep again to go on",
+        )
+
+
+def stop_all(client: Any, order: Order, futures: Sequence[Any] = ()) -> None:
+    """Cancel tasks and end every engine process of an order, wherever it is, as far as the cluster answers.
+
+    Args:
+        client: A client of the cluster.
+        order: The order.
+        futures: The tasks that have not ended.
+    """
+
+    def ask() -> None:
+        with contextlib.suppress(Exception):
+            if futures:
+                client.cancel(list(futures))
+            client.run(stop, order.name, on_error="ignore")
+
+    # A scheduler that does not answer must not keep what is finished here from being written down.
+    asking = threading.Thread(target=ask, daemon=True)
+    asking.start()
+    asking.join(_STOPPING_S)

@@ -1,0 +1,170 @@
+"""A process beside this one that makes trials with the numeric environment, for callers that run trials one by one.
+
+A sweep has workers for that. A script, a notebook or a verb that runs a single trial was started with whatever
+kernels its processor gets; it hands the trial to this process and gets the bits that a sweep would store. The
+process keeps its engines loaded, needs no guarded main module, and ends with the one that started it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import weakref
+from collections.abc import Callable
+from functools import lru_cache
+from multiprocessing.connection import Connection, Pipe
+from typing import Any, TypeVar, cast
+
+from rgss.errors import RgssError, SimulationError
+from rgss.trials.code import is_in_force, numeric_environment
+
+Result = TypeVar("Result")
+
+_LONGEST_WORDS = 300
+_BEGIN = """
+import sys
+sys.path[:] = [entry for entry in sys.path if entry]
+from rgss.sweep.engine_process import answer_calls
+answer_calls({descriptor})
+"""
+
+
+def compute(function: Callable[..., Result], *arguments: Any) -> Result:
+    """Call a function in a process that computes as the workers of a sweep do: this one, if it is such a process.
+
+    Args:
+        function: A function of a module, imported there by its name.
+        arguments: What it is called with; as its result, they must be picklable where another process is needed.
+
+    Raises:
+        RgssError: As the function raises it.
+        SimulationError: The process ended while it was at it, or cannot be started.
+    """
+    if is_in_force():
+        return function(*arguments)
+    return cast("Result", _engine_process().call(function, arguments))
+
+
+class EngineProcess:
+    """One process that carries out one call at a time."""
+
+    def __init__(self) -> None:
+        """Start nothing yet."""
+        self._lock = threading.Lock()
+        self._child: _Child | None = None
+
+    def call(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+        """Call a function there; see `compute`."""
+        with self._lock:
+            if self._child is None:
+                self._child = _Child()
+            child = self._child
+            try:
+                child.pipe.send((function, arguments))
+                error, result = child.pipe.recv()
+            except (EOFError, ConnectionError):
+                self._child = None
+                how = child.end()
+                raise SimulationError(f"the process that ran the trial {how}") from None
+            except BaseException:
+                # What it is at belongs to nobody any more.
+                self._child = None
+                child.end()
+                raise
+        if error is not None:
+            raise error
+        return result
+
+    def close(self) -> None:
+        """End the process; another call would start another one."""
+        with self._lock:
+            child, self._child = self._child, None
+        if child is not None:
+            child.end()
+
+
+class _Child:
+    """A started process with its pipe and what it prints."""
+
+    def __init__(self) -> None:
+        self.pipe, there = Pipe()
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the process
+        with there:
+            self._process = subprocess.Popen(  # noqa: S603 - our own words
+                [sys.executable, "-c", _BEGIN.format(descriptor=there.fileno())],
+                env=numeric_environment(os.environ),
+                pass_fds=[there.fileno()],
+                stdin=subprocess.DEVNULL,
+                stdout=self._output,
+                stderr=self._output,
+                # Ctrl-C reaches a whole group, and only this process answers it.
+                start_new_session=True,
+            )
+        self._finalizer = weakref.finalize(self, _kill, self._process, self.pipe)
+
+    def end(self) -> str:
+        """End it; returns how it had ended, in words."""
+        try:
+            status: int | None = self._process.wait(0.5)
+        except subprocess.TimeoutExpired:
+            status = None
+        self._finalizer()
+        words = self._stderr_tail()
+        self._output.close()
+        if status is not None and status < 0:
+            with contextlib.suppress(ValueError):
+                return f"was killed by {signal.Signals(-status).name}{words}"
+        return f"ended with status {status}{words}"
+
+    def _stderr_tail(self) -> str:
+        size = self._output.seek(0, os.SEEK_END)
+        self._output.seek(max(0, size - _LONGEST_WORDS))
+        lines = self._output.read().decode("utf-8", "replace").splitlines()
+        line = next((" ".join(line.split()) for line in reversed(lines) if line.strip()), "")
+        return f": {line}" if line else ""
+
+
+def _kill(process: subprocess.Popen[bytes], pipe: Connection) -> None:
+    pipe.close()
+    process.kill()
+    process.wait()
+
+
+@lru_cache(maxsize=1)
+def _engine_process() -> EngineProcess:
+    """The process of this one."""
+    return EngineProcess()
+
+
+def answer_calls(descriptor: int) -> None:
+    """Carry out calls until the other end of the pipe is closed; runs in the process.
+
+    Args:
+        descriptor: The pipe's.
+    """
+    from rgss.sweep.worker_process import settle
+
+    settle()
+    pipe = Connection(descriptor)
+    while True:
+        try:
+            function, arguments = pipe.recv()
+        except (EOFError, OSError):
+            return
+        try:
+            answer: tuple[Exception | None, Any] = (None, function(*arguments))
+        except RgssError as error:
+            answer = (error, None)
+        # What breaks is told to the caller and not to this process's standard error.
+        except Exception as error:
+            line = f"{type(error).__name__}: {' '.join(str(error).split())}"
+            answer = (SimulationError(f"the trial could not be run: {line}"), None)
+        try:
+            pipe.send(answer)
+        except OSError:
+            return

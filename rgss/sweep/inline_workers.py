@@ -1,0 +1,49 @@
+"""Carrying out tasks in this process, one at a time: nothing to start, and nothing isolated."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rgss.sweep.worker_process import answer_to
+from rgss.sweep.workers import Ended, ended_by
+
+
+class InlineWorkers:
+    """The one worker that this process is itself."""
+
+    size = 1
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        """Prepare to work.
+
+        Args:
+            function: What makes a result from a task's arguments.
+        """
+        self._function = function
+        self._ended: list[Ended] = []
+
+    @property
+    def free(self) -> int:
+        """How many tasks can be begun now."""
+        return 1 - len(self._ended)
+
+    def want(self, tasks: int) -> None:
+        """There is one worker, whatever is wanted."""
+
+    def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
+        """Carry out a task, from its beginning to its end.
+
+        Args:
+            key: A name for it.
+            arguments: What the function is called with.
+        """
+        self._ended.append(ended_by(answer_to(self._function, arguments), key))
+
+    def wait(self, timeout_s: float) -> list[Ended]:  # noqa: ARG002 - there is nothing to wait for
+        """What has ended."""
+        ended, self._ended = self._ended, []
+        return ended
+
+    def close(self) -> None:
+        """Nothing is being done."""

@@ -1,0 +1,190 @@
+"""What a sweep would make, and why: new, a changed input, changed code or engine, failed before."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from rgss.evidence import EvidenceStore, PieceKind, StoredTrial
+from rgss.studies import CODE, named_inputs
+from rgss.sweep.input_changes import ABSENT, changes_between
+from rgss.sweep.running import trials_of
+from rgss.sweep.task_queue import Trial
+from rgss.trials.code import versions
+from rgss.trials.pieces import TrialSpec
+
+_SOURCE = "rgss-"
+
+
+class Reason(str, Enum):
+    """Why a trial would be run."""
+
+    NEW = "new"
+    INPUT = "changed input"
+    ENGINE = "changed engine"
+    CODE = "changed code"
+    FAILED = "failed before"
+    UNKNOWN = "inputs not recorded"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cause:
+    """A reason with what shows it.
+
+    Attributes:
+        reason: Why.
+        name: Dotted name of the input, name of the engine or of the module, or the piece that failed; may be empty.
+        then: What it was, or how it failed; may be empty.
+        now: What it is; may be empty.
+    """
+
+    reason: Reason
+    name: str = ""
+    then: str = ""
+    now: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DueTrials:
+    """Trials that would be run for the same causes.
+
+    Attributes:
+        causes: Why.
+        pieces: The kinds of pieces that would be made for them; empty if their records need only be put together.
+        trials: Variant and seed of each.
+    """
+
+    causes: tuple[Cause, ...]
+    pieces: tuple[PieceKind, ...]
+    trials: tuple[tuple[int, int], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PieceCount:
+    """The pieces of one kind that the trials to be run need.
+
+    Attributes:
+        make: How many would be made.
+        stored: How many are there already.
+        uses: How many of those trials need one.
+    """
+
+    make: int
+    stored: int
+    uses: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DryRun:
+    """What a sweep would do.
+
+    Attributes:
+        trials: How many trials the study has.
+        kept: How many of them have a record.
+        pieces: The pieces that the others need, by kind.
+        due: The others, by the causes.
+    """
+
+    trials: int
+    kept: int
+    pieces: Mapping[PieceKind, PieceCount]
+    due: tuple[DueTrials, ...]
+
+    @property
+    def run(self) -> int:
+        """How many trials would get a record."""
+        return self.trials - self.kept
+
+
+def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: bool = True) -> DryRun:
+    """Find out what a sweep would make, and why, without making anything.
+
+    Args:
+        specs: The trials.
+        store: The evidence; None if there is none yet.
+        share: Whether pieces would be shared; otherwise each trial makes its own.
+
+    Raises:
+        DefinitionError: A planning limit is longer than the search.
+        EvidenceError: The store cannot be read.
+    """
+    trials = trials_of(specs)
+    there = set() if store is None else store.has(trial.key for trial in trials)
+    missing = [trial for trial in trials if trial.key not in there]
+    uses = {kind: Counter(trial.pieces[kind] for trial in missing if kind in trial.pieces) for kind in PieceKind}
+    stored: set[str] = set()
+    if share and store is not None:
+        stored = store.has_pieces(digest for counts in uses.values() for digest in counts)
+    groups: dict[tuple[tuple[Cause, ...], tuple[PieceKind, ...]], list[tuple[int, int]]] = {}
+    for trial in missing:
+        causes = (Cause(reason=Reason.NEW),) if store is None else _causes(trial, store)
+        due = tuple(kind for kind, digest in trial.pieces.items() if digest not in stored)
+        groups.setdefault((causes, due), []).append((trial.spec.variant, trial.spec.seed))
+    return DryRun(
+        trials=len(trials),
+        kept=len(there),
+        pieces={kind: _count(counts, stored, share=share) for kind, counts in uses.items() if counts},
+        due=tuple(
+            DueTrials(causes=causes, pieces=due, trials=tuple(members)) for (causes, due), members in groups.items()
+        ),
+    )
+
+
+def _count(uses: Counter[str], stored: set[str], *, share: bool) -> PieceCount:
+    make = len(uses.keys() - stored) if share else uses.total()
+    return PieceCount(make=make, stored=len(uses.keys() & stored), uses=uses.total())
+
+
+def _causes(trial: Trial, store: EvidenceStore) -> tuple[Cause, ...]:
+    failures = store.failures([trial.key, *trial.pieces.values()])
+    if failures:
+        return tuple(
+            Cause(reason=Reason.FAILED, name=failure.what, then=f"{failure.kind.value}: {failure.detail}")
+            for failure in failures.values()
+        )
+    before = store.trials_of(trial.spec.variant, trial.spec.seed, trial.spec.fidelity)
+    if not before:
+        return (Cause(reason=Reason.NEW),)
+    candidates = [_differences(trial, stored, store) for stored in before]
+    # Of several earlier studies the one that differs least tells what the user has just changed.
+    return min(candidates, key=lambda causes: (Cause(reason=Reason.UNKNOWN) in causes, len(causes)))
+
+
+def _differences(trial: Trial, stored: StoredTrial, store: EvidenceStore) -> tuple[Cause, ...]:
+    past, present = stored.provenance.versions, versions()
+    engines = _changed(Reason.ENGINE, _engines(past), _engines(present))
+    then, now = _inputs_of(stored, store), dict(named_inputs(trial.spec).values)
+    if then is None:
+        code = _changed(Reason.CODE, _sources(past), _sources(present))
+        return (*engines, *code, Cause(reason=Reason.UNKNOWN))
+    code = _changed(Reason.CODE, then.pop(CODE, {}), now.pop(CODE))
+    inputs = [
+        Cause(reason=Reason.INPUT, name=change.name, then=change.then, now=change.now)
+        for change in changes_between(then, now)
+    ]
+    return (*inputs, *engines, *code) or (Cause(reason=Reason.UNKNOWN),)
+
+
+def _inputs_of(stored: StoredTrial, store: EvidenceStore) -> dict[str, Any] | None:
+    known_by = stored.provenance.inputs_digest
+    found = store.inputs(known_by) if known_by else None
+    return None if found is None else dict(found)
+
+
+def _changed(reason: Reason, then: Mapping[str, str], now: Mapping[str, str]) -> list[Cause]:
+    return [
+        Cause(reason=reason, name=name, then=then.get(name, ABSENT), now=now.get(name, ABSENT))
+        for name in sorted({*then, *now})
+        if then.get(name) != now.get(name)
+    ]
+
+
+def _engines(found: Mapping[str, str]) -> dict[str, str]:
+    return {name: version for name, version in found.items() if not name.startswith(_SOURCE)}
+
+
+def _sources(found: Mapping[str, str]) -> dict[str, str]:
+    return {name: version for name, version in found.items() if name.startswith(_SOURCE)}

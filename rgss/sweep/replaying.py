@@ -1,0 +1,150 @@
+"""Running a stored trial again, to see whether it gives the same bits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rgss.errors import EvidenceError
+from rgss.evidence import EvidenceStore, StoredTrial, TrialRecord, record_digest
+from rgss.evidence.records import Numerics, numerics_difference
+from rgss.studies import CODE, Project, named_inputs, trial_specs
+from rgss.sweep.agreement import Agreement, beyond_tolerance
+from rgss.sweep.engine_process import compute
+from rgss.sweep.input_changes import ABSENT, Change, changes_between
+from rgss.trials.code import are_of_this_kind, fixed_numerics, versions
+from rgss.trials.pieces import TrialSpec, digests_of, run_trial, to_plain
+
+_SHORTEST_PREFIX = 6
+_MOST_DIGITS = 18
+_BEYOND = 2**62
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Replay:
+    """A stored trial and what came of running it again.
+
+    Attributes:
+        stored: The trial as it is stored.
+        record: The record of the new run.
+        versions: Versions of code and engines that differ.
+        inputs: Pieces whose inputs differ beyond the versions, such as ``plan``.
+        changes: The inputs that differ, by name, as far as the store says what they were.
+        differences: Where the records differ, in their order; empty if every bit is the same.
+        numerics: What the mathematics of the process that ran it now computes.
+    """
+
+    stored: StoredTrial
+    record: TrialRecord
+    versions: tuple[Change, ...]
+    inputs: tuple[str, ...]
+    changes: tuple[Change, ...]
+    differences: tuple[Change, ...]
+    numerics: Numerics
+
+    @property
+    def agreement(self) -> Agreement:
+        """How far the new record agrees with the stored one.
+
+        Numbers may deviate only where the stored trial was computed with other numerics, and by no more than
+        kernels of another processor have been seen to let contact deviate.
+        """
+        if self.same:
+            return Agreement.BIT_FOR_BIT
+        elsewhere = bool(numerics_difference(self.stored.provenance.numerics, self.numerics))
+        unchanged = not (self.versions or self.inputs or self.changes)
+        close = elsewhere and unchanged and not beyond_tolerance(self.differences)
+        return Agreement.WITHIN_TOLERANCE if close else Agreement.DIFFERENT
+
+    @property
+    def same(self) -> bool:
+        """Whether the new record is bit for bit the stored one."""
+        return not self.differences
+
+
+def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial:
+    """The stored trial with a name.
+
+    Args:
+        project: The project with its study.
+        store: The evidence.
+        name: The beginning of its key, or its variant and seed, such as ``28/1``.
+
+    Raises:
+        EvidenceError: There is none, or there are several.
+    """
+    variant, slash, seed = name.partition("/")
+    if slash:
+        if not (variant.isdecimal() and seed.isdecimal()):
+            raise EvidenceError(f"{name!r} names no trial", hint="write a variant and a seed, such as 28/1")
+        fidelity = project.study.fidelity
+        found = list(store.trials_of(_number(variant), _number(seed), fidelity))
+        current = [trial for trial in found if dict(trial.provenance.versions) == versions()]
+        found = current or found
+    else:
+        if len(name) < _SHORTEST_PREFIX:
+            raise EvidenceError(
+                f"{name!r} names no trial", hint=f"give {_SHORTEST_PREFIX} digits of its key or more, or 28/1"
+            )
+        found = [trial for trial in store.iterate() if trial.key.startswith(name)]
+    if not found:
+        raise EvidenceError(f"there is no trial {name!r} in the evidence", hint="run 'rgss sweep' first")
+    if len(found) > 1:
+        keys = ", ".join(trial.key[:12] for trial in found[:4])
+        raise EvidenceError(f"{len(found)} trials go by {name!r}", hint=f"name one by its key: {keys}")
+    return found[0]
+
+
+def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] | None = None) -> Replay:
+    """Run a stored trial again with the project, the code and the engines as they are now.
+
+    Args:
+        project: The project with its study.
+        stored: The trial.
+        inputs: Its named inputs as the store has them; None if it has not.
+
+    Raises:
+        DefinitionError: The variant is no longer there.
+        SimulationError: The physics engine cannot build the world.
+    """
+    record = stored.record
+    variant = project.designs.variant(record.variant)
+    (spec,) = trial_specs(project.with_fidelity(record.fidelity.value), variants=[variant], seeds=[record.seed])
+    again = compute(run_trial, spec)
+    then, now = dict(stored.provenance.versions), versions()
+    changed = tuple(
+        Change(name=name, then=then.get(name, ABSENT), now=now.get(name, ABSENT))
+        for name in sorted({*then, *now})
+        if then.get(name) != now.get(name)
+    )
+    return Replay(
+        stored=stored,
+        record=again,
+        versions=changed,
+        inputs=_changed_pieces(spec, stored),
+        changes=()
+        if inputs is None
+        else changes_between(_without_code(inputs), _without_code(named_inputs(spec).values)),
+        differences=()
+        if record_digest(again) == stored.content_digest
+        else changes_between(to_plain(record), to_plain(again)),
+        numerics=fixed_numerics(),
+    )
+
+
+def _changed_pieces(spec: TrialSpec, stored: StoredTrial) -> tuple[str, ...]:
+    """The first piece whose inputs differ apart from the versions, and those after it."""
+    if not are_of_this_kind(stored.provenance.versions):
+        return ()
+    then = digests_of(spec, stored.provenance.versions).as_mapping()
+    return tuple(name for name, digest in then.items() if stored.provenance.inputs.get(name) != digest)
+
+
+def _without_code(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in inputs.items() if name != CODE}
+
+
+def _number(digits: str) -> int:
+    """A number that the store can look for; one too great names nothing."""
+    return int(digits) if len(digits) <= _MOST_DIGITS else _BEYOND

@@ -1,0 +1,211 @@
+"""What a sweep has to make: tasks, what they wait for, and which of them comes next."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+
+from rgss.evidence import PieceKind
+from rgss.sweep.durations import Durations, TaskClass
+from rgss.trials.pieces import Task, TrialDigests, TrialSpec, TrialTask, tasks_of
+
+_ORDER = {"trial": 0, PieceKind.BENCH.value: 0, PieceKind.EXECUTION.value: 1, PieceKind.TIMING.value: 2}
+_LAST = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trial:
+    """A trial of a study.
+
+    Attributes:
+        key: What the store knows it by.
+        spec: The trial.
+        digests: The digests of its pieces.
+    """
+
+    key: str
+    spec: TrialSpec
+    digests: TrialDigests
+
+    @property
+    def pieces(self) -> dict[PieceKind, str]:
+        """The digests of its pieces by their kind."""
+        named = self.digests.as_mapping()
+        return {kind: named[kind.value] for kind in PieceKind if kind.value in named}
+
+
+class TaskQueue:
+    """The tasks of a sweep with their dependencies.
+
+    What is nearest to a finished trial comes first, so that trials are finished all the time and
+    few pieces are held; of several such tasks the one that takes longest, and plans in that order
+    too, so that no long one is left to the end, where the other workers would wait for it.
+    """
+
+    def __init__(self, trials: Sequence[Trial], *, stored: Collection[str] = (), share: bool = True) -> None:
+        """Find out what must be made.
+
+        Args:
+            trials: The trials that have no record.
+            stored: Digests of the pieces that are there already.
+            share: Whether pieces are shared; otherwise every trial is one task.
+        """
+        self.durations = Durations()
+        self._uses: Counter[str] = Counter()
+        self._tasks: dict[str, Task] = {}
+        self._waiting: dict[str, set[str]] = {}
+        self._followers: dict[str, list[str]] = {}
+        self._trials: dict[str, list[Trial]] = {}
+        self._missing: dict[str, set[str]] = {}
+        self._complete: deque[Trial] = deque()
+        self._ready: dict[TaskClass, deque[str]] = {}
+        self._left: Counter[TaskClass] = Counter()
+        for trial in _by_plan(trials):
+            if share:
+                self._add_shared(trial, stored)
+            else:
+                self._add(TrialTask(digest=trial.key, spec=trial.spec), stored)
+                self._trials[trial.key] = [trial]
+                self._missing[trial.key] = {trial.key}
+
+    @property
+    def left(self) -> int:
+        """How many tasks are not yet done."""
+        return len(self._tasks)
+
+    @property
+    def ready(self) -> int:
+        """How many tasks could be begun now."""
+        return sum(map(len, self._ready.values()))
+
+    def remaining_s(self) -> float:
+        """The time that the tasks that are left are expected to take, one after another."""
+        return sum(count * self.durations.expected_s(tasks) for tasks, count in self._left.items())
+
+    def take(self) -> Task:
+        """The task that should be begun next; it is no longer ready."""
+        best = min(
+            (tasks for tasks, queue in self._ready.items() if queue),
+            key=lambda tasks: (_ORDER.get(tasks[0], _LAST), -self.durations.expected_s(tasks), tasks),
+        )
+        return self._tasks[self._ready[best].popleft()]
+
+    def give_back(self, task: Task) -> None:
+        """Let a task that was taken be ready again.
+
+        Args:
+            task: The task.
+        """
+        self._ready.setdefault(self.durations.class_of(task), deque()).append(task.digest)
+
+    def done(self, digest: str, *, took_s: float) -> None:
+        """Take note that a task is done; what waited for it alone is now ready.
+
+        Args:
+            digest: The task's digest.
+            took_s: Its time by the wall clock.
+        """
+        tasks = self._remove(digest)
+        self.durations.learn(tasks, took_s)
+        for follower in self._followers.pop(digest, ()):
+            self._waiting[follower].discard(digest)
+            if not self._waiting[follower]:
+                self.give_back(self._tasks[follower])
+        for trial in self._trials.pop(digest, ()):
+            missing = self._missing.get(trial.key)
+            if missing is not None:
+                missing.discard(digest)
+                if not missing:
+                    self._finish(trial)
+
+    def give_up(self, digest: str) -> tuple[Trial, ...]:
+        """Take note that a task cannot be done, nor what depends on it.
+
+        Args:
+            digest: The task's digest.
+
+        Returns:
+            The trials that will have no record for it.
+        """
+        lost: dict[str, Trial] = {}
+        waiting = [digest]
+        while waiting:
+            each = waiting.pop()
+            if each not in self._tasks:
+                continue
+            for needed in self._tasks[each].needs:
+                self.release(needed)
+            self._remove(each)
+            waiting += self._followers.pop(each, ())
+            for trial in self._trials.pop(each, ()):
+                if self._missing.pop(trial.key, None) is not None:
+                    lost[trial.key] = trial
+                    for piece in trial.pieces.values():
+                        self.release(piece)
+        return tuple(lost.values())
+
+    def release(self, digest: str) -> None:
+        """Take note that a piece has been used once.
+
+        Args:
+            digest: The piece's digest.
+        """
+        self._uses[digest] -= 1
+        if self._uses[digest] <= 0:
+            del self._uses[digest]
+
+    def is_used(self, digest: str) -> bool:
+        """Tell whether something that is left needs a piece.
+
+        Args:
+            digest: The piece's digest.
+        """
+        return digest in self._uses
+
+    def complete(self) -> Iterable[Trial]:
+        """The trials whose pieces have all been made since this was last asked."""
+        while self._complete:
+            yield self._complete.popleft()
+
+    def _add_shared(self, trial: Trial, stored: Collection[str]) -> None:
+        missing = set()
+        for task in tasks_of(trial.spec, trial.digests):
+            self._uses[task.digest] += 1
+            if task.digest not in stored:
+                missing.add(task.digest)
+                self._trials.setdefault(task.digest, []).append(trial)
+                if task.digest not in self._tasks:
+                    self._add(task, stored)
+        self._missing[trial.key] = missing
+        if not missing:
+            self._finish(trial)
+
+    def _add(self, task: Task, stored: Collection[str]) -> None:
+        self._tasks[task.digest] = task
+        self._left[self.durations.class_of(task)] += 1
+        self._waiting[task.digest] = {needed for needed in task.needs if needed not in stored}
+        for needed in task.needs:
+            self._uses[needed] += 1
+        for needed in self._waiting[task.digest]:
+            self._followers.setdefault(needed, []).append(task.digest)
+        if not self._waiting[task.digest]:
+            self.give_back(task)
+
+    def _remove(self, digest: str) -> TaskClass:
+        tasks = self.durations.class_of(self._tasks.pop(digest))
+        self._left[tasks] -= 1
+        self._waiting.pop(digest, None)
+        return tasks
+
+    def _finish(self, trial: Trial) -> None:
+        del self._missing[trial.key]
+        self._complete.append(trial)
+
+
+def _by_plan(trials: Sequence[Trial]) -> list[Trial]:
+    """Trials with one plan next to each other, so that its pieces are not held for long."""
+    first: dict[str, int] = {}
+    for number, trial in enumerate(trials):
+        first.setdefault(trial.digests.plan, number)
+    return sorted(trials, key=lambda trial: first[trial.digests.plan])

@@ -1,0 +1,232 @@
+"""What runs in a worker process: it answers one task at a time until nobody asks any more.
+
+This module imports nothing heavy, so that the process can set its limits before engines are loaded.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import os
+import pickle
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from multiprocessing import connection, parent_process, resource_tracker
+from typing import Any
+
+from rgss.sweep.worker_cache import share_plot_cache
+from rgss.sweep.worker_wire import LONGEST_ANSWER, BlockingChannel
+from rgss.trials.code import ONE_THREAD, problem_here
+
+_STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
+_OBJECTS_BETWEEN_COLLECTIONS = 50_000
+_MIB = 1024 * 1024
+_LARGEST_OUTPUT = 16 * _MIB
+# The numbers of two settings of glibc's malloc (malloc.h).
+_M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ready:
+    """The worker has started and takes tasks.
+
+    Attributes:
+        error: Why it cannot, in one line; empty if it can.
+    """
+
+    error: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """What came of a task.
+
+    Attributes:
+        task: The number that the task was given.
+        result: The result; None if there is none.
+        error: The exception that ended it, in one line; empty if there was none.
+        ours: Whether that exception is one that this package raises by intention.
+        out_of_memory: Whether it was for want of memory.
+        took_s: The task's time by the wall clock.
+    """
+
+    task: int
+    result: Any
+    error: str
+    ours: bool
+    out_of_memory: bool
+    took_s: float
+
+
+def settle() -> None:
+    """Make this process one that makes pieces and nothing else; to be called before an engine or NumPy is loaded."""
+    # The processes share the cores between them; threads within one would only get in their way.
+    for name, threads in ONE_THREAD.items():
+        os.environ.setdefault(name, threads)
+    _keep_freed_memory()
+    # Most of the process's objects are those of the engines and stay; they need not be looked through so often.
+    gc.set_threshold(_OBJECTS_BETWEEN_COLLECTIONS)
+
+
+def serve(
+    function: bytes, asked: connection.Connection, memory_limit_bytes: int, output: connection.Connection
+) -> None:
+    """Answer tasks until the other end is closed.
+
+    Args:
+        function: What makes a result from a task's arguments, pickled by its name.
+        asked: Numbered arguments come in here, answers go out.
+        memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
+        output: File for what engines print, which nobody may want but who asks why one has crashed.
+    """
+    settle()
+    _leave_the_tracker()
+    share_plot_cache()
+    _redirect_output(output)
+    _limit_memory(memory_limit_bytes)
+    _limit_output()
+    _end_with_parent()
+    channel = BlockingChannel(asked)
+    problem = problem_here()
+    if problem:
+        channel.send(pickle.dumps(Ready(error=f"it would compute with other kernels: {problem}")))
+        return
+    # From here on engines may be loaded. What is read here was written by the process that started this one.
+    try:
+        make = pickle.loads(function)  # noqa: S301
+    # Importing the function's module can break on anything; the parent is told instead of left waiting.
+    except Exception as error:
+        channel.send(pickle.dumps(Ready(error=_line(error))))
+        return
+    channel.send(pickle.dumps(Ready()))
+    while True:
+        try:
+            task, arguments = pickle.loads(channel.receive())  # noqa: S301
+        except (EOFError, OSError):
+            return
+        # What is in the file when the process dies was printed by the task that it died of.
+        os.ftruncate(_STANDARD_OUTPUT, 0)
+        try:
+            channel.send(_packed(answer_to(make, arguments, task=task)))
+        except OSError:
+            return
+
+
+def _packed(answer: Answer) -> bytes:
+    """An answer as it is sent; in place of a result that cannot be sent, why it cannot."""
+    try:
+        packed = pickle.dumps(answer)
+        if len(packed) <= LONGEST_ANSWER:
+            return packed
+        problem = f"the result has {len(packed)} bytes; at most {LONGEST_ANSWER} are read"
+    # A result may be of anything, and its pickling run anything.
+    except Exception as error:
+        problem = _line(error)
+    return pickle.dumps(replace(answer, result=None, error=problem))
+
+
+def answer_to(make: Callable[..., Any], arguments: Sequence[Any], *, task: int = 0) -> Answer:
+    """Carry out one task.
+
+    Args:
+        make: What makes a result.
+        arguments: What it is called with.
+        task: The number that the task was given.
+    """
+    from time import perf_counter
+
+    from rgss.errors import RgssError
+
+    result, error, ours, out_of_memory = None, "", False, False
+    begun = perf_counter()
+    try:
+        result = make(*arguments)
+    except MemoryError:
+        error, out_of_memory = "MemoryError", True
+    except RgssError as caught:
+        error, ours = str(caught), True
+    # A task that breaks costs itself and not the worker.
+    except Exception as caught:
+        error = _line(caught)
+    took_s = perf_counter() - begun
+    return Answer(task=task, result=result, error=error, ours=ours, out_of_memory=out_of_memory, took_s=took_s)
+
+
+def _line(error: Exception) -> str:
+    """An exception that is not ours, in one line."""
+    text = " ".join(str(error).split())
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def _redirect_output(output: connection.Connection) -> None:
+    for standard in (_STANDARD_OUTPUT, _STANDARD_ERROR):
+        os.dup2(output.fileno(), standard)
+    output.close()
+
+
+def _leave_the_tracker() -> None:
+    """Close the pipe to the process in which Python tracks what is shared: nothing is, and it is the sweep's."""
+    tracker = getattr(resource_tracker, "_resource_tracker", None)
+    descriptor = getattr(tracker, "_fd", None)
+    if isinstance(descriptor, int):
+        with contextlib.suppress(OSError):
+            os.close(descriptor)
+        # It would be begun anew if it were needed.
+        setattr(tracker, "_fd", None)  # noqa: B010 - the name is not public
+
+
+def _limit_output() -> None:
+    """Let writes beyond a size fail, so that a library that prints without end fills neither memory nor disk."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    limits = [limit for limit in (soft, hard) if limit != resource.RLIM_INFINITY]
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (min([_LARGEST_OUTPUT, *limits]), hard))
+
+
+def _limit_memory(limit_bytes: int) -> None:
+    """Let allocations beyond a size fail; on Linux this counts what is written to, not what is mapped."""
+    if not limit_bytes or sys.platform == "win32":
+        return
+    import resource
+
+    kind = resource.RLIMIT_DATA if sys.platform == "linux" else resource.RLIMIT_AS
+    _, hard = resource.getrlimit(kind)
+    limit = limit_bytes if hard == resource.RLIM_INFINITY else min(limit_bytes, hard)
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(kind, (limit, hard))
+
+
+def _keep_freed_memory() -> None:
+    """Let the process keep what it frees, as far as its C library can be told.
+
+    The physics engine takes some megabytes for each world. Given back to the kernel and mapped anew, page by
+    page, they take more time than all else that makes a world.
+    """
+    if sys.platform != "linux":
+        return
+    import ctypes
+
+    mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
+    if mallopt is not None:
+        mallopt(_M_MMAP_THRESHOLD, 32 * _MIB)
+        mallopt(_M_TRIM_THRESHOLD, 512 * _MIB)
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent does, even when that is killed, and even in the middle of a task."""
+    parent = parent_process()
+    if parent is None:
+        return
+    sentinel = parent.sentinel
+
+    def watch() -> None:
+        connection.wait([sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

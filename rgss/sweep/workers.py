@@ -1,0 +1,392 @@
+"""A supervised pool of worker processes that keep their engines loaded.
+
+Each worker has a pipe of its own and at most one task, so that it is known exactly which task a
+worker was at when it was killed, hung or ran out of memory, and no lock can stay behind with it.
+Nothing here waits for a worker: what it takes and what it says is sent and read as far as that is
+possible at once, and an answer counts only if it is whole and that of the task.
+(``concurrent.futures`` and loky give up all tasks when one worker dies and know no time limits;
+pebble has both, but its workers share a lock that dies with its holder.)
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import multiprocessing
+import pickle
+import selectors
+import signal
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.process import BaseProcess
+from types import TracebackType
+from typing import Any, Protocol
+
+from rgss.errors import SimulationError
+from rgss.evidence import RunFailureKind
+from rgss.evidence.records import detail_line
+from rgss.sweep.worker_output import WorkerOutput
+from rgss.sweep.worker_process import Answer, Ready, serve
+from rgss.sweep.worker_wire import Channel, WireError
+from rgss.trials.code import numeric_environment_of_children
+
+_ENDING_S = 5.0
+_ENDING_LOOK_S = 0.01
+_STARTING_S = 120.0
+_FAILED_STARTS = 2
+"""How many processes more than the pool has may end one after another before one of them has done a task."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaskError:
+    """Why a task has no result.
+
+    Attributes:
+        kind: What happened to it.
+        detail: One line: the signal, the limit, the exception.
+        may_pass: Whether another attempt could have another end.
+    """
+
+    kind: RunFailureKind
+    detail: str
+    may_pass: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ended:
+    """A task that has come to its end.
+
+    Attributes:
+        key: The name that it was given.
+        result: What it made; None if it failed.
+        trouble: Why it failed; None if it did not.
+        took_s: Its time by the wall clock; 0 if it failed.
+    """
+
+    key: str
+    result: Any
+    trouble: TaskError | None
+    took_s: float
+
+
+class Workers(Protocol):
+    """What carries out tasks: processes here, or machines elsewhere."""
+
+    @property
+    def size(self) -> int:
+        """How many tasks it carries out at once."""
+
+    @property
+    def free(self) -> int:
+        """How many tasks can be begun now."""
+
+    def want(self, tasks: int) -> None:
+        """Be ready for this many tasks, as far as that is possible."""
+
+    def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
+        """Begin a task; only while one is free."""
+
+    def wait(self, timeout_s: float) -> list[Ended]:
+        """Wait until tasks end, workers become free, or the time is over; returns what has ended."""
+
+    def close(self) -> None:
+        """Stop at once, whatever is being done."""
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class _Worker:
+    process: BaseProcess
+    channel: Channel
+    output: WorkerOutput
+    ready: bool
+    proved: bool
+    key: str | None
+    task: int
+    ends_at: float
+
+
+class WorkerPool:
+    """Processes on this machine; a context manager that leaves none of them behind."""
+
+    def __init__(
+        self,
+        function: Callable[..., Any],
+        *,
+        size: int,
+        time_limit_s: float = math.inf,
+        memory_limit_bytes: int = 0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Prepare the pool; processes are started when they are wanted.
+
+        Args:
+            function: What makes a result from a task's arguments; a function of a module, since the
+                workers import it by its name.
+            size: Greatest number of processes.
+            time_limit_s: Greatest time of a task by the wall clock.
+            memory_limit_bytes: Greatest size of a worker's data; 0 for no limit.
+            clock: Gives the time that limits are compared with, in seconds.
+        """
+        self._function = pickle.dumps(function)
+        self._size = size
+        self._time_limit_s = time_limit_s
+        self._memory_limit_bytes = memory_limit_bytes
+        # Engines keep state that must not be forked, so each worker is a fresh interpreter.
+        self._context = multiprocessing.get_context("spawn")
+        self._workers: list[_Worker] = []
+        self._numbers = itertools.count()
+        self._clock = clock
+        self._failed_starts = 0
+
+    def __enter__(self) -> WorkerPool:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def size(self) -> int:
+        """How many tasks it carries out at once."""
+        return self._size
+
+    @property
+    def free(self) -> int:
+        """How many tasks can be begun now."""
+        return sum(worker.ready and worker.key is None for worker in self._workers)
+
+    def want(self, tasks: int) -> None:
+        """Have as many processes as there are tasks, up to the pool's size.
+
+        Args:
+            tasks: How many tasks are being done or could be.
+
+        Raises:
+            SimulationError: The system lets no process be started, and there is none.
+        """
+        for _ in range(min(tasks, self._size) - len(self._workers)):
+            try:
+                self._start()
+            except OSError as error:  # noqa: PERF203 - it ends the loop
+                # With fewer it takes longer, and there may be room for more later.
+                if self._workers:
+                    return
+                hint = "see what else the machine is doing, or raise its limits ('ulimit -n', 'ulimit -u')"
+                raise SimulationError(f"a worker process cannot start: {error.strerror}", hint=hint) from error
+
+    def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
+        """Begin a task; only while one is free.
+
+        Args:
+            key: A name for it.
+            arguments: What the function is called with.
+        """
+        worker = next(worker for worker in self._workers if worker.ready and worker.key is None)
+        worker.key, worker.task = key, next(self._numbers)
+        worker.ends_at = self._clock() + self._time_limit_s
+        # If it has died meanwhile, that is noticed and told when its end is waited for.
+        worker.channel.send(pickle.dumps((worker.task, arguments)))
+
+    def wait(self, timeout_s: float) -> list[Ended]:
+        """Wait until tasks end, workers become free, or the time is over; returns what has ended.
+
+        Args:
+            timeout_s: The longest time to wait.
+
+        Raises:
+            SimulationError: Workers could not be started, one after another.
+        """
+        first = min((worker.ends_at for worker in self._workers), default=math.inf)
+        self._wait_for_any(max(0.0, min(timeout_s, first - self._clock())))
+        ended = [self._looked_at(worker) for worker in list(self._workers)]
+        now = self._clock()
+        ended += [self._too_late(worker) for worker in list(self._workers) if worker.ends_at <= now]
+        return [each for each in ended if each is not None]
+
+    def close(self) -> None:
+        """Stop at once, whatever is being done."""
+        for worker in self._workers:
+            worker.process.kill()
+        for worker in list(self._workers):
+            self._dismiss(worker)
+
+    def _start(self) -> None:
+        output = WorkerOutput()
+        try:
+            here, there = self._context.Pipe()
+        except OSError:
+            output.close()
+            raise
+        process = self._context.Process(
+            target=serve, args=(self._function, there, self._memory_limit_bytes, output.end), daemon=True
+        )
+        with _interrupts_held_back(), numeric_environment_of_children():
+            try:
+                process.start()
+            except OSError:
+                here.close()
+                output.close()
+                raise
+            finally:
+                there.close()
+            self._workers.append(
+                _Worker(
+                    process=process,
+                    channel=Channel(here),
+                    output=output,
+                    ready=False,
+                    proved=False,
+                    key=None,
+                    task=-1,
+                    ends_at=self._clock() + _STARTING_S,
+                )
+            )
+
+    def _wait_for_any(self, patience_s: float) -> None:
+        """Wait until a worker has said something or takes more of what it is sent."""
+        with selectors.PollSelector() as selector:
+            for worker in self._workers:
+                writes = selectors.EVENT_WRITE if worker.channel.has_unsent else 0
+                selector.register(worker.channel, selectors.EVENT_READ | writes)
+            selector.select(patience_s)
+
+    def _looked_at(self, worker: _Worker) -> Ended | None:
+        """What has become of a worker since it was looked at before."""
+        worker.channel.flush()
+        # Asked before its last words are read, which then are all that there will be.
+        has_ended = worker.process.exitcode is not None
+        try:
+            messages = worker.channel.receive()
+        except EOFError:
+            return self._died(worker)
+        except WireError as error:
+            return self._wrong(worker, str(error))
+        if messages:
+            return self._receive(worker, messages)
+        return self._died(worker) if has_ended else None
+
+    def _receive(self, worker: _Worker, messages: list[bytes]) -> Ended | None:
+        try:
+            message = pickle.loads(messages[0])  # noqa: S301 - our own process wrote it, as its checksum shows
+        # The parts of a message may break on anything where they are put together.
+        except Exception as error:
+            return self._wrong(worker, f"its answer cannot be read: {type(error).__name__}: {error}")
+        if isinstance(message, Ready) and not worker.ready and len(messages) == 1:
+            if message.error:
+                raise _not_started(message.error)
+            worker.ready, worker.ends_at = True, math.inf
+            return None
+        if worker.key is None or len(messages) > 1 or not _is_answer(message, worker.task):
+            return self._wrong(worker, "it answered something else than it was asked")
+        key, worker.key, worker.ends_at, worker.proved = worker.key, None, math.inf, True
+        self._failed_starts = 0
+        if message.out_of_memory:
+            # What an engine makes of a failed allocation is not known, so this worker does no more.
+            self._dismiss(worker)
+        return ended_by(message, key)
+
+    def _wrong(self, worker: _Worker, problem: str) -> Ended | None:
+        """Do without a worker that says what it should not."""
+        self._dismiss(worker)
+        return self._failed(worker, RunFailureKind.WRONG_ANSWER, f"the worker was ended: {problem}")
+
+    def _died(self, worker: _Worker) -> Ended | None:
+        how = _ending(worker.process)
+        words = worker.output.tail()
+        self._dismiss(worker)
+        return self._failed(worker, RunFailureKind.CRASHED, f"the worker {how}" + (f": {words}" if words else ""))
+
+    def _too_late(self, worker: _Worker) -> Ended | None:
+        self._dismiss(worker)
+        if not worker.ready:
+            return self._failed(worker, RunFailureKind.TIMED_OUT, f"the worker has not started after {_STARTING_S:g} s")
+        return self._failed(worker, RunFailureKind.TIMED_OUT, f"not done after {self._time_limit_s:g} s")
+
+    def _failed(self, worker: _Worker, kind: RunFailureKind, detail: str) -> Ended | None:
+        """The end of the task that a worker had; one that had none is replaced, but not for ever.
+
+        Raises:
+            SimulationError: Too many in a row have ended before they had done anything.
+        """
+        if worker.key is not None:
+            return _failed(worker.key, kind, detail)
+        if not worker.proved:
+            self._failed_starts += 1
+            if self._failed_starts > self._size + _FAILED_STARTS:
+                raise _not_started(f"{detail}, and so did {self._failed_starts - 1} before it")
+        return None
+
+    def _dismiss(self, worker: _Worker) -> None:
+        worker.process.kill()
+        worker.process.join(_ENDING_S)
+        worker.channel.close()
+        worker.output.close()
+        self._workers.remove(worker)
+
+
+def _is_answer(message: object, task: int) -> bool:
+    """Whether a message is the answer to a task, and each part of it of its type."""
+    return (
+        type(message) is Answer
+        and type(message.task) is int
+        and message.task == task
+        and type(message.error) is str
+        and type(message.ours) is bool
+        and type(message.out_of_memory) is bool
+        and type(message.took_s) is float
+        and 0.0 <= message.took_s < math.inf
+    )
+
+
+def ended_by(answer: Answer, key: str) -> Ended:
+    """The end of a task that a worker has answered.
+
+    Args:
+        answer: What the worker said.
+        key: The task's name.
+    """
+    if not answer.error:
+        return Ended(key=key, result=answer.result, trouble=None, took_s=answer.took_s)
+    kind = RunFailureKind.OUT_OF_MEMORY if answer.out_of_memory else RunFailureKind.RAISED
+    return _failed(key, kind, answer.error, may_pass=not answer.ours)
+
+
+def _failed(key: str, kind: RunFailureKind, detail: str, *, may_pass: bool = True) -> Ended:
+    return Ended(key=key, result=None, trouble=TaskError(kind=kind, detail=detail, may_pass=may_pass), took_s=0.0)
+
+
+def _not_started(how: str) -> SimulationError:
+    return SimulationError(f"a worker process cannot start: {detail_line(how)}", hint="is its memory limit too low?")
+
+
+def _ending(process: BaseProcess) -> str:
+    """How a process has ended whose end of the pipe is closed."""
+    latest = time.monotonic() + _ENDING_S
+    while process.exitcode is None and time.monotonic() < latest:
+        time.sleep(_ENDING_LOOK_S)
+    status = process.exitcode
+    if status is None:
+        return "closed its pipe and did not end"
+    if status < 0:
+        try:
+            return f"was killed by {signal.Signals(-status).name}"
+        except ValueError:
+            return f"was killed by signal {-status}"
+    return f"ended with status {status}"
+
+
+@contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Start processes that never see Ctrl-C; in this one it takes effect at the end of the block.
+
+    Ctrl-C reaches the whole process group, and only the parent answers it. What is blocked here
+    stays blocked in the processes that are started here, from their first instruction on.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -1,0 +1,44 @@
+"""Verification evidence of the trace: verdicts, marked tests and their results."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.trace.evidence.digest import verification_digest
+    from rgss.trace.evidence.evidence_state import EvidenceState, TrialVerdicts
+    from rgss.trace.evidence.junit_file import TestEnd, read_junit
+    from rgss.trace.evidence.software import (
+        JUNIT_FILE,
+        SoftwareEvidence,
+        TestEvidence,
+        software_digest,
+        software_evidence,
+    )
+    from rgss.trace.evidence.test_marks import MarkedTest, marked_tests
+    from rgss.trace.evidence.verdict_evidence import KEY_DIGITS, TraceEvidence, TrialEvidence, VariantEvidence
+    from rgss.trace.evidence.verification import VerificationRow, success_criterion, verification_matrix
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "JUNIT_FILE",
+    "KEY_DIGITS",
+    "EvidenceState",
+    "MarkedTest",
+    "SoftwareEvidence",
+    "TestEnd",
+    "TestEvidence",
+    "TraceEvidence",
+    "TrialEvidence",
+    "TrialVerdicts",
+    "VariantEvidence",
+    "VerificationRow",
+    "marked_tests",
+    "read_junit",
+    "software_digest",
+    "software_evidence",
+    "success_criterion",
+    "verification_digest",
+    "verification_matrix",
+]

@@ -1,0 +1,64 @@
+"""What is known of the evidence for each requirement, as the rules of evidence see it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from rgss.measures import StaleCause, Verdict
+from rgss.trace.evidence.software import SoftwareEvidence
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialVerdicts:
+    """The verdicts on one requirement that a criterion decides.
+
+    Attributes:
+        requirement: Its id.
+        verdicts: What the evidence says now, for each variant by its id.
+        recorded: The verdict that was last recorded for each variant; empty if none ever was.
+        causes: For each variant whose verdict is stale, what changed since its evidence.
+    """
+
+    requirement: str
+    verdicts: Mapping[int, Verdict]
+    recorded: Mapping[int, Verdict]
+    causes: Mapping[int, tuple[StaleCause, ...]]
+
+    def variants(self, verdict: Verdict) -> tuple[int, ...]:
+        """The variants on which it is the verdict now."""
+        return tuple(variant for variant, one in self.verdicts.items() if one is verdict)
+
+    @property
+    def all_causes(self) -> tuple[StaleCause, ...]:
+        """What changed for any variant, in the order of `StaleCause`."""
+        there = {cause for causes in self.causes.values() for cause in causes}
+        return tuple(cause for cause in StaleCause if cause in there)
+
+    @property
+    def contradicted(self) -> tuple[int, ...]:
+        """Variants whose recorded verdict is another one than the evidence gives now.
+
+        A verdict that is stale, or for which nothing was run, contradicts nothing.
+        """
+        undecided = (Verdict.STALE, Verdict.NOT_RUN)
+        return tuple(
+            variant
+            for variant, now in self.verdicts.items()
+            if now not in undecided and self.recorded.get(variant, now) not in (now, *undecided)
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EvidenceState:
+    """The evidence of a project.
+
+    Attributes:
+        trials: The verdicts on each requirement with a criterion, by its id.
+        software: What the tests of the project say of each requirement that is verified by test,
+            by its id; None if the project has no tests of its own.
+    """
+
+    trials: Mapping[str, TrialVerdicts] = field(default_factory=lambda: MappingProxyType({}))
+    software: Mapping[str, SoftwareEvidence] | None = None

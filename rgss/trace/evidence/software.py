@@ -1,0 +1,202 @@
+"""What a project's own tests say of the requirements that are verified by test."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from rgss.documents import chunks_of
+from rgss.errors import EvidenceError
+from rgss.measures import StaleCause, Verdict
+from rgss.requirements import Requirement, VerificationMethod
+from rgss.trace.evidence.digest import verification_digest
+from rgss.trace.evidence.junit_file import JUnitReport, TestEnd
+from rgss.trace.evidence.test_marks import MarkedTest
+
+JUNIT_FILE = ".rgss/junit.xml"
+"""Where the result of a project's tests is kept, relative to the project."""
+
+SOFTWARE = "rgss.software"
+"""Name of the property of a run that holds the digest of what was tested."""
+
+REQUIREMENT_PREFIX = "rgss.requirement."
+"""With a requirement's id, name of the property that holds its digest at the time of the run."""
+
+_LARGEST_BYTES = 256 * 1024 * 1024
+TESTED_FOLDERS = ("rgss", "tests", "designs", "scenes", "studies")
+TESTED_FILES = ("requirements.lock", "pyproject.toml", "requirements/measures.yaml")
+_SUFFIXES = frozenset({".py", ".yaml", ".csv", ".urdf", ".json"})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TestEvidence:
+    """One test that verifies a requirement.
+
+    Attributes:
+        requirement: Id of the requirement.
+        test: Id of the test, such as ``tests/trace/test_links.py::test_a_cycle``; with parameters
+            where it was run with them.
+        end: How it ended; None if it was not run.
+    """
+
+    __test__ = False  # pytest collects what is called Test
+
+    requirement: str
+    test: str
+    end: TestEnd | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SoftwareEvidence:
+    """What the tests say of one requirement.
+
+    Attributes:
+        requirement: Its id.
+        tests: The tests that are marked as verifying it, in the order of files; those that were
+            run with parameters once for each.
+        marks: The marks in the source, for messages.
+        causes: What changed since the tests ran; none if nothing did, or if they did not run.
+    """
+
+    requirement: str
+    tests: tuple[TestEvidence, ...]
+    marks: tuple[MarkedTest, ...]
+    causes: tuple[StaleCause, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """Met if every marked test passed, not met if one failed, not run if one did not run.
+
+        All of this is stale if what was tested, or the requirement, changed since.
+        """
+        ends = [test.end for test in self.tests]
+        if self.causes and any(end is not None for end in ends):
+            return Verdict.STALE
+        if TestEnd.FAILED in ends:
+            return Verdict.NOT_MET
+        return Verdict.MET if ends and all(end is TestEnd.PASSED for end in ends) else Verdict.NOT_RUN
+
+
+def software_evidence(
+    requirements: Iterable[Requirement],
+    marked: Iterable[MarkedTest],
+    report: JUnitReport | None,
+    *,
+    software: str,
+) -> Mapping[str, SoftwareEvidence]:
+    """Join marks and results.
+
+    A test that is marked in the source, but is not in the result, was not run. A test in the
+    result whose mark is not in the source any more verifies nothing.
+
+    Args:
+        requirements: The system requirements; those that a criterion decides are passed over.
+        marked: The marks in the source.
+        report: The result of the last run; None if there is none.
+        software: `software_digest` of the project as it is now.
+
+    Returns:
+        The evidence of each requirement that is verified by test, or is inspected or demonstrated
+        by marked tests, by its id.
+    """
+    runs: dict[str, list[tuple[str, TestEnd]]] = {}
+    for test in report.tests if report is not None else ():
+        runs.setdefault(test.function, []).append((test.id, test.end))
+    marks: dict[str, list[MarkedTest]] = {}
+    for mark in marked:
+        for name in mark.requirements:
+            marks.setdefault(name, []).append(mark)
+    return MappingProxyType(
+        {
+            requirement.id: SoftwareEvidence(
+                requirement=requirement.id,
+                tests=tuple(
+                    TestEvidence(requirement=requirement.id, test=test, end=end)
+                    for mark in marks.get(requirement.id, ())
+                    for test, end in runs.get(mark.id, [(mark.id, None)])
+                ),
+                marks=tuple(marks.get(requirement.id, ())),
+                causes=() if report is None else tuple(_causes(requirement, report, software)),
+            )
+            for requirement in requirements
+            if _is_tested(requirement, marks)
+        }
+    )
+
+
+def run_properties(project: Path, requirements: Iterable[Requirement]) -> Mapping[str, str]:
+    """What a test run notes about itself, so that a later reader can tell whether it still holds.
+
+    Args:
+        project: The project's folder.
+        requirements: Its system requirements.
+
+    Raises:
+        EvidenceError: A file of the project cannot be read.
+    """
+    return {
+        SOFTWARE: software_digest(project),
+        **{f"{REQUIREMENT_PREFIX}{one.id}": verification_digest(one) for one in requirements},
+    }
+
+
+def software_digest(project: Path) -> str:
+    """The SHA-256 of what the tests of a project run on: code, tests, measures, designs, scenes, studies, lock.
+
+    The requirements are not in it; each of them has a digest of its own.
+
+    Args:
+        project: The project's folder.
+
+    Raises:
+        EvidenceError: A file cannot be read.
+    """
+    content = hashlib.sha256()
+    for path in _tested(project):
+        content.update(path.relative_to(project).as_posix().encode())
+        content.update(b"\0")
+        try:
+            content.update(_text_digest(path))
+        except OSError as error:
+            raise EvidenceError(f"{path.name} cannot be read: {error.strerror}", hint="check its permissions") from None
+    return content.hexdigest()
+
+
+def _text_digest(path: Path) -> bytes:
+    """The SHA-256 of a text whose lines end as they do here; it is read piece by piece."""
+    hashed, held = hashlib.sha256(), b""
+    for chunk in chunks_of(path, largest=_LARGEST_BYTES):
+        text = held + chunk
+        # The end of a line may be cut in two.
+        held = text[-1:] if text.endswith(b"\r") else b""
+        hashed.update(text[: len(text) - len(held)].replace(b"\r\n", b"\n"))
+    hashed.update(held)
+    return hashed.digest()
+
+
+def _tested(project: Path) -> list[Path]:
+    found = [project / name for name in TESTED_FILES if (project / name).is_file()]
+    for folder in TESTED_FOLDERS:
+        found += [path for path in (project / folder).rglob("*") if path.suffix in _SUFFIXES and path.is_file()]
+    return sorted(found)
+
+
+def _is_tested(requirement: Requirement, marks: Mapping[str, object]) -> bool:
+    """Whether tests decide: it is verified by test, or marked tests inspect or demonstrate it."""
+    method = requirement.verification
+    if method is VerificationMethod.TEST:
+        return True
+    by_hand = method in (VerificationMethod.INSPECTION, VerificationMethod.DEMONSTRATION)
+    return by_hand and requirement.criterion is None and requirement.id in marks
+
+
+def _causes(requirement: Requirement, report: JUnitReport, software: str) -> Iterable[StaleCause]:
+    """What changed since the run; a run that noted nothing about itself is taken as it is."""
+    noted = report.properties.get(f"{REQUIREMENT_PREFIX}{requirement.id}")
+    if noted is not None and noted != verification_digest(requirement):
+        yield StaleCause.REQUIREMENT
+    if report.properties.get(SOFTWARE, software) != software:
+        yield StaleCause.CODE

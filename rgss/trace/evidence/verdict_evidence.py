@@ -1,0 +1,150 @@
+"""What the evidence says of the requirements, as matrices, chains and reports show it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from rgss.evidence.records import Metric
+from rgss.measures import Estimate, StaleCause, Verdict
+from rgss.requirements import Requirement
+from rgss.trace.evidence.evidence_state import EvidenceState
+from rgss.trace.evidence.software import SoftwareEvidence, TestEvidence
+
+KEY_DIGITS = 12
+"""How much of a trial's key names it; `rgss replay` takes it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialEvidence:
+    """One stored trial.
+
+    Attributes:
+        key: Its key in the evidence store.
+        variant: Id of its variant.
+        seed: Its seed.
+        fidelity: How much physics it had, such as ``contact``.
+        outcome: ``success``, or what ended it.
+        values: The value of each measure in this trial alone, in the measure's unit; None where
+            the trial does not know it.
+        metrics: What was observed in it, by name with unit, such as ``slip_m``.
+    """
+
+    key: str
+    variant: int
+    seed: int
+    fidelity: str
+    outcome: str
+    values: Mapping[str, float | None]
+    metrics: Mapping[str, Metric] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def replay_command(self) -> str:
+        """The command that runs it again and compares it bit for bit."""
+        return f"rgss replay {self.key[:KEY_DIGITS]}"
+
+    @property
+    def run_command(self) -> str:
+        """The command that runs it and shows it phase by phase."""
+        return f"rgss run {self.variant} --seed {self.seed} --fidelity {self.fidelity}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VariantEvidence:
+    """What is known of one variant.
+
+    Attributes:
+        variant: Its id.
+        trials: Its trials, in the order of their seeds.
+        missing: How many of its trials have no evidence.
+        estimates: The estimate of each measure by its id.
+        deciding: For each measure, the keys of the trials that its estimate stands on; none for
+            a measure that follows from the design alone.
+    """
+
+    variant: int
+    trials: tuple[TrialEvidence, ...]
+    missing: int
+    estimates: Mapping[str, Estimate]
+    deciding: Mapping[str, tuple[str, ...]]
+
+    def deciding_trials(self, measure: str) -> tuple[TrialEvidence, ...]:
+        """The trials that the estimate of a measure stands on."""
+        keys = frozenset(self.deciding.get(measure, ()))
+        return tuple(trial for trial in self.trials if trial.key in keys)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TraceEvidence:
+    """Everything that is known beyond the files of the project.
+
+    Attributes:
+        shown: The variant whose trials and verdicts are shown; None if there is none to show.
+        choice: Why this variant, or why none.
+        variants: How many variants the study has.
+        state: The verdicts of all variants, and what the tests say.
+    """
+
+    shown: VariantEvidence | None = None
+    choice: str = "no evidence was read"
+    variants: int = 0
+    state: EvidenceState = field(default_factory=EvidenceState)
+
+    def tests(self, requirement_id: str) -> tuple[TestEvidence, ...]:
+        """The tests that verify a requirement, each with how it ended."""
+        software = self._software(requirement_id)
+        return () if software is None else software.tests
+
+    def all_tests(self) -> Mapping[str, TestEvidence]:
+        """Every test that verifies a requirement, by its id."""
+        software = self.state.software or {}
+        return {test.test: test for one in software.values() for test in one.tests}
+
+    def verdict(self, requirement: Requirement) -> Verdict | None:
+        """What the evidence says of a requirement.
+
+        A criterion is judged on the shown variant; without one the tests decide.
+
+        Returns:
+            The verdict; None where no variant is shown and the variants do not agree.
+        """
+        if requirement.criterion is None:
+            software = self._software(requirement.id)
+            return Verdict.NOT_RUN if software is None else software.verdict
+        verdicts = self._verdicts(requirement.id)
+        if self.shown is not None:
+            return verdicts.get(self.shown.variant, Verdict.NOT_RUN)
+        found = set(verdicts.values()) or {Verdict.NOT_RUN}
+        return found.pop() if len(found) == 1 else None
+
+    def causes(self, requirement: Requirement) -> tuple[StaleCause, ...]:
+        """What changed since the evidence for a requirement, where its verdict is stale."""
+        if self.verdict(requirement) is not Verdict.STALE:
+            return ()
+        software, trials = self._software(requirement.id), self.state.trials.get(requirement.id)
+        if requirement.criterion is None:
+            return () if software is None else software.causes
+        if trials is None:
+            return ()
+        return trials.all_causes if self.shown is None else trials.causes.get(self.shown.variant, ())
+
+    def tally(self, requirement_id: str) -> tuple[tuple[Verdict, int], ...]:
+        """How many variants have which verdict on a requirement; empty if no criterion decides."""
+        counts = Counter(self._verdicts(requirement_id).values())
+        return tuple((verdict, counts[verdict]) for verdict in Verdict if counts[verdict])
+
+    def has_evidence(self, requirement: Requirement) -> bool:
+        """Whether there is evidence that holds now: trials, the design, or a test that was run."""
+        verdict = self.verdict(requirement)
+        if requirement.criterion is not None:
+            return verdict not in (Verdict.NOT_RUN, Verdict.STALE)
+        return verdict is not Verdict.STALE and any(test.end is not None for test in self.tests(requirement.id))
+
+    def _verdicts(self, requirement_id: str) -> Mapping[int, Verdict]:
+        trials = self.state.trials.get(requirement_id)
+        return {} if trials is None else trials.verdicts
+
+    def _software(self, requirement_id: str) -> SoftwareEvidence | None:
+        return (self.state.software or {}).get(requirement_id)

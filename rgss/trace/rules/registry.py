@@ -1,0 +1,188 @@
+"""Every rule of traceability, and the check of a project against them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from rgss.errors import DefinitionError
+from rgss.findings import Finding, Severity
+from rgss.requirements import RequirementSet, nearest
+from rgss.trace.evidence import EvidenceState, MarkedTest
+from rgss.trace.model import MeasureTrace, TraceModel, build_trace_model
+from rgss.trace.rules import coverage, criteria, links, marks, reviews, verification_evidence
+from rgss.trace.rules import rule_configuration as upkeep
+from rgss.trace.rules import rule_loading as loading_rules
+from rgss.trace.rules.rule import EvidenceRule, MarkRule, ModelRule, Rule, SentenceRule, Violation
+from rgss.trace.rules.wording import WORDING_RULES
+from rgss.trace.sentences import TermList, read_sentence, words_of
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RuleFamily:
+    """Rules that belong together.
+
+    Attributes:
+        title: What they are about.
+        rules: The rules, in the order in which they are told.
+    """
+
+    title: str
+    rules: tuple[Rule, ...]
+
+
+FAMILIES: tuple[RuleFamily, ...] = (
+    RuleFamily(title="Links", rules=(*loading_rules.RULES, *links.RULES)),
+    RuleFamily(title="Coverage", rules=coverage.RULES),
+    RuleFamily(title="Verification", rules=(*criteria.RULES, *marks.RULES)),
+    RuleFamily(title="Evidence", rules=verification_evidence.RULES),
+    RuleFamily(
+        title="Wording",
+        rules=WORDING_RULES,
+    ),
+    RuleFamily(title="Reviews", rules=reviews.RULES),
+    RuleFamily(title="Settings and exemptions", rules=upkeep.RULES),
+)
+"""Every rule, family by family."""
+
+RULES: tuple[Rule, ...] = tuple(rule for family in FAMILIES for rule in family.rules)
+"""Every rule."""
+
+
+_READING = frozenset({"document", "design", "measures", "scene", "study"})
+"""What the ids of findings start with that are made while other files are read."""
+
+
+def rule_of(rule_id: str) -> Rule:
+    """The rule of an id.
+
+    Raises:
+        DefinitionError: There is none; the hint names the nearest id.
+    """
+    for rule in RULES:
+        if rule.id.lower() == rule_id.lower():
+            return rule
+    if rule_id.split(".", maxsplit=1)[0] in _READING:
+        raise DefinitionError(
+            f"{rule_id!r} is about reading files; what it finds says all that there is to know",
+            hint="'rgss check --explain' lists the rules of requirements",
+        )
+    hint = nearest(rule_id, [rule.id for rule in RULES]) or "'rgss check --explain' lists all rules"
+    raise DefinitionError(f"there is no rule {rule_id!r}", hint=hint)
+
+
+def check_trace(
+    requirements: RequirementSet,
+    measures: Sequence[MeasureTrace],
+    *,
+    marked: Sequence[MarkedTest] | None = None,
+    evidence: EvidenceState | None = None,
+) -> tuple[Finding, ...]:
+    """Check that everything asked for is answered, measured, allocated, verifiable, and well said.
+
+    The project's settings and exemptions are applied; what is wrong with them is found too.
+
+    Args:
+        requirements: The requirements and the architecture of a project.
+        measures: Its measures.
+        marked: The marks on its own tests; None if it has no tests.
+        evidence: Its evidence; None to leave the rules of evidence out.
+
+    Returns:
+        The findings in the order of their positions; none but infos for a sound project.
+    """
+    check = _Check(requirements, measures, None if marked is None else tuple(marked), evidence)
+    return tuple(sorted(check.findings()))
+
+
+class _Check:
+    def __init__(
+        self,
+        requirements: RequirementSet,
+        measures: Sequence[MeasureTrace],
+        marked: tuple[MarkedTest, ...] | None,
+        evidence: EvidenceState | None,
+    ) -> None:
+        self._model = build_trace_model(requirements, measures)
+        self._marked = marked
+        self._evidence = evidence
+        self._rules: Mapping[str, Rule] = MappingProxyType({rule.id: rule for rule in RULES})
+        self._exempt = {
+            upkeep.Exempted(element.id, exemption.rule)
+            for element in requirements.elements
+            for exemption in element.exemptions
+        }
+        self._used: set[upkeep.Exempted] = set()
+
+    def findings(self) -> Iterator[Finding]:
+        """All of them; the upkeep comes last, when it is known which exemptions were used."""
+        requirements = self._model.requirements
+        checked = [rule for rule in RULES if self._is_checked(rule)]
+        for rule in checked:
+            yield from self._reported(rule, self._breaches(rule))
+        sentence_rules = [rule for rule in checked if isinstance(rule, SentenceRule)]
+        for rule, breach in _sentence_breaches(self._model, sentence_rules):
+            yield from self._reported(rule, iter((breach,)))
+        of_settings = upkeep.setting_breaches(requirements, self._rules)
+        ids = frozenset(rule.id for rule in checked)
+        of_exemptions = upkeep.exemption_breaches(requirements, self._rules, ids, frozenset(self._used))
+        for upkeep_rule, breach in (*of_settings, *of_exemptions):
+            if self._is_enabled(upkeep_rule):
+                yield from self._reported(upkeep_rule, iter((breach,)))
+
+    def _is_checked(self, rule: Rule) -> bool:
+        if isinstance(rule, EvidenceRule):
+            return self._evidence is not None and self._is_enabled(rule)
+        if isinstance(rule, MarkRule):
+            return self._marked is not None and self._is_enabled(rule)
+        return isinstance(rule, (ModelRule, SentenceRule)) and self._is_enabled(rule)
+
+    def _is_enabled(self, rule: Rule) -> bool:
+        setting = self._model.requirements.settings.get(rule.id)
+        return rule.fixed or setting is None or setting.enabled
+
+    def _breaches(self, rule: Rule) -> Iterator[Violation]:
+        if isinstance(rule, ModelRule):
+            yield from rule.check(self._model)
+        elif isinstance(rule, MarkRule) and self._marked is not None:
+            yield from rule.check(self._model, self._marked)
+        elif isinstance(rule, EvidenceRule) and self._evidence is not None:
+            yield from rule.check(self._model, self._evidence)
+
+    def _reported(self, rule: Rule, breaches: Iterator[Violation]) -> Iterator[Finding]:
+        severity = severity_of(rule, self._model.requirements)
+        for breach in breaches:
+            if rule.allows_exemption and isinstance(breach.subject, str):
+                exempted = upkeep.Exempted(breach.subject, rule.id)
+                if exempted in self._exempt:
+                    self._used.add(exempted)
+                    continue
+            yield breach.finding(self._model, rule.id, severity)
+
+
+def severity_of(rule: Rule, requirements: RequirementSet) -> Severity:
+    """How much a breach of a rule matters in a project."""
+    setting = requirements.settings.get(rule.id)
+    return rule.severity if rule.fixed or setting is None or setting.severity is None else setting.severity
+
+
+def terms_of(rule: SentenceRule, requirements: RequirementSet) -> TermList:
+    """The terms that a rule looks for in a project."""
+    setting = requirements.settings.get(rule.id)
+    if setting is None:
+        return TermList(rule.terms)
+    removed = {words_of(term) for term in setting.terms_removed}
+    return TermList((term for term in rule.terms if words_of(term) not in removed), added=setting.terms_added)
+
+
+def _sentence_breaches(model: TraceModel, rules: Sequence[SentenceRule]) -> Iterator[tuple[SentenceRule, Violation]]:
+    """Element by element, so that each sentence is taken apart once."""
+    requirements = model.requirements
+    with_terms = [(rule, terms_of(rule, requirements)) for rule in rules]
+    for element in model.asked_for:
+        sentence = read_sentence(element.text)
+        for rule, terms in with_terms:
+            for flaw in rule.find(sentence, terms, element):
+                message = f"{element.id!r} {flaw.message}"
+                yield rule, Violation(subject=element.id, message=message, hint=flaw.hint, at=("text",))

@@ -1,0 +1,167 @@
+"""What a rule of traceability is: an id, a severity, an explanation and a check."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+from rgss.findings import Finding, Severity
+from rgss.requirements import Place, Requirement, StakeholderNeed
+from rgss.trace.evidence import EvidenceState, MarkedTest
+from rgss.trace.model import TraceModel
+from rgss.trace.sentences import Sentence, TermList
+
+
+class Located(Protocol):
+    """Something that knows its place in a file, such as a measure or a test."""
+
+    @property
+    def file(self) -> str:
+        """The file, relative to the project."""
+
+    @property
+    def line(self) -> int:
+        """Line, from 1."""
+
+    @property
+    def column(self) -> int:
+        """Column, from 1."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Violation:
+    """One place where a rule is broken.
+
+    Attributes:
+        subject: The element of the requirements, by its id; or the place of what is none.
+        message: What is wrong, in one line.
+        hint: How to mend it, in one line; may be empty.
+        at: The part of the element or place to point at; what is `Located` is pointed at as a whole.
+        at_key: Point at the key instead of its value.
+    """
+
+    subject: str | Place | Located
+    message: str
+    hint: str = ""
+    at: tuple[str | int, ...] = ("id",)
+    at_key: bool = False
+
+    def finding(self, model: TraceModel, rule: str, severity: Severity) -> Finding:
+        """The breach as a finding in the user's files."""
+        subject = model.requirements.places[self.subject] if isinstance(self.subject, str) else self.subject
+        if isinstance(subject, Place):
+            return subject.finding(
+                rule, self.message, at=self.at, hint=self.hint, severity=severity, at_key=self.at_key
+            )
+        return Finding(
+            file=subject.file,
+            line=subject.line,
+            column=subject.column,
+            rule=rule,
+            severity=severity,
+            message=self.message,
+            hint=self.hint,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """One rule, as it is explained and configured.
+
+    Attributes:
+        id: Its id, such as ``trace.orphan`` or ``wording.R7``.
+        severity: How much a breach matters, unless the project says otherwise.
+        explanation: What must hold, and why.
+        fixed: What breaks it makes the project undecidable, so that no project can configure it or be
+            exempt from it.
+        of_elements: Its breaches are of elements of the requirements, which may be exempt from it, and
+            not of measures, tests or settings.
+    """
+
+    id: str
+    severity: Severity
+    explanation: str
+    fixed: bool = False
+    of_elements: bool = True
+
+    @property
+    def allows_exemption(self) -> bool:
+        """Whether an element may be exempt from it."""
+        return self.of_elements and not self.fixed
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadingRule(Rule):
+    """A rule that is held when the files are read, listed here to be explained."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelRule(Rule):
+    """A rule of the requirements, the architecture, the measures, and the links between them.
+
+    Attributes:
+        check: Finds the breaches in a model.
+    """
+
+    check: Callable[[TraceModel], Iterator[Violation]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flaw:
+    """What is wrong with a sentence.
+
+    Attributes:
+        message: It, in words that follow the id of the element.
+        hint: How to mend it.
+    """
+
+    message: str
+    hint: str
+
+
+Worded = StakeholderNeed | Requirement
+"""What is asked for in a sentence."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SentenceRule(Rule):
+    """A rule of the wording of needs and requirements.
+
+    Attributes:
+        find: Finds what is wrong with the sentence of an element, given the rule's terms.
+        terms: Words and phrases that the rule looks for, or that it takes for an excuse; a project
+            may add to them and take from them.
+        meaning: What the terms are; empty if there are none.
+    """
+
+    find: Callable[[Sentence, TermList, Worded], Iterator[Flaw]]
+    terms: tuple[str, ...] = ()
+    meaning: str = ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EvidenceRule(Rule):
+    """A rule of the evidence; it is checked where evidence is asked for.
+
+    Attributes:
+        check: Finds the breaches in a model and the state of its evidence.
+    """
+
+    check: Callable[[TraceModel, EvidenceState], Iterator[Violation]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MarkRule(Rule):
+    """A rule of the marks on a project's own tests; it is checked where there are tests.
+
+    Attributes:
+        check: Finds the breaches in a model and the marked tests.
+    """
+
+    check: Callable[[TraceModel, tuple[MarkedTest, ...]], Iterator[Violation]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UpkeepRule(Rule):
+    """A rule of the project's settings and exemptions themselves, checked behind all others."""

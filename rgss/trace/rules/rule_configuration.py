@@ -1,0 +1,125 @@
+"""Rules of settings and exemptions: each is of a rule that is there, and changes something."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from rgss.findings import Severity
+from rgss.requirements import RequirementSet, RuleSetting, nearest
+from rgss.trace.rules.rule import Rule, SentenceRule, UpkeepRule, Violation
+from rgss.trace.sentences import words_of
+
+UNKNOWN_EXEMPTION = UpkeepRule(
+    id="exempt.unknown-rule",
+    of_elements=False,
+    severity=Severity.ERROR,
+    explanation="An element is exempt from rules that are there, and from which an exemption is possible.",
+)
+UNUSED_EXEMPTION = UpkeepRule(
+    id="exempt.unused",
+    of_elements=False,
+    severity=Severity.WARNING,
+    explanation=(
+        "An exemption exempts something: the element would break the rule otherwise. One that is not needed any "
+        "more would hide the next breach."
+    ),
+)
+UNKNOWN_SETTING = UpkeepRule(
+    id="settings.unknown-rule",
+    of_elements=False,
+    severity=Severity.ERROR,
+    explanation="rules.yaml sets rules that are there, and that can be set.",
+)
+UNUSED_SETTING = UpkeepRule(
+    id="settings.unused",
+    of_elements=False,
+    severity=Severity.WARNING,
+    explanation=(
+        "A setting changes something: the severity is another one than the rule has, a term that is added was not "
+        "there, one that is removed was."
+    ),
+)
+
+RULES: tuple[UpkeepRule, ...] = (UNKNOWN_EXEMPTION, UNUSED_EXEMPTION, UNKNOWN_SETTING, UNUSED_SETTING)
+
+
+_IDLE = RuleSetting(rule="", severity=None, enabled=True, terms_added=(), terms_removed=(), reason="")
+
+
+class Exempted(NamedTuple):
+    """An exemption by what it is of."""
+
+    element: str
+    rule: str
+
+
+def setting_breaches(requirements: RequirementSet, rules: Mapping[str, Rule]) -> Iterator[tuple[UpkeepRule, Violation]]:
+    """What is wrong with the project's settings.
+
+    Args:
+        requirements: The requirements with the settings.
+        rules: Every rule by its id.
+    """
+    for name, setting in requirements.settings.items():
+        place, rule = requirements.setting_places[name], rules.get(name)
+        if rule is None:
+            message, hint = f"there is no rule {name!r}", nearest(name, rules)
+            yield UNKNOWN_SETTING, Violation(subject=place, message=message, hint=hint, at=(), at_key=True)
+            continue
+        if rule.fixed:
+            message = f"rule {name!r} cannot be set: what breaks it cannot be decided"
+            yield UNKNOWN_SETTING, Violation(subject=place, message=message, hint="remove it", at=(), at_key=True)
+            continue
+        if setting == replace(_IDLE, rule=name, reason=setting.reason):
+            message = f"the setting of {name!r} changes nothing"
+            yield UNUSED_SETTING, Violation(subject=place, message=message, hint="remove it", at=(), at_key=True)
+        if setting.severity is rule.severity:
+            message = f"the severity of {name!r} is {rule.severity.value} anyway"
+            yield UNUSED_SETTING, Violation(subject=place, message=message, hint="remove it", at=("severity",))
+        for message, at in _idle_terms(setting, rule):
+            yield UNUSED_SETTING, Violation(subject=place, message=message, hint="remove it", at=at)
+
+
+def exemption_breaches(
+    requirements: RequirementSet, rules: Mapping[str, Rule], checked: frozenset[str], used: frozenset[Exempted]
+) -> Iterator[tuple[UpkeepRule, Violation]]:
+    """What is wrong with the exemptions of the elements.
+
+    Args:
+        requirements: The requirements with the exemptions.
+        rules: Every rule by its id.
+        checked: Ids of the rules that were checked; of another rule nobody knows whether it is broken.
+        used: The exemptions that exempted something.
+    """
+    for element in requirements.elements:
+        for index, exemption in enumerate(element.exemptions):
+            rule, at = rules.get(exemption.rule), ("exempt", index, "rule")
+            if rule is None:
+                message, hint = f"there is no rule {exemption.rule!r}", nearest(exemption.rule, rules)
+            elif not rule.allows_exemption:
+                message, hint = f"no element can be exempt from {exemption.rule!r}", "remove it"
+            elif exemption.rule in checked and Exempted(element.id, exemption.rule) not in used:
+                message = f"{element.id!r} is exempt from {exemption.rule!r}, which it does not break"
+                yield UNUSED_EXEMPTION, Violation(subject=element.id, message=message, hint="remove it", at=at)
+                continue
+            else:
+                continue
+            yield UNKNOWN_EXEMPTION, Violation(subject=element.id, message=message, hint=hint, at=at)
+
+
+def _idle_terms(setting: RuleSetting, rule: Rule) -> Iterator[tuple[str, tuple[str, int]]]:
+    """The terms that a setting adds or removes in vain, and where they stand in it."""
+    takes_terms = isinstance(rule, SentenceRule) and bool(rule.meaning)
+    own = {words_of(term) for term in rule.terms} if isinstance(rule, SentenceRule) else set()
+    for index, term in enumerate(setting.terms_added):
+        # 'and' and 'or' may be added to what they are in already: then they count wherever they stand.
+        is_widened = rule.id == "wording.R19" and term in ("and", "or")
+        if not takes_terms or not words_of(term):
+            yield f"rule {rule.id!r} looks for no such terms", ("terms_added", index)
+        elif words_of(term) in own and not is_widened:
+            yield f"rule {rule.id!r} has the term {term!r} already", ("terms_added", index)
+    for index, term in enumerate(setting.terms_removed):
+        if words_of(term) not in own:
+            yield f"rule {rule.id!r} does not have the term {term!r}", ("terms_removed", index)

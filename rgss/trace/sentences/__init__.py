@@ -1,0 +1,31 @@
+"""Requirement sentences read as text: conditions, terms, comparisons and quantities."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.trace.sentences.bounds import bound_of
+    from rgss.trace.sentences.comparison_phrases import LOWER_BEFORE, LOWER_BEHIND, UPPER_BEFORE, UPPER_BEHIND
+    from rgss.trace.sentences.quantities import TextQuantity, is_unit, quantities_in
+    from rgss.trace.sentences.sentences import Sentence, read_sentence, response_start, words_of
+    from rgss.trace.sentences.terms import Match, TermList
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "LOWER_BEFORE",
+    "LOWER_BEHIND",
+    "UPPER_BEFORE",
+    "UPPER_BEHIND",
+    "Match",
+    "Sentence",
+    "TermList",
+    "TextQuantity",
+    "bound_of",
+    "is_unit",
+    "quantities_in",
+    "read_sentence",
+    "response_start",
+    "words_of",
+]

@@ -1,0 +1,94 @@
+"""Estimates, values and verdicts in words, the same in every report."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from rgss.evidence.records import Metric
+from rgss.measures import Estimate, StaleCause, Verdict
+from rgss.trace.evidence import TestEvidence
+
+UNKNOWN = "–"
+"""What stands for a value that is not known."""
+
+_VERDICTS = {
+    Verdict.MET: "met",
+    Verdict.NOT_MET: "not met",
+    Verdict.INCONCLUSIVE: "inconclusive",
+    Verdict.NOT_RUN: "not run",
+    Verdict.STALE: "stale",
+}
+_LARGE = 10_000.0
+
+
+def verdict_in_words(verdict: Verdict | None, causes: Sequence[StaleCause] = ()) -> str:
+    """A verdict as prose says it, and what made it stale if something did."""
+    told = "differs among variants" if verdict is None else _VERDICTS[verdict]
+    return f"{told} ({', '.join(cause.value for cause in causes)})" if causes else told
+
+
+def end_in_words(test: TestEvidence) -> str:
+    """How a test ended."""
+    return "not run" if test.end is None else test.end.value
+
+
+def value_in_words(value: float | None, unit: str = "1") -> str:
+    """A value with four digits and its unit; a dash for what is not known."""
+    if value is None:
+        return UNKNOWN
+    text = f"{value:,.0f}" if abs(value) >= _LARGE else f"{value:.4g}"
+    return text if unit == "1" else f"{text} {unit}"
+
+
+def share_in_words(share: float) -> str:
+    """A share in percent; only what is certain is ``100 %``, and only what is impossible ``0 %``.
+
+    Args:
+        share: From 0 to 1.
+    """
+    if 0.0 < share < 0.001:
+        return "< 0.1 %"
+    if 0.995 <= share < 1.0 - 1e-9:
+        return f"{100.0 * share:.1f} %" if share < 0.9995 else "> 99.9 %"
+    return f"{100.0 * share:.1f} %" if 0.0 < share < 0.1 else f"{100.0 * share:.0f} %"
+
+
+def rounded_away(limit: float, needed: float, unit: str, digits: int = 4) -> float:
+    """What a limit has to become, rounded away from what it is, so that the number as written is enough.
+
+    Args:
+        limit: The limit now.
+        needed: What it would have to become.
+        unit: The unit of both; money is rounded to whole units of it.
+        digits: Significant digits that are kept.
+    """
+    from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+
+    if needed == 0.0:
+        return needed
+    last = 0 if unit == "USD" else min(0, math.floor(math.log10(abs(needed))) - digits + 1)
+    nearest = round(needed, -last)
+    if math.isclose(nearest, needed, rel_tol=1e-9):
+        return nearest
+    away = ROUND_CEILING if needed > limit else ROUND_FLOOR
+    return float(Decimal(repr(needed)).quantize(Decimal(1).scaleb(last), rounding=away))
+
+
+def metric_in_words(metric: Metric) -> str:
+    """What a trial observed: a number, or each number of a row."""
+    if isinstance(metric, tuple):
+        return " ".join(map(value_in_words, metric))
+    return value_in_words(metric)
+
+
+def estimate_in_words(estimate: Estimate) -> str:
+    """An estimate with its interval and the number of its trials."""
+    if estimate.value is None:
+        return UNKNOWN
+    text = value_in_words(estimate.value, estimate.unit)
+    if estimate.n == 0:
+        return f"{text}, from the design alone"
+    if estimate.low is not None and estimate.high is not None and estimate.low != estimate.high:
+        text += f" ({value_in_words(estimate.low)} to {value_in_words(estimate.high)})"
+    return f"{text}, {estimate.n} {'trial' if estimate.n == 1 else 'trials'}"

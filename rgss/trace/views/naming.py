@@ -1,0 +1,94 @@
+"""From a name that a user gives to what it names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rgss.errors import DefinitionError
+from rgss.measures import MeasureSet
+from rgss.requirements import nearest
+from rgss.trace.evidence import TraceEvidence
+from rgss.trace.model import TraceModel
+from rgss.trace.views.neighbours import ThingKind, kinds_of
+
+_SHORTEST_KEY = 6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Named:
+    """What a name names.
+
+    Attributes:
+        id: Its id; of a trial, its whole key.
+        kind: What it is.
+        used_by: Of a trial, a symbol or a source: ids of the measures that it goes into.
+    """
+
+    id: str
+    kind: ThingKind
+    used_by: tuple[str, ...] = ()
+
+
+def named(model: TraceModel, evidence: TraceEvidence, name: str, *, definitions: MeasureSet | None = None) -> Named:
+    """Find what a name names.
+
+    Args:
+        model: The project's requirements, architecture and measures.
+        evidence: What is known beyond its files.
+        name: The name; see `chain_of`.
+        definitions: The measures as they are defined.
+
+    Raises:
+        DefinitionError: It names nothing; the hint says the nearest name.
+    """
+    kinds = kinds_of(model, evidence)
+    if name in kinds:
+        return Named(id=name, kind=kinds[name])
+    symbols = {} if definitions is None else dict(_symbols(definitions))
+    if name in symbols:
+        return symbols[name]
+    trial = _trial(evidence, name)
+    if trial is not None:
+        return trial
+    hint = nearest(name, [*kinds, *symbols])
+    raise DefinitionError(
+        f"{name!r} is no id of the requirements, the architecture, the measures, the tests or the trials shown",
+        hint=hint or "name one, such as SYS-004, BLK-gripper, P_max or 28/1",
+    )
+
+
+def _symbols(definitions: MeasureSet) -> Iterator[tuple[str, Named]]:
+    """Constants, inputs and their sources, equations and assumptions; the first of a name stands."""
+    measures = definitions.measures
+
+    def users(symbols: set[str]) -> tuple[str, ...]:
+        return tuple(item.id for item in measures if symbols & {item.id, *definitions.used[item.id]})
+
+    found: dict[str, Named] = {}
+    for constant in definitions.constants:
+        found[constant.id] = Named(id=constant.id, kind=ThingKind.CONSTANT, used_by=users({constant.id}))
+    for symbol in definitions.inputs:
+        found.setdefault(symbol.id, Named(id=symbol.id, kind=ThingKind.INPUT, used_by=users({symbol.id})))
+    for source in dict.fromkeys(symbol.source for symbol in definitions.inputs):
+        ids = {symbol.id for symbol in definitions.inputs if symbol.source == source}
+        found.setdefault(source, Named(id=source, kind=ThingKind.SOURCE, used_by=users(ids)))
+    for equation in definitions.equations:
+        ids = {item.id for item in measures if item.equation == equation.id}
+        found.setdefault(equation.id, Named(id=equation.id, kind=ThingKind.EQUATION, used_by=users(ids)))
+    for assumption in definitions.assumptions:
+        used_by = tuple(item.id for item in measures if assumption in definitions.assumptions_of(item.id))
+        found.setdefault(assumption.id, Named(id=assumption.id, kind=ThingKind.ASSUMPTION, used_by=used_by))
+    yield from found.items()
+
+
+def _trial(evidence: TraceEvidence, name: str) -> Named | None:
+    shown = evidence.shown
+    if shown is None:
+        return None
+    for trial in shown.trials:
+        by_key = len(name) >= _SHORTEST_KEY and trial.key.startswith(name)
+        if by_key or name == f"{trial.variant}/{trial.seed}":
+            used_by = tuple(measure for measure, keys in shown.deciding.items() if trial.key in keys)
+            return Named(id=trial.key, kind=ThingKind.TRIAL, used_by=used_by)
+    return None

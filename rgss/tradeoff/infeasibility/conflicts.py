@@ -1,0 +1,251 @@
+"""Why nothing is feasible, in the language of requirements."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from rgss.tradeoff.programs import Enumeration
+
+MOST_CONFLICTS = 1_000
+"""So many minimal conflicts are listed; there can be exponentially many."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RequirementCount:
+    """How many alternatives one requirement excludes.
+
+    Attributes:
+        requirement: Its id.
+        excluded: The number of alternatives that violate it.
+    """
+
+    requirement: str
+    excluded: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NearestAlternative:
+    """The alternative that violates the fewest requirements; of several, the smallest id.
+
+    Attributes:
+        variant: Its id.
+        requirements: What it violates.
+    """
+
+    variant: int
+    requirements: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimitChange:
+    """A limit that would have to move.
+
+    Attributes:
+        requirement: The id of the requirement whose limit it is.
+        demand: What is demanded now, such as ``P_max >= 0.8 kg``.
+        limit: The limit now.
+        needed: What it would have to become.
+        unit: The unit of both.
+    """
+
+    requirement: str
+    demand: str
+    limit: float
+    needed: float
+    unit: str
+
+    @property
+    def relative(self) -> float | None:
+        """The change as a share of the limit; None where the limit is 0."""
+        return None if self.limit == 0.0 else abs(self.needed - self.limit) / abs(self.limit)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Repair:
+    """The smallest change of one requirement that makes something feasible, everything else as it is.
+
+    Attributes:
+        requirement: Its id.
+        changes: The limits that would have to move; empty if no change of this requirement alone
+            helps.
+        unlocked: How many alternatives are then feasible.
+        winner: The alternative that is then chosen; None if none.
+    """
+
+    requirement: str
+    changes: tuple[LimitChange, ...]
+    unlocked: int
+    winner: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointRepair:
+    """The smallest change of a correction's requirements that makes something feasible.
+
+    Where there are several conflicts, no requirement mends them alone, but each correction does.
+
+    Attributes:
+        requirements: The correction.
+        changes: The limits that would have to move together; empty if no change of limits helps,
+            because evidence is missing.
+        unlocked: How many alternatives are then feasible.
+        winner: The alternative that is then chosen; None if none.
+    """
+
+    requirements: tuple[str, ...]
+    changes: tuple[LimitChange, ...]
+    unlocked: int
+    winner: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConflictSurvival:
+    """How often a conflict is still there when the replicates are drawn anew.
+
+    Attributes:
+        resamples: How many draws were looked at.
+        exact: Whether these are all distinct draws, each with its probability, so that nothing is
+            left to chance; otherwise they are a sample.
+        nothing_feasible: The probability that nothing is feasible in a draw.
+        conflicts: For each minimal conflict, the probability that no alternative meets its
+            requirements together, in the order of the conflicts.
+    """
+
+    resamples: int
+    exact: bool
+    nothing_feasible: float
+    conflicts: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Conflicts:
+    """Why no alternative is feasible.
+
+    Attributes:
+        excluded_by: For each requirement how many alternatives it excludes, zero included.
+        minimal_conflict: The first of the minimal conflicts.
+        minimal_conflicts: All sets of requirements that no alternative meets together, whereas
+            without any one of them some alternative meets the rest; the smallest first.
+        complete: Whether these are all, for there can be more than `MOST_CONFLICTS`.
+        corrections: All smallest sets of requirements without which something is feasible: every
+            conflict has one of each set.
+        nearest: The alternative that violates the fewest requirements.
+        repairs: For each requirement, what its limit would have to become for something to be
+            feasible if nothing else changes.
+        joint_repairs: The same for each of the `corrections`, in their order.
+        survival: How the conflict stands up to the noise of the replicates; None where no measure
+            has more than one.
+    """
+
+    excluded_by: tuple[RequirementCount, ...]
+    minimal_conflict: tuple[str, ...]
+    minimal_conflicts: tuple[tuple[str, ...], ...]
+    complete: bool
+    corrections: tuple[tuple[str, ...], ...]
+    nearest: NearestAlternative
+    repairs: tuple[Repair, ...] = ()
+    joint_repairs: tuple[JointRepair, ...] = ()
+    survival: ConflictSurvival | None = None
+
+
+def find_conflicts(enumeration: Enumeration) -> Conflicts | None:
+    """Explain infeasibility.
+
+    An alternative is feasible without a set of requirements if it violates no others. So a set
+    conflicts exactly if every alternative violates one of its requirements: the minimal conflicts
+    are the minimal sets that hit what each alternative violates (Reiter, "A theory of diagnosis from
+    first principles", 1987).
+
+    Args:
+        enumeration: Every alternative evaluated.
+
+    Returns:
+        The conflicts, without repairs and survival; None if some alternative is feasible.
+    """
+    if enumeration.feasible.any():
+        return None
+    # Rows are by ascending id, so the first of the fewest violations has the smallest id.
+    nearest = int(enumeration.variants[int(enumeration.violated.sum(axis=1).argmin())])
+    violated = smallest_sets(violation_sets(enumeration.violated))
+    hitting, complete = minimal_hitting_sets(violated, MOST_CONFLICTS)
+    names = enumeration.requirements
+    conflicts = tuple(tuple(names[place] for place in places) for places in hitting)
+    return Conflicts(
+        excluded_by=excluded_counts(enumeration, ~enumeration.feasible),
+        minimal_conflict=conflicts[0],
+        minimal_conflicts=conflicts,
+        complete=complete,
+        corrections=tuple(tuple(names[place] for place in places) for places in violated),
+        nearest=NearestAlternative(variant=nearest, requirements=enumeration.violated_by(nearest)),
+    )
+
+
+def excluded_counts(enumeration: Enumeration, among: NDArray[np.bool_]) -> tuple[RequirementCount, ...]:
+    """Count for each requirement the alternatives that it excludes.
+
+    Args:
+        enumeration: Every alternative evaluated.
+        among: Which alternatives count, shape (n,).
+
+    Returns:
+        One count for each requirement, in the problem's order.
+    """
+    counts = enumeration.violated[among].sum(axis=0)
+    return tuple(
+        RequirementCount(requirement=requirement, excluded=int(count))
+        for requirement, count in zip(enumeration.requirements, counts, strict=True)
+    )
+
+
+def violation_sets(violated: NDArray[np.bool_]) -> list[tuple[int, ...]]:
+    """What alternatives violate, each different set once, as columns in ascending order.
+
+    Args:
+        violated: Which alternative violates which requirement, shape (n, r).
+    """
+    import numpy as np
+
+    patterns = np.unique(violated, axis=0)
+    return [tuple(np.flatnonzero(pattern).tolist()) for pattern in patterns]
+
+
+def smallest_sets(sets: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """The sets that contain no other, the smallest first, then in lexicographic order."""
+    kept: list[frozenset[int]] = []
+    for candidate in sorted({frozenset(each) for each in sets}, key=lambda each: (len(each), sorted(each))):
+        if not any(smaller <= candidate for smaller in kept):
+            kept.append(candidate)
+    return [tuple(sorted(each)) for each in kept]
+
+
+def minimal_hitting_sets(sets: list[tuple[int, ...]], most: int) -> tuple[list[tuple[int, ...]], bool]:
+    """All minimal sets that have an element of each set, by Berge's algorithm.
+
+    Set after set, a hitting set of those before either hits the next one too or is extended by each
+    of its elements; what then contains another is left out (Berge, *Hypergraphs*, 1989).
+
+    Args:
+        sets: The sets, none of which is empty.
+        most: At most so many are kept on the way; beyond, the smallest.
+
+    Returns:
+        The hitting sets, the smallest first, then in lexicographic order; and whether they are all.
+    """
+    found: list[tuple[int, ...]] = [()]
+    complete = True
+    for each in sets:
+        extended: list[tuple[int, ...]] = []
+        for hitting in found:
+            if set(hitting) & set(each):
+                extended.append(hitting)
+            else:
+                extended += [tuple(sorted((*hitting, element))) for element in each]
+        found = smallest_sets(extended)
+        if len(found) > most:
+            found, complete = found[:most], False
+    return found, complete

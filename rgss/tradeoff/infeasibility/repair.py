@@ -1,0 +1,118 @@
+"""The cheapest repairs: how far limits would have to move, alone or together, and what would then win."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rgss.tradeoff.infeasibility.conflicts import JointRepair, LimitChange, Repair
+from rgss.tradeoff.problem import ChanceBound, Comparison
+from rgss.tradeoff.programs import condition_column, keeps, ordering_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from rgss.tradeoff.problem import Condition
+    from rgss.tradeoff.programs import Enumeration, Preferences
+
+
+def find_repairs(preferences: Preferences, enumeration: Enumeration) -> tuple[Repair, ...]:
+    """The cheapest repair of each requirement of an infeasible trade-off.
+
+    Of a requirement with one limit, the new limit is the statistic that comes nearest to the present
+    one among the alternatives that violate nothing else. Of one with several, each alternative
+    asks for a change of those that it violates; the one that needs the smallest largest relative
+    change is taken.
+
+    Args:
+        preferences: What is wanted.
+        enumeration: Every alternative evaluated.
+
+    Returns:
+        A repair for each requirement, in their order.
+    """
+    found = []
+    for requirement in enumeration.requirements:
+        changes, unlocked, winner = _mended(preferences, enumeration, (requirement,))
+        found.append(Repair(requirement=requirement, changes=changes, unlocked=unlocked, winner=winner))
+    return tuple(found)
+
+
+def find_joint_repairs(
+    preferences: Preferences, enumeration: Enumeration, corrections: Sequence[tuple[str, ...]]
+) -> tuple[JointRepair, ...]:
+    """The cheapest repair of each correction of an infeasible trade-off.
+
+    Of the alternatives that violate just the requirements of a correction, the one that needs the
+    smallest largest relative change of their limits.
+
+    Args:
+        preferences: What is wanted.
+        enumeration: Every alternative evaluated.
+        corrections: The smallest sets of requirements without which something is feasible.
+
+    Returns:
+        A repair for each correction, in their order.
+    """
+    found = []
+    for requirements in corrections:
+        changes, unlocked, winner = _mended(preferences, enumeration, requirements)
+        found.append(JointRepair(requirements=requirements, changes=changes, unlocked=unlocked, winner=winner))
+    return tuple(found)
+
+
+def _mended(
+    preferences: Preferences, enumeration: Enumeration, requirements: Sequence[str]
+) -> tuple[tuple[LimitChange, ...], int, int | None]:
+    """The changes of the limits of some requirements; how many are then feasible, and which is chosen."""
+    none: tuple[tuple[LimitChange, ...], int, int | None] = ((), 0, None)
+    places = [enumeration.requirements.index(requirement) for requirement in requirements]
+    others = np.delete(enumeration.violated, places, axis=1)
+    only = enumeration.violated[:, places].all(axis=1) & ~others.any(axis=1)
+    conditions = [condition for condition in preferences.conditions if condition.requirement in requirements]
+    if {condition.requirement for condition in conditions} != set(requirements):
+        # Missing evidence has no limit that could move.
+        return none
+    # Only these are looked at from here on, so that many corrections of many alternatives take no longer.
+    table = enumeration.table.rows(np.flatnonzero(only))
+    columns = [condition_column(condition, table) for condition in conditions]
+    movable = np.all([_reachable(*pair) for pair in zip(conditions, columns, strict=True)], axis=0)
+    if not movable.any():
+        return none
+    efforts = np.max([_effort(*pair) for pair in zip(conditions, columns, strict=True)], axis=0)
+    row = int(np.flatnonzero(movable)[efforts[movable].argmin()])
+    feasible = np.ones(len(table), dtype=np.bool_)
+    changes = []
+    for condition, column in zip(conditions, columns, strict=True):
+        limit = condition.limit
+        if not condition.sense.holds(float(column[row]), limit):
+            limit = float(column[row])
+            changes.append(
+                LimitChange(
+                    requirement=condition.requirement,
+                    demand=condition.demand,
+                    limit=condition.limit,
+                    needed=limit,
+                    unit=condition.limit_unit,
+                )
+            )
+        feasible &= keeps(condition.sense, column, limit)
+    # Regret is relative to what is feasible, which the repair changes.
+    tied = np.flatnonzero(ordering_of(preferences.program, preferences, table, feasible).best(feasible))
+    winner = int(table.variants[tied[0]]) if tied.size else None
+    return tuple(changes), int(feasible.sum()), winner
+
+
+def _reachable(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Where a condition can be met by another limit: a statistic is known, and a chance is not 0."""
+    # A chance of 0 demands nothing, so it is no demand that could be written down.
+    return column > 0.0 if isinstance(condition, ChanceBound) else ~np.isnan(column)
+
+
+def _effort(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How much of its limit a condition would have to give up for each alternative; 0 where it holds."""
+    missing = condition.limit - column if condition.sense is Comparison.AT_LEAST else column - condition.limit
+    scale = abs(condition.limit) or 1.0
+    return np.where(keeps(condition.sense, column, condition.limit), 0.0, missing / scale)

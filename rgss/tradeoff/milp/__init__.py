@@ -1,0 +1,71 @@
+"""Mixed-integer programs: terms, selections, stages, solver runs and their checks."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.milp.checks import Agreement, Check, CheckKind
+    from rgss.tradeoff.milp.independent_solver import SolverCheck, independent_run
+    from rgss.tradeoff.milp.linear import SOLVER_TOLERANCE, solve_linear
+    from rgss.tradeoff.milp.selection import INTEGRALITY_TOLERANCE, Row, Selection, VariantSelection, read_choice
+    from rgss.tradeoff.milp.stage import (
+        FIRST_RUN,
+        OBJECTIVE_SCALE,
+        RUNS,
+        SolverRun,
+        Stage,
+        StageSolution,
+        StageSolver,
+        proven_gap,
+        solve_program,
+    )
+    from rgss.tradeoff.milp.status import DecisionStatus
+    from rgss.tradeoff.milp.sums import LinearQuantity, is_piecewise
+    from rgss.tradeoff.milp.terms import (
+        ConditionConstraint,
+        ConstraintTerm,
+        EvidenceConstraint,
+        Exclusion,
+        ObjectiveTerm,
+        QuantityRank,
+        WeightedValue,
+        WorstOf,
+    )
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "FIRST_RUN",
+    "INTEGRALITY_TOLERANCE",
+    "OBJECTIVE_SCALE",
+    "RUNS",
+    "SOLVER_TOLERANCE",
+    "Agreement",
+    "Check",
+    "CheckKind",
+    "ConditionConstraint",
+    "ConstraintTerm",
+    "DecisionStatus",
+    "EvidenceConstraint",
+    "Exclusion",
+    "LinearQuantity",
+    "ObjectiveTerm",
+    "QuantityRank",
+    "Row",
+    "Selection",
+    "SolverCheck",
+    "SolverRun",
+    "Stage",
+    "StageSolution",
+    "StageSolver",
+    "VariantSelection",
+    "WeightedValue",
+    "WorstOf",
+    "independent_run",
+    "is_piecewise",
+    "proven_gap",
+    "read_choice",
+    "solve_linear",
+    "solve_program",
+]

@@ -1,0 +1,233 @@
+"""One mixed-integer program after another: compiled, solved by HiGHS, accepted only when proven."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.milp.checks import Check
+from rgss.tradeoff.milp.selection import Selection
+from rgss.tradeoff.milp.status import DecisionStatus
+from rgss.tradeoff.milp.terms import ConstraintTerm, ObjectiveTerm
+from rgss.tradeoff.problem import Alternative
+
+OBJECTIVE_SCALE = 1e3
+"""Values from 0 to 1 are scaled by it in the solver, so that its tolerances lie far below a tie's."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolverRun:
+    """A solver with a named set of options.
+
+    Attributes:
+        name: The name, as certificates give it.
+        options: The options.
+        solver: The solver, as CVXPY names it.
+    """
+
+    name: str
+    options: Mapping[str, Any] = field(hash=False)
+    solver: str = "HIGHS"
+
+
+_COMMON = {
+    # HiGHS stops by default within 1e-4 of the optimum; here the optimum itself is wanted.
+    "mip_rel_gap": 0.0,
+    "mip_abs_gap": 0.0,
+    # Below 1e-6 HiGHS 1.15 proves wrong bounds: benchmarks/tradeoff_guard.py measures it.
+    "mip_feasibility_tolerance": 1e-6,
+    "primal_feasibility_tolerance": 1e-7,
+    "dual_feasibility_tolerance": 1e-7,
+    # One thread, so that the same program gives the same answer on every machine.
+    "threads": 1,
+    # A count of nodes, not of seconds: the same answer on every machine.
+    "mip_max_nodes": 200_000,
+}
+
+FIRST_RUN = SolverRun(name="HiGHS without presolve", options={**_COMMON, "presolve": "off"})
+"""The presolve of HiGHS calls some feasible mixed-integer programs infeasible (among others
+ERGO-Code/HiGHS#3090), so the first run leaves it off."""
+
+SECOND_RUN = SolverRun(
+    name="HiGHS with presolve and another seed", options={**_COMMON, "presolve": "on", "random_seed": 7}
+)
+"""Another path through the same solver: other rows, other cuts, other branching."""
+
+THIRD_RUN = SolverRun(
+    name="HiGHS without heuristics and restarts",
+    options={
+        **_COMMON,
+        "presolve": "off",
+        "random_seed": 42,
+        "mip_heuristic_effort": 0.0,
+        "mip_allow_restart": False,
+    },
+)
+"""Asked where the first two do not agree."""
+
+RUNS = (FIRST_RUN, SECOND_RUN, THIRD_RUN)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stage:
+    """One program: maximise the sum of the objective terms under all constraints.
+
+    Attributes:
+        name: What is maximised or minimised, for people.
+        objective: The terms that are summed.
+        constraints: The conditions beyond those of the trade-off itself.
+        scale: What the objective is multiplied by in the solver.
+        sign: -1 where people read the objective with the other sign, for it is minimised.
+        quantity: The measure whose quantity people read in place of the objective, which is then
+            only its rank.
+    """
+
+    name: str
+    objective: tuple[ObjectiveTerm, ...]
+    constraints: tuple[ConstraintTerm, ...] = ()
+    scale: float = OBJECTIVE_SCALE
+    sign: float = 1.0
+    quantity: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StageSolution:
+    """What the solver answered.
+
+    Attributes:
+        name: The name of the stage.
+        status: Optimal, best found or infeasible.
+        alternative: The selected alternative; None if infeasible.
+        objective: What was optimised, as people read it; None if infeasible.
+        gap: How far the bound that the solver proved is from its objective, in the objective's own
+            unit (or ranks); None if infeasible.
+        selection_error: How far the solver's variables are from selecting exactly that
+            alternative: the largest difference from 0 or 1; 0 if infeasible.
+        checks: The independent checks of the answer.
+        exhaustive: Whether one of them evaluated every alternative.
+        solvers: The solvers that came to the answer, where more than HiGHS were run.
+    """
+
+    name: str
+    status: DecisionStatus
+    alternative: Alternative | None
+    objective: float | None
+    gap: float | None
+    selection_error: float
+    checks: tuple[Check, ...] = ()
+    exhaustive: bool = False
+    solvers: tuple[str, ...] = (FIRST_RUN.solver,)
+
+    @property
+    def chosen(self) -> Alternative:
+        """The selected alternative of an optimal stage."""
+        if self.alternative is None:
+            raise TradeoffError(f"stage {self.name!r} is infeasible", hint="look at its status first")
+        return self.alternative
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StageSolver:
+    """Solves stages that share their variables' structure and the trade-off's own constraints.
+
+    Attributes:
+        select: Makes new decision variables.
+        constraints: The constraints of every stage.
+        run: The options of the solver.
+    """
+
+    select: Callable[[], Selection]
+    constraints: tuple[ConstraintTerm, ...]
+    run: SolverRun = FIRST_RUN
+
+    def solve(self, stage: Stage) -> StageSolution:
+        """Solve a stage to proven optimality or proven infeasibility.
+
+        Raises:
+            TradeoffError: The solver is missing, failed, or proved neither.
+        """
+        problem, selection = self.compiled(stage)
+        if not solve_program(problem, self.run):
+            return StageSolution(
+                name=stage.name,
+                status=DecisionStatus.INFEASIBLE,
+                alternative=None,
+                objective=None,
+                gap=None,
+                selection_error=0.0,
+            )
+        alternative, error = selection.read()
+        objective = stage.sign * float(problem.value) / stage.scale + 0.0
+        return StageSolution(
+            name=stage.name,
+            status=DecisionStatus.OPTIMAL,
+            alternative=alternative,
+            objective=objective if stage.quantity is None else alternative.measures[stage.quantity],
+            gap=proven_gap(problem) / stage.scale,
+            selection_error=error,
+        )
+
+    def compiled(self, stage: Stage) -> tuple[Any, Selection]:
+        """A stage as a CVXPY problem, and the variables that tell what it selects."""
+        import cvxpy
+
+        selection = self.select()
+        maximised = sum(term.compile(selection) for term in stage.objective)
+        constraints = [term.compile(selection) for term in (*self.constraints, *stage.constraints)]
+        # The structure is asked for last, because terms may have called for further variables.
+        constraints += [constraint for _, constraint in selection.structure]
+        return cvxpy.Problem(cvxpy.Maximize(stage.scale * maximised), constraints), selection
+
+
+def solve_program(problem: Any, run: SolverRun = FIRST_RUN) -> bool:
+    """Solve a CVXPY problem.
+
+    Args:
+        problem: The problem, whose objective is bounded.
+        run: The solver and its options.
+
+    Returns:
+        True if an optimum is proven, False if it is proven that there is none.
+
+    Raises:
+        TradeoffError: The solver is missing, failed, or proved neither.
+    """
+    import cvxpy
+
+    try:
+        with warnings.catch_warnings():
+            # These two only repeat the status, which is judged below.
+            warnings.filterwarnings("ignore", message=r"\s*Solution may be inaccurate")
+            warnings.filterwarnings("ignore", message=r"\s*The problem is either infeasible or unbounded")
+            problem.solve(solver=run.solver, **run.options)
+    except cvxpy.SolverError as error:
+        raise TradeoffError(
+            f"the solver failed: {' '.join(str(error).split())}",
+            hint=f"check that {run.name} is installed: pip install 'rgss[scip]'"
+            if run.solver == cvxpy.SCIP
+            else "check that highspy is installed: pip install 'cvxpy>=1.7' highspy",
+        ) from error
+    if problem.status == cvxpy.INFEASIBLE:
+        return False
+    if problem.status == "infeasible_or_unbounded" and run.solver == cvxpy.SCIP:
+        # What the presolve of SCIP ends with; the objective is bounded, for it is that of one of finitely many designs.
+        return False
+    if problem.status != cvxpy.OPTIMAL:
+        raise TradeoffError(
+            f"the solver ended with the status {problem.status!r}",
+            hint="only a proven optimum is accepted; look for measures of extreme magnitude",
+        )
+    return True
+
+
+def proven_gap(problem: Any) -> float:
+    """How far the bound that the solver proved is from the objective that it found; 0 if that is proven best."""
+    information = problem.solver_stats.extra_stats
+    if isinstance(information, Mapping):
+        # SCIP minimises, and its model outlives the run.
+        model = information["model"]
+        return max(0.0, float(model.getObjVal()) - float(model.getDualbound()))
+    return max(0.0, float(information.objective_function_value) - float(information.mip_dual_bound))

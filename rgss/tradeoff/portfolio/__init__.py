@@ -1,0 +1,28 @@
+"""Portfolios: few designs that serve many tasks."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.portfolio.checks import PortfolioAim
+    from rgss.tradeoff.portfolio.portfolio import (
+        Assignment,
+        PortfolioDecision,
+        PortfolioProblem,
+        PortfolioTask,
+        decide_portfolio,
+    )
+    from rgss.tradeoff.portfolio.work import Cut
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "Assignment",
+    "Cut",
+    "PortfolioAim",
+    "PortfolioDecision",
+    "PortfolioProblem",
+    "PortfolioTask",
+    "decide_portfolio",
+]

@@ -1,0 +1,379 @@
+"""A portfolio: at most k designs that together serve several tasks, each by the one that does it best."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.milp import Agreement, Check, CheckKind, DecisionStatus, SolverRun
+from rgss.tradeoff.portfolio.checks import (
+    FLEET_RUN,
+    LARGEST_SOLVED,
+    PortfolioAim,
+    best_portfolio,
+    portfolio_objective,
+    solved_portfolio,
+)
+from rgss.tradeoff.portfolio.work import MOST_WORK, Cut, TaskQueue
+from rgss.tradeoff.problem import TIE_TOLERANCE, Weighting
+from rgss.tradeoff.programs import AdditiveValue, TradeProblem
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from rgss.tradeoff.portfolio.mean import SizeAnswer
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PortfolioTask:
+    """One task or scene that is to be served.
+
+    Attributes:
+        name: Its name.
+        weight: Its share in the mean.
+        problem: The same alternatives with their evidence in this task, and what it demands.
+    """
+
+    name: str
+    weight: float
+    problem: TradeProblem
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PortfolioProblem:
+    """Choose at most k designs, or kinds of designs, so that every task is served as well as possible.
+
+    Attributes:
+        tasks: The tasks.
+        at_most: The largest number of members.
+        groups: What counts as one member, by id of the alternative, such as the gripper that it
+            has: then a member may serve each task by another alternative of its group. Every
+            alternative counts by itself where there are none.
+        aim: Mean or worst.
+
+    Raises:
+        TradeoffError: The problem is ill posed.
+    """
+
+    tasks: tuple[PortfolioTask, ...]
+    at_most: int
+    groups: Mapping[int, str] | None = field(default=None, hash=False)
+    aim: PortfolioAim = PortfolioAim.MEAN
+
+    def __post_init__(self) -> None:
+        if not self.tasks:
+            raise TradeoffError("a fleet without tasks has nothing to do", hint="name at least one task")
+        names = [task.name for task in self.tasks]
+        for name in names:
+            if names.count(name) > 1:
+                raise TradeoffError(f"task {name!r} is given twice", hint="keep one of them")
+        if self.at_most < 1:
+            raise TradeoffError(f"a fleet of at most {self.at_most} designs serves no task", hint="allow at least 1")
+        Weighting(weights={task.name: task.weight for task in self.tasks})
+        variants = [one.variant for one in self.tasks[0].problem.alternatives]
+        for task in self.tasks:
+            if not isinstance(task.problem.program, AdditiveValue):
+                raise TradeoffError(
+                    f"task {task.name!r} is decided by the {task.problem.program.name} program",
+                    hint="a fleet is chosen by weighted value; use the additive program",
+                )
+            others = {one.variant for one in task.problem.alternatives}
+            for variant in sorted(others.symmetric_difference(variants)):
+                raise TradeoffError(
+                    f"variant {variant} is not among the alternatives of every task",
+                    hint="give every task the same designs",
+                )
+        for variant in variants:
+            if self.groups is not None and variant not in self.groups:
+                raise TradeoffError(f"variant {variant} belongs to no group", hint="give every variant its group")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assignment:
+    """Which alternative serves a task.
+
+    Attributes:
+        task: The task.
+        member: The member of the fleet that the alternative belongs to.
+        variant: The alternative.
+        value: Its weighted value in this task.
+    """
+
+    task: str
+    member: str
+    variant: int
+    value: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PortfolioDecision:
+    """The outcome of choosing a fleet.
+
+    Attributes:
+        status: Optimal; best found where a limit ended the proof; infeasible if no fleet of the size
+            serves every task; undecided where a limit ended the search for one.
+        members: The chosen members: of the tied best portfolios one with the fewest, and of these,
+            where all were enumerated, the first in the order of their smallest variants.
+        assignments: Who serves each task.
+        objective: Mean or worst value; None if there is none.
+        by_size: The best objective with at most 1, 2, … members that was found; None where there is
+            none. It never falls.
+        by_size_gap: How much better a portfolio of each size can be at most; None where none was found.
+        unserved: Tasks that no alternative serves at all.
+        gap: How far the bound that was proved is from the objective; None if there is none.
+        objective_recomputed: The objective of the chosen members in NumPy; None if there is none.
+        considered: How many members were left after exact reduction.
+        enumeration_agrees: Whether enumeration of all portfolios comes to the same objective.
+        checks: The independent checks that were made.
+        cut: The limit that ended a proof; None if all are complete. Under a time limit the answer
+            depends on the machine.
+    """
+
+    status: DecisionStatus
+    members: tuple[str, ...]
+    assignments: tuple[Assignment, ...]
+    objective: float | None
+    by_size: tuple[float | None, ...]
+    by_size_gap: tuple[float | None, ...]
+    unserved: tuple[str, ...]
+    gap: float | None
+    objective_recomputed: float | None
+    considered: int
+    enumeration_agrees: Agreement
+    checks: tuple[Check, ...]
+    cut: Cut | None
+
+
+def decide_portfolio(
+    problem: PortfolioProblem,
+    *,
+    time_limit: float | None = None,
+    most_work: int = MOST_WORK,
+    independent: tuple[SolverRun, ...] = (),
+) -> PortfolioDecision:
+    """Choose the best portfolio, with a bound on how much better another one can be.
+
+    A member's value in a task is that of its best feasible alternative. A member that another is at
+    least as good as in every task is left out before. For each size a portfolio is searched for by
+    greedy choice and exchanges, and proven best by branch and bound: with Lagrangian bounds for the
+    mean, over covers for the worst task. Both bounds are computed in NumPy from the values alone; the weights
+    that bound covers are proposed by a linear program, and hold whatever it answers.
+    Where it is small enough, HiGHS solves the mixed-integer program as well, and all portfolios are
+    enumerated; what they find better is used.
+
+    Args:
+        problem: The problem.
+        time_limit: Seconds for the proofs, in place of the work limit; the answer then depends on the
+            machine.
+        most_work: The work limit: so many values are looked at, the same on every machine.
+        independent: Runs of other solvers than HiGHS, made wherever HiGHS solves the program.
+
+    Raises:
+        TradeoffError: The time limit is not positive.
+    """
+    import numpy as np
+
+    if time_limit is not None and not (math.isfinite(time_limit) and time_limit > 0.0):
+        raise TradeoffError(f"the time limit must be positive, got {time_limit:g} s", hint="give seconds, such as 60")
+    names, values, best_variants = _member_values(problem)
+    weights = np.array([task.weight for task in problem.tasks])
+    unserved = tuple(task.name for task, column in zip(problem.tasks, values.T, strict=True) if (column < 0.0).all())
+    kept = _undominated(values)
+    answers, cut = _by_size(problem, values[kept], weights, time_limit, most_work)
+    best, bound = answers[-1].objective, answers[-1].bound
+    # Of equally good sizes the smallest.
+    rows = next(one.rows for one in answers if one.objective >= best - TIE_TOLERANCE)
+    rows, checks = _checked(problem, values[kept], weights, rows, independent)
+    enumerated = best_portfolio(values[kept], weights, problem.at_most, problem.aim)
+    agreement = Agreement.NOT_ENUMERATED
+    if enumerated is not None:
+        found = enumerated[0] or ()
+        same = abs(enumerated[1] - _score(problem, values[kept], weights, answers[-1].rows)) <= TIE_TOLERANCE
+        agreement = Agreement.AGREED if same else Agreement.DISAGREED
+        rows, bound, cut = found, enumerated[1], None
+        checks.append(Check(kind=CheckKind.ENUMERATION, agrees=same, detail="all portfolios evaluated"))
+    objective = _score(problem, values[kept], weights, rows)
+    # A member that serves no task best is left out.
+    chosen = sorted({int(kept[rows[place]]) for place in values[kept[list(rows)]].argmax(axis=0)}) if rows else []
+    by_size, gaps = _sizes(answers, objective, bound, problem.at_most)
+    if rows:
+        # A portfolio above its bound contradicts the proof, so that nothing is proven.
+        proven = abs(bound - objective) <= TIE_TOLERANCE
+        status = DecisionStatus.OPTIMAL if proven else DecisionStatus.BEST_FOUND
+    else:
+        status = DecisionStatus.INFEASIBLE if bound < 0.0 else DecisionStatus.UNDECIDED
+    recomputed = float(portfolio_objective(values[chosen], weights, problem.aim)) if chosen else None
+    return PortfolioDecision(
+        status=status,
+        members=tuple(names[row] for row in chosen),
+        assignments=tuple(
+            _assignment(task, [(float(values[row, at]), -best_variants[row][at], names[row]) for row in chosen])
+            for at, task in enumerate(problem.tasks)
+            if chosen
+        ),
+        objective=objective if rows else None,
+        by_size=by_size,
+        by_size_gap=gaps,
+        unserved=unserved,
+        gap=max(0.0, bound - objective) if rows else None,
+        objective_recomputed=recomputed,
+        considered=len(kept),
+        enumeration_agrees=agreement,
+        checks=tuple(checks),
+        cut=cut,
+    )
+
+
+def _by_size(
+    problem: PortfolioProblem,
+    values: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    time_limit: float | None,
+    most_work: int,
+) -> tuple[list[SizeAnswer], Cut | None]:
+    """The best portfolio of each size, each at least as good as the one before, and what cut a proof."""
+    from rgss.tradeoff.portfolio.mean import best_mean
+    from rgss.tradeoff.portfolio.primal import profits_of, search_portfolio
+    from rgss.tradeoff.portfolio.worst import best_worst, worst_of
+
+    profits = profits_of(values, weights)
+    sizes = range(1, min(problem.at_most, len(values)) + 1)
+    began = time.monotonic()
+    answers: list[SizeAnswer] = []
+    cut: Cut | None = None
+    rows: tuple[int, ...] = ()
+    left = most_work
+    for size in sizes:
+        # Half is kept for the last size, which is decided; of the other half each may take a quarter of what is left.
+        last = size == sizes[-1]
+        if time_limit is None:
+            work = TaskQueue(left if last else max(0, left - most_work // 2) // 4)
+        else:
+            now = time.monotonic()
+            end = began + time_limit if last else now + max(0.0, began + time_limit / 2.0 - now) / 4.0
+            work = TaskQueue(None, end)
+        if problem.aim is PortfolioAim.MEAN:
+            answer = best_mean(profits, size, rows, TIE_TOLERANCE, work)
+        else:
+            candidates = (rows, search_portfolio(profits, size, (rows,)))
+            start = max(candidates, key=lambda one: worst_of(values, one))
+            answer = best_worst(values, size, start, TIE_TOLERANCE, work)
+        if answers and answers[-1].rows and answer.objective < answers[-1].objective:
+            answer = replace(answers[-1], bound=max(answer.bound, answers[-1].objective))
+        answers.append(answer)
+        rows = answer.rows
+        cut = cut or work.cut
+        left -= work.done
+    # More members never serve worse, so what bounds many bounds fewer as well.
+    for at in range(len(answers) - 2, -1, -1):
+        answers[at] = replace(answers[at], bound=min(answers[at].bound, answers[at + 1].bound))
+    return answers, cut
+
+
+def _checked(
+    problem: PortfolioProblem,
+    values: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    rows: tuple[int, ...],
+    independent: tuple[SolverRun, ...],
+) -> tuple[tuple[int, ...], list[Check]]:
+    """The better of a portfolio and the solvers', and what the solvers came to."""
+    checks: list[Check] = []
+    if values.size <= LARGEST_SOLVED:
+        rows, check = _compared(problem, values, weights, rows, FLEET_RUN, "HiGHS", CheckKind.SECOND_RUN)
+        checks.append(check)
+    for run in independent:
+        if values.size > LARGEST_SOLVED:
+            detail = (
+                f"{run.name} not run: the program has {values.size} values, and at most {LARGEST_SOLVED} are solved"
+            )
+            checks.append(Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=False, detail=detail))
+            continue
+        rows, check = _compared(problem, values, weights, rows, run, run.name, CheckKind.INDEPENDENT_SOLVER)
+        checks.append(check)
+    return rows, checks
+
+
+def _compared(
+    problem: PortfolioProblem,
+    values: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    rows: tuple[int, ...],
+    run: SolverRun,
+    name: str,
+    kind: CheckKind,
+) -> tuple[tuple[int, ...], Check]:
+    """The better of a portfolio and that of one run, and what the run came to."""
+    ours = _score(problem, values, weights, rows)
+    try:
+        found = solved_portfolio(values, weights, min(problem.at_most, len(values)), problem.aim, run) or ()
+    except TradeoffError as error:
+        subject = "" if kind is CheckKind.SECOND_RUN else f"{name}: "
+        detail = f"{subject}the mixed-integer program was not completed: {error.message}"
+        return rows, Check(kind=kind, agrees=False, detail=detail)
+    theirs = _score(problem, values, weights, found)
+    agrees = abs(theirs - ours) <= TIE_TOLERANCE
+    detail = f"{name} on the mixed-integer program"
+    if not agrees:
+        detail += f": {'no portfolio' if theirs < 0.0 else f'{theirs:.9g}'} instead of {ours:.9g}; the better is used"
+    better = found if theirs > ours + TIE_TOLERANCE else rows
+    return better, Check(kind=kind, agrees=agrees, detail=detail)
+
+
+def _score(
+    problem: PortfolioProblem, values: NDArray[np.float64], weights: NDArray[np.float64], rows: tuple[int, ...]
+) -> float:
+    """The objective of a portfolio; -1 if it is empty or serves a task not at all."""
+    return float(portfolio_objective(values[list(rows)], weights, problem.aim)) if rows else -1.0
+
+
+def _sizes(
+    answers: list[SizeAnswer], objective: float, bound: float, at_most: int
+) -> tuple[tuple[float | None, ...], tuple[float | None, ...]]:
+    """The objective and the gap of each size; the last is what is decided."""
+    found = [*answers[:-1], replace(answers[-1], objective=objective, bound=max(bound, objective))]
+    found += found[-1:] * (at_most - len(found))
+    known = [one if one.objective >= 0.0 else None for one in found]
+    return (
+        tuple(None if one is None else one.objective for one in known),
+        tuple(None if one is None else max(0.0, one.bound - one.objective) for one in known),
+    )
+
+
+def _assignment(task: PortfolioTask, offers: list[tuple[float, int, str]]) -> Assignment:
+    """The best offer of the members; of equals, the smallest id."""
+    value, negated, member = max(offers)
+    return Assignment(task=task.name, member=member, variant=-negated, value=value)
+
+
+def _member_values(problem: PortfolioProblem) -> tuple[list[str], NDArray[np.float64], list[list[int]]]:
+    """Every member's best value in every task, -1 where it cannot serve it, and by which alternative."""
+    import numpy as np
+
+    from rgss.tradeoff.programs import enumerate_alternatives
+
+    enumerations = [enumerate_alternatives(task.problem) for task in problem.tasks]
+    variants = enumerations[0].variants.tolist()
+    offered = np.stack([np.where(one.feasible, one.values, -1.0) for one in enumerations], axis=1)
+    rows: dict[str, list[int]] = {}
+    for row, variant in enumerate(variants):
+        rows.setdefault(str(variant) if problem.groups is None else problem.groups[variant], []).append(row)
+    values = np.stack([offered[members].max(axis=0) for members in rows.values()])
+    best = [[variants[members[at]] for at in offered[members].argmax(axis=0)] for members in rows.values()]
+    return list(rows), values, best
+
+
+def _undominated(values: NDArray[np.float64]) -> NDArray[np.intp]:
+    """Members that no other is at least as good as in every task; of equals the first."""
+    import numpy as np
+
+    from rgss.tradeoff.problem import nondominated
+
+    _, first = np.unique(values, axis=0, return_index=True)
+    rows = np.sort(first)
+    return np.asarray(rows[nondominated(values[rows])], dtype=np.intp)

@@ -1,0 +1,77 @@
+"""Statement of a trade-off: alternatives, values, weights, conditions and hierarchy."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.problem.alternatives import Array, Mask, checked_values, checked_weights, classes
+    from rgss.tradeoff.problem.conditions import (
+        EVIDENCE_PREFIX,
+        LIMIT_PREFIX,
+        PREFIXES,
+        ChanceBound,
+        Comparison,
+        Condition,
+        Risk,
+        TailBound,
+        Threshold,
+        replicates_of,
+    )
+    from rgss.tradeoff.problem.dominance import nondominated
+    from rgss.tradeoff.problem.evidence_table import Alternative, EvidenceTable, Samples, check_evidence, tabulated
+    from rgss.tradeoff.problem.hierarchy import CriterionNode, weighting_of, weights_of_criteria
+    from rgss.tradeoff.problem.level_space import Incompatibility, LevelFactor, LevelSpace, LevelStructure
+    from rgss.tradeoff.problem.resampling import FEWEST_REPLICATES, Resamples, bootstrap, interval
+    from rgss.tradeoff.problem.values import TIE_TOLERANCE, ExponentialValue, PiecewiseValue, TargetValue, ValueFunction
+    from rgss.tradeoff.problem.weight_bounds import ElicitedInterval, ElicitedOrder, WeightBounds
+    from rgss.tradeoff.problem.weighting import RankRule, Weighting, weights_from_points, weights_from_ranks
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "EVIDENCE_PREFIX",
+    "FEWEST_REPLICATES",
+    "LIMIT_PREFIX",
+    "PREFIXES",
+    "TIE_TOLERANCE",
+    "Alternative",
+    "Array",
+    "ChanceBound",
+    "Comparison",
+    "Condition",
+    "CriterionNode",
+    "ElicitedInterval",
+    "ElicitedOrder",
+    "EvidenceTable",
+    "ExponentialValue",
+    "Incompatibility",
+    "LevelFactor",
+    "LevelSpace",
+    "LevelStructure",
+    "Mask",
+    "PiecewiseValue",
+    "RankRule",
+    "Resamples",
+    "Risk",
+    "Samples",
+    "TailBound",
+    "TargetValue",
+    "Threshold",
+    "ValueFunction",
+    "WeightBounds",
+    "Weighting",
+    "bootstrap",
+    "check_evidence",
+    "checked_values",
+    "checked_weights",
+    "classes",
+    "interval",
+    "nondominated",
+    "replicates_of",
+    "tabulated",
+    "weighting_of",
+    "weights_from_points",
+    "weights_from_ranks",
+    "weights_of_criteria",
+]

@@ -1,0 +1,308 @@
+"""What a requirement demands of an alternative: a bound on a quantity, its chance, or its tail."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import TYPE_CHECKING
+
+from rgss.errors import TradeoffError
+from rgss.measures import RELATIVE_TOLERANCE
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.problem.evidence_table import Alternative
+
+EVIDENCE_PREFIX = "evidence:"
+"""Begins the pseudo requirement that a measure that decides be known at all."""
+
+CHANCE_PREFIX = "chance:"
+"""Begins the id of a demand on how often a requirement is met."""
+
+TAIL_PREFIX = "tail:"
+"""Begins the id of a demand on the worst replicates of a measure."""
+
+LIMIT_PREFIX = "limit:"
+"""Begins the id of a limit that an epsilon-constraint program sets."""
+
+PREFIXES = (EVIDENCE_PREFIX, CHANCE_PREFIX, TAIL_PREFIX, LIMIT_PREFIX)
+
+
+class Comparison(str, Enum):
+    """Which side of its threshold a measure must be on; the threshold itself is good enough.
+
+    A quantity that differs from the threshold by less than one part in 10⁹ counts as equal to it,
+    as it does in verdicts, so that binary rounding never decides.
+    """
+
+    AT_LEAST = ">="
+    AT_MOST = "<="
+
+    @classmethod
+    def parse(cls, text: str) -> Comparison:
+        """Read ``">="`` or ``"<="``.
+
+        Raises:
+            TradeoffError: The text is neither.
+        """
+        for comparison in cls:
+            if comparison.value == text:
+                return comparison
+        raise TradeoffError(f"unknown comparison {text!r}", hint="write >= or <=")
+
+    def margin(self, quantity: float, limit: float) -> float:
+        """How far a quantity is on the good side of a limit; negative on the bad side."""
+        difference = quantity - limit
+        return difference if self is Comparison.AT_LEAST else -difference
+
+    def holds(self, quantity: float | None, limit: float) -> bool:
+        """Tell whether a quantity keeps a limit; an unknown one (None) does not."""
+        if quantity is None:
+            return False
+        return self.margin(quantity, limit) >= 0.0 or math.isclose(quantity, limit, rel_tol=RELATIVE_TOLERANCE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Threshold:
+    """What a requirement demands of one measure; a requirement may have several thresholds.
+
+    Attributes:
+        requirement: Id of the requirement, such as ``SYS-012``.
+        measure: The measure that is compared.
+        comparison: At least or at most.
+        value: The threshold, in the measure's unit.
+        unit: That unit, for people.
+    """
+
+    requirement: str
+    measure: str
+    comparison: Comparison
+    value: float
+    unit: str
+
+    @property
+    def name(self) -> str:
+        """The constraint as people write it, such as ``SYS-012: P_max >= 0.8 kg``."""
+        return f"{self.requirement}: {self.demand}"
+
+    @property
+    def demand(self) -> str:
+        """What is demanded, such as ``P_max >= 0.8 kg``."""
+        return f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
+
+    @property
+    def sense(self) -> Comparison:
+        """On which side of its limit the statistic must be."""
+        return self.comparison
+
+    @property
+    def limit(self) -> float:
+        """The number that would change if the requirement were relaxed."""
+        return self.value
+
+    @property
+    def limit_unit(self) -> str:
+        """The unit of `limit`."""
+        return self.unit
+
+    def with_limit(self, limit: float) -> Threshold:
+        """The same demand with another limit."""
+        return replace(self, value=limit)
+
+    def statistic(self, alternative: Alternative) -> float | None:
+        """What is held against the limit: the quantity itself."""
+        return alternative.measures[self.measure]
+
+    def margin(self, quantity: float) -> float:
+        """How far a quantity is on the good side; negative on the bad side, in the measure's unit."""
+        return self.comparison.margin(quantity, self.value)
+
+    def is_met_by(self, quantity: float | None) -> bool:
+        """Tell whether a quantity meets the threshold; an unknown one (None) does not."""
+        return self.comparison.holds(quantity, self.value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChanceBound:
+    """A share of the replicates that must meet a threshold: ``P[t_e <= 25 s] >= 0.9``.
+
+    The probability is the share of all replicates that were run. A replicate that does not tell the
+    measure, such as the time of a task that failed, does not meet the threshold.
+
+    Attributes:
+        requirement: Id of the demand, such as ``chance:SYS-005``.
+        measure: The measure.
+        comparison: On which side of the threshold a replicate must be.
+        value: The threshold, in the measure's unit.
+        unit: That unit, for people.
+        probability: The share, between 0 and 1.
+
+    Raises:
+        TradeoffError: The probability is not between 0 and 1.
+    """
+
+    requirement: str
+    measure: str
+    comparison: Comparison
+    value: float
+    unit: str
+    probability: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.probability < 1.0:
+            raise TradeoffError(
+                f"{self.requirement}: a probability of {self.probability:g} cannot be shown by replicates",
+                hint="give a number between 0 and 1, such as 0.9",
+            )
+
+    @property
+    def name(self) -> str:
+        """The constraint as people write it."""
+        return f"{self.requirement}: {self.demand}"
+
+    @property
+    def demand(self) -> str:
+        """What is demanded, such as ``P[t_e <= 25 s] >= 0.9``."""
+        return f"P[{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}] >= {self.probability:g}"
+
+    @property
+    def sense(self) -> Comparison:
+        """On which side of its limit the statistic must be."""
+        return Comparison.AT_LEAST
+
+    @property
+    def limit(self) -> float:
+        """The number that would change if the requirement were relaxed."""
+        return self.probability
+
+    @property
+    def limit_unit(self) -> str:
+        """The unit of `limit`."""
+        return "1"
+
+    @property
+    def replicates_needed(self) -> int:
+        """So many replicates are needed for one to be allowed to fail."""
+        return _one_in(1.0 - self.probability)
+
+    def with_limit(self, limit: float) -> ChanceBound:
+        """The same demand with another probability."""
+        return replace(self, probability=limit)
+
+    def statistic(self, alternative: Alternative) -> float | None:
+        """What is held against the limit: the share of replicates that meet the threshold."""
+        return self.of_replicates(replicates_of(alternative, self.measure))
+
+    def of_replicates(self, row: Sequence[float | None]) -> float:
+        """The share of replicates that meet the threshold."""
+        return sum(self.comparison.holds(quantity, self.value) for quantity in row) / len(row)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TailBound:
+    """A threshold for the mean of the worst replicates: the conditional value at risk.
+
+    With n replicates and a share α, the mean is over the worst α n of them, the last one counting
+    with the fraction that is left: the CVaR of Rockafellar and Uryasev ("Optimization of
+    conditional value-at-risk", 2000) of the empirical distribution. An alternative of which a
+    replicate does not tell the measure does not meet it: the worst is then unknown.
+
+    Attributes:
+        requirement: Id of the demand, such as ``tail:SYS-005``.
+        measure: The measure.
+        comparison: At most bounds the largest replicates, at least the smallest.
+        value: The threshold, in the measure's unit.
+        unit: That unit, for people.
+        share: The share α of replicates that are the tail, above 0 and below 1.
+
+    Raises:
+        TradeoffError: The share is not between 0 and 1.
+    """
+
+    requirement: str
+    measure: str
+    comparison: Comparison
+    value: float
+    unit: str
+    share: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.share < 1.0:
+            raise TradeoffError(
+                f"{self.requirement}: the worst {self.share:g} of the replicates are no tail",
+                hint="give a share between 0 and 1, such as 0.1",
+            )
+
+    @property
+    def name(self) -> str:
+        """The constraint as people write it."""
+        return f"{self.requirement}: {self.demand}"
+
+    @property
+    def demand(self) -> str:
+        """What is demanded, such as ``mean of the worst 10 % of t_e <= 30 s``."""
+        limit = f"{self.comparison.value} {self.value:g}{unit_text(self.unit)}"
+        return f"mean of the worst {100.0 * self.share:g} % of {self.measure} {limit}"
+
+    @property
+    def sense(self) -> Comparison:
+        """On which side of its limit the statistic must be."""
+        return self.comparison
+
+    @property
+    def limit(self) -> float:
+        """The number that would change if the requirement were relaxed."""
+        return self.value
+
+    @property
+    def limit_unit(self) -> str:
+        """The unit of `limit`."""
+        return self.unit
+
+    @property
+    def replicates_needed(self) -> int:
+        """So many replicates are needed for the tail to hold a whole one."""
+        return _one_in(self.share)
+
+    def with_limit(self, limit: float) -> TailBound:
+        """The same demand with another threshold."""
+        return replace(self, value=limit)
+
+    def statistic(self, alternative: Alternative) -> float | None:
+        """What is held against the limit: the mean of the worst replicates; None if one is unknown."""
+        return self.of_replicates(replicates_of(alternative, self.measure))
+
+    def of_replicates(self, row: Sequence[float | None]) -> float | None:
+        """The mean of the worst replicates; None if one is unknown."""
+        known = [quantity for quantity in row if quantity is not None]
+        if len(known) < len(row):
+            return None
+        worst_first = sorted(known, reverse=self.comparison is Comparison.AT_MOST)
+        tail = self.share * len(known)
+        parts = [min(1.0, max(0.0, tail - place)) for place in range(len(known))]
+        # Summed exactly, for gains and losses may cancel to something far smaller than either.
+        return math.fsum(part * quantity for part, quantity in zip(parts, worst_first, strict=True)) / tail
+
+
+Risk = ChanceBound | TailBound
+"""A demand on replicates."""
+
+Condition = Threshold | ChanceBound | TailBound
+"""Anything that an alternative must meet: a statistic of its evidence on the good side of a limit."""
+
+
+def replicates_of(alternative: Alternative, measure: str) -> Sequence[float | None]:
+    """What each replicate showed of a measure; of one that follows from the design, its quantity once."""
+    row = alternative.replicates(measure)
+    return (alternative.measures[measure],) if row is None else row
+
+
+def unit_text(unit: str) -> str:
+    """A unit behind a number; nothing for a pure number."""
+    return "" if unit == "1" else f" {unit}"
+
+
+def _one_in(share: float) -> int:
+    # 1 / 0.05 is 20 and 1 / (1 - 0.95) should be too.
+    return math.ceil(round(1.0 / share, 9))

@@ -1,0 +1,107 @@
+"""Values and statistics of whole columns of alternatives, in NumPy."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import TradeoffError
+from rgss.measures import RELATIVE_TOLERANCE
+from rgss.tradeoff.problem import (
+    ChanceBound,
+    Comparison,
+    Condition,
+    EvidenceTable,
+    ExponentialValue,
+    PiecewiseValue,
+    Samples,
+    TailBound,
+    TargetValue,
+    Threshold,
+    ValueFunction,
+)
+from rgss.tradeoff.programs.preferences import Preferences
+
+Column = NDArray[np.float64]
+
+
+def value_column(function: ValueFunction, quantities: Column) -> Column:
+    """The value of each of many quantities.
+
+    Args:
+        function: The value function.
+        quantities: Quantities of its measure, shape (n,); NaN where unknown.
+
+    Returns:
+        Values from 0 to 1, shape (n,); NaN where the quantity is.
+
+    Raises:
+        TradeoffError: The function is of a kind that has no column form.
+    """
+    if isinstance(function, (PiecewiseValue, TargetValue)):
+        points = np.array(sorted(function.points), dtype=np.float64)
+        return np.interp(quantities, points[:, 0], points[:, 1])
+    if isinstance(function, ExponentialValue):
+        share = np.clip((quantities - function.worst) / (function.best - function.worst), 0.0, 1.0)
+        half = function.exponent / 2.0
+        if abs(half) < 5e-10:
+            return np.asarray(share, dtype=np.float64)
+        # (1 - e^{-ρ z}) / (1 - e^{-ρ}), with a half of each exponent taken out.
+        return np.asarray(np.exp(half * (1.0 - share)) * np.sinh(half * share) / np.sinh(half), dtype=np.float64)
+    raise TradeoffError(
+        f"the value function of {function.measure!r} is of an unknown kind", hint="use one of rgss.tradeoff"
+    )
+
+
+def condition_column(condition: Condition, table: EvidenceTable) -> Column:
+    """The statistic that a condition holds against its limit, for every alternative.
+
+    Args:
+        condition: The condition.
+        table: The alternatives.
+
+    Returns:
+        Statistics, shape (n,); NaN where unknown.
+    """
+    if isinstance(condition, Threshold):
+        return table.column(condition.measure)
+    samples = table.replicates(condition.measure)
+    if isinstance(condition, ChanceBound):
+        met = keeps(condition.comparison, samples.values, condition.value) & samples.ran
+        return np.asarray(met.sum(axis=1) / samples.ran.sum(axis=1), dtype=np.float64)
+    return tail_column(condition, samples)
+
+
+def tail_column(condition: TailBound, samples: Samples) -> Column:
+    """The mean of the worst replicates of every alternative, shape (n,); NaN where one is unknown."""
+    sign = 1.0 if condition.comparison is Comparison.AT_MOST else -1.0
+    losses = np.where(samples.ran, sign * samples.values, -np.inf)
+    losses = np.where(samples.ran & np.isnan(samples.values), np.inf, losses)
+    worst_first = -np.sort(-losses, axis=1)
+    tail = condition.share * samples.ran.sum(axis=1)
+    places = np.arange(losses.shape[1])
+    parts = np.clip(tail[:, None] - places[None, :], 0.0, 1.0)
+    # What counts nothing adds nothing, infinite or not.
+    products = np.where(parts > 0.0, parts * np.where(parts > 0.0, worst_first, 0.0), 0.0)
+    # Summed exactly, for gains and losses may cancel to something far smaller than either.
+    totals = np.array([math.fsum(row) if np.isfinite(row).all() else np.inf for row in products], dtype=np.float64)
+    means = sign * totals / tail
+    return np.asarray(np.where(np.isfinite(means), means, np.nan), dtype=np.float64)
+
+
+def keeps(sense: Comparison, quantities: Column, limit: float) -> NDArray[np.bool_]:
+    """Which quantities keep a limit; an unknown one does not, one equal up to one part in 10⁹ does."""
+    kept = quantities >= limit if sense is Comparison.AT_LEAST else quantities <= limit
+    equal = np.abs(quantities - limit) <= RELATIVE_TOLERANCE * np.maximum(np.abs(quantities), abs(limit))
+    return np.asarray(kept | equal, dtype=np.bool_)
+
+
+def single_values(preferences: Preferences, table: EvidenceTable) -> Column:
+    """The value of every alternative in each measure with a weight above 0, shape (n, m); NaN where unknown."""
+    columns = [
+        value_column(preferences.value_function(measure), table.column(measure))
+        for measure in preferences.weighting.deciding_measures
+    ]
+    return np.stack(columns, axis=1)

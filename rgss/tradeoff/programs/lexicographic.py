@@ -1,0 +1,203 @@
+"""Programs that look at one measure after another: lexicographic, and epsilon-constraint."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.milp import ConditionConstraint, QuantityRank, Stage, StageSolution, StageSolver
+from rgss.tradeoff.problem import LIMIT_PREFIX, Comparison, Threshold
+from rgss.tradeoff.programs.program import additive_stage
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.programs.preferences import Preferences
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Aim:
+    """A measure of which the best is wanted, and how much of it may be given up.
+
+    Attributes:
+        measure: The measure.
+        sense: At least if more of it is better, at most if less is.
+        absolute: What may be given up, in the measure's unit.
+        relative: What may be given up, as a share of the best quantity.
+
+    Raises:
+        TradeoffError: The tolerances contradict each other or are no tolerances.
+    """
+
+    measure: str
+    sense: Comparison
+    absolute: float = 0.0
+    relative: float = 0.0
+
+    def __post_init__(self) -> None:
+        for kind, tolerance in (("absolute", self.absolute), ("relative", self.relative)):
+            if not (math.isfinite(tolerance) and tolerance >= 0.0):
+                raise TradeoffError(
+                    f"the {kind} tolerance of {self.measure!r} is {tolerance:g}", hint="a tolerance is not negative"
+                )
+        if self.absolute and self.relative:
+            raise TradeoffError(
+                f"{self.measure!r} has two tolerances that contradict each other: {self.absolute:g} and "
+                f"{100.0 * self.relative:g} %",
+                hint="give an absolute or a relative tolerance",
+            )
+        if self.relative >= 1.0:
+            raise TradeoffError(
+                f"the relative tolerance of {self.measure!r} is {100.0 * self.relative:g} %",
+                hint="give less than 100 %, or leave the measure out: such a tolerance asks for nothing",
+            )
+
+    def bound(self, best: float) -> float:
+        """The quantity that is still good enough where the best one is known."""
+        given_up = self.absolute + self.relative * abs(best)
+        return best - given_up if self.sense is Comparison.AT_LEAST else best + given_up
+
+    def kept(self, best: float) -> Threshold:
+        """That a selection keeps what is still good enough."""
+        return Threshold(
+            requirement=f"stage {self.measure}",
+            measure=self.measure,
+            comparison=self.sense,
+            value=self.bound(best),
+            unit="1",
+        )
+
+    def stage(self, constraints: tuple[ConditionConstraint, ...]) -> Stage:
+        """The stage that finds its best quantity."""
+        return Stage(
+            name=self.measure,
+            objective=(QuantityRank(measure=self.measure, sense=self.sense),),
+            constraints=constraints,
+            scale=1.0,
+            quantity=self.measure,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lexicographic:
+    """The best of the first measure; among what keeps it within its tolerance, the best of the next.
+
+    Attributes:
+        aims: The measures, the most important first. The tolerance of the last one decides
+            nothing: alternatives within it are listed as near-ties.
+
+    Raises:
+        TradeoffError: There are no measures, or one occurs twice.
+    """
+
+    aims: tuple[Aim, ...]
+
+    def __post_init__(self) -> None:
+        if not self.aims:
+            raise TradeoffError("a lexicographic program has no measures", hint="name at least one, in order")
+        measures = [aim.measure for aim in self.aims]
+        for measure in measures:
+            if measures.count(measure) > 1:
+                raise TradeoffError(
+                    f"{measure!r} occurs twice in a lexicographic program", hint="keep the more important place"
+                )
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return "lexicographic"
+
+    @property
+    def limits(self) -> tuple[Threshold, ...]:
+        """None."""
+        return ()
+
+    def needs(self, preferences: Preferences) -> Mapping[str, bool]:  # noqa: ARG002 - part of the protocol
+        """The measures of its aims."""
+        return dict.fromkeys((aim.measure for aim in self.aims), False)
+
+    def check(self, preferences: Preferences) -> None:
+        """Nothing can be wrong beyond its aims."""
+
+    def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:  # noqa: ARG002
+        """One stage for each aim."""
+        return solve_in_order(self.aims, solver)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EpsilonConstraint:
+    """The best of one measure under limits on others; of equals, the one of the highest weighted value.
+
+    Attributes:
+        aim: The measure that is optimised. Alternatives within its tolerance are listed as
+            near-ties.
+        bounds: The limits, as thresholds whose requirements begin with ``limit:``.
+
+    Raises:
+        TradeoffError: There are no limits, or one has another id.
+    """
+
+    aim: Aim
+    bounds: tuple[Threshold, ...]
+
+    def __post_init__(self) -> None:
+        if not self.bounds:
+            raise TradeoffError(
+                "an epsilon-constraint program has no limits",
+                hint="bound at least one measure, or name another program",
+            )
+        for bound in self.bounds:
+            if not bound.requirement.startswith(LIMIT_PREFIX):
+                raise TradeoffError(
+                    f"the limit {bound.requirement!r} has no id of a limit", hint=f"begin it with {LIMIT_PREFIX!r}"
+                )
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return "epsilon_constraint"
+
+    @property
+    def limits(self) -> tuple[Threshold, ...]:
+        """The limits on the other measures."""
+        return self.bounds
+
+    def needs(self, preferences: Preferences) -> Mapping[str, bool]:
+        """The measure that is optimised, and those that have a weight, which break ties."""
+        return dict.fromkeys((self.aim.measure, *preferences.weighting.deciding_measures), False)
+
+    def check(self, preferences: Preferences) -> None:
+        """Nothing can be wrong beyond its aim and limits."""
+
+    def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
+        """A stage for the measure, and one for the weighted value among equals."""
+        first = solver.solve(self.aim.stage(()))
+        if first.alternative is None:
+            return (first,)
+        best = quantity_of(first, self.aim)
+        exactly = Aim(measure=self.aim.measure, sense=self.aim.sense).kept(best)
+        return first, solver.solve(additive_stage(preferences, ConditionConstraint(condition=exactly)))
+
+
+def solve_in_order(aims: tuple[Aim, ...], solver: StageSolver) -> tuple[StageSolution, ...]:
+    """Solve a stage for each aim, keeping what was reached before within its tolerance."""
+    solutions: list[StageSolution] = []
+    kept: list[ConditionConstraint] = []
+    for aim in aims:
+        solution = solver.solve(aim.stage(tuple(kept)))
+        solutions.append(solution)
+        if solution.alternative is None:
+            break
+        kept.append(ConditionConstraint(condition=aim.kept(quantity_of(solution, aim))))
+    return tuple(solutions)
+
+
+def quantity_of(solution: StageSolution, aim: Aim) -> float:
+    """The quantity of an aim's measure that a stage reached; the constraints see to it that it is known."""
+    quantity = solution.chosen.measures[aim.measure]
+    if quantity is None:
+        raise TradeoffError(
+            f"the solver's answer is unknown in {aim.measure!r}", hint="the answer is not used; report this problem"
+        )
+    return quantity

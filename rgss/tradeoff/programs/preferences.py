@@ -1,0 +1,206 @@
+"""What is wanted of a choice, whatever there is to choose from: demands, values, weights, program."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.milp import ConditionConstraint, ConstraintTerm, EvidenceConstraint
+from rgss.tradeoff.problem import (
+    EVIDENCE_PREFIX,
+    PREFIXES,
+    Condition,
+    Risk,
+    Threshold,
+    ValueFunction,
+    WeightBounds,
+    Weighting,
+)
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from rgss.tradeoff.problem import Alternative
+    from rgss.tradeoff.programs.program import Program
+
+
+class Preferences(ABC):
+    """What every trade-off has, as a base of the frozen values that state one.
+
+    A measure that matters and is unknown makes an alternative infeasible. Where a threshold bounds
+    the measure, that requirement counts as violated; elsewhere the pseudo requirement
+    ``evidence:<measure>`` does. Nothing is imputed.
+
+    Attributes:
+        thresholds: What the requirements demand.
+        value_functions: One for every measure that has a weight, and for no other.
+        weighting: The weights.
+        risks: What is demanded of the replicates.
+        program: How is decided.
+        weight_bounds: What is known of the weights beside their values.
+    """
+
+    __slots__ = ()
+
+    thresholds: tuple[Threshold, ...]
+    value_functions: tuple[ValueFunction, ...]
+    weighting: Weighting
+    risks: tuple[Risk, ...]
+    program: Program
+    weight_bounds: WeightBounds
+
+    @abstractmethod
+    def feasible_alternatives(self, *, at_most: int) -> Sequence[Alternative] | None:
+        """The alternatives that meet every condition; None where more than so many combinations had to be listed.
+
+        Args:
+            at_most: Largest number of combinations that are listed.
+        """
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """Everything that a choice must meet: thresholds, the program's limits, and risks."""
+        return (*self.thresholds, *self.program.limits, *self.risks)
+
+    @property
+    def evidence_needs(self) -> Mapping[str, bool]:
+        """The measures of the pseudo requirements, and whether every replicate must tell them."""
+        bounded = {threshold.measure for threshold in (*self.thresholds, *self.program.limits)}
+        return {
+            measure: every_replicate
+            for measure, every_replicate in self.program.needs(self).items()
+            if every_replicate or measure not in bounded
+        }
+
+    @property
+    def evidence_measures(self) -> tuple[str, ...]:
+        """The measures that must be known and that no threshold bounds."""
+        return tuple(self.evidence_needs)
+
+    @property
+    def requirements(self) -> tuple[str, ...]:
+        """Ids of all demands, in the order of the conditions, then the pseudo requirements."""
+        ids = [condition.requirement for condition in self.conditions]
+        ids += [EVIDENCE_PREFIX + measure for measure in self.evidence_needs]
+        return tuple(dict.fromkeys(ids))
+
+    @property
+    def demands(self) -> Mapping[str, str]:
+        """What each of the `requirements` demands, for people."""
+        found: dict[str, list[str]] = {}
+        for condition in self.conditions:
+            found.setdefault(condition.requirement, []).append(condition.demand)
+        for measure, every_replicate in self.evidence_needs.items():
+            every = " in every replicate" if every_replicate else ""
+            found[EVIDENCE_PREFIX + measure] = [f"{measure} is known{every}"]
+        return {requirement: " and ".join(demands) for requirement, demands in found.items()}
+
+    @property
+    def constraints(self) -> tuple[ConstraintTerm, ...]:
+        """The demands as terms of a program."""
+        return (
+            *(ConditionConstraint(condition=condition) for condition in self.conditions),
+            *(
+                EvidenceConstraint(measure=measure, every_replicate=every_replicate)
+                for measure, every_replicate in self.evidence_needs.items()
+            ),
+        )
+
+    @property
+    def measures_named(self) -> Mapping[str, str]:
+        """Every measure that is needed at all, and who names it."""
+        named = dict.fromkeys(self.weighting.weights, "the weights name")
+        for condition in self.conditions:
+            named.setdefault(condition.measure, f"{condition.requirement} names")
+        for measure in self.program.needs(self):
+            named.setdefault(measure, f"the {self.program.name} program names")
+        return named
+
+    def value_function(self, measure: str) -> ValueFunction:
+        """The value function of a weighted measure."""
+        return next(function for function in self.value_functions if function.measure == measure)
+
+    def weight_corners(self) -> NDArray[np.float64]:
+        """The corners of the set of weights that agree with the bounds, shape (c, m), in the weights' order.
+
+        Raises:
+            TradeoffError: There are too many bounds to look at every corner.
+        """
+        from rgss.tradeoff.programs.weight_vertices import weight_vertices
+
+        return weight_vertices(*self.weight_system())
+
+    def weight_system(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The bounds on the weights as inequalities ``A w <= b``, fixed weights as two each: A and b."""
+        import numpy as np
+
+        measures = tuple(self.weighting.weights)
+        matrix, limits = self.weight_bounds.inequalities(measures)
+        fixed, equals = self.weight_bounds.equations(measures)
+        return np.vstack([matrix, fixed, -fixed]), np.concatenate([limits, equals, -equals])
+
+    @abstractmethod
+    def replicate_count(self, measures: Sequence[str]) -> int:
+        """The number of replicates that alternatives have in common.
+
+        Args:
+            measures: The measures that are looked at; those that follow from the design alone have none.
+
+        Raises:
+            TradeoffError: There are none, or alternatives have different numbers of them.
+        """
+
+
+def check_preferences(preferences: Preferences) -> None:
+    """Make sure that what is wanted is well posed by itself.
+
+    Raises:
+        TradeoffError: It is not.
+    """
+    _check_value_functions(preferences)
+    _check_conditions(preferences)
+    preferences.weight_bounds.check(preferences.weighting.weights)
+    preferences.program.check(preferences)
+
+
+def _check_value_functions(preferences: Preferences) -> None:
+    valued: set[str] = set()
+    for function in preferences.value_functions:
+        if function.measure in valued:
+            raise TradeoffError(f"{function.measure!r} has two value functions", hint="keep one of them")
+        valued.add(function.measure)
+        if function.measure not in preferences.weighting.weights:
+            raise TradeoffError(
+                f"{function.measure!r} has a value function but no weight",
+                hint="give it a weight (0 is allowed) or take its value function out",
+            )
+    for measure in preferences.weighting.weights:
+        if measure not in valued:
+            raise TradeoffError(
+                f"{measure!r} has a weight but no value function", hint="say what is worst and best for it"
+            )
+
+
+def _check_conditions(preferences: Preferences) -> None:
+    for condition in (*preferences.thresholds, *preferences.program.limits, *preferences.risks):
+        if not math.isfinite(condition.value):
+            raise TradeoffError(
+                f"the threshold of {condition.requirement} on {condition.measure!r} is {condition.value:g}",
+                hint="a threshold is a finite number",
+            )
+    for threshold in preferences.thresholds:
+        if threshold.requirement.startswith(PREFIXES):
+            reserved = threshold.requirement.partition(":")[0] + ":"
+            raise TradeoffError(
+                f"the requirement id {threshold.requirement!r} is reserved",
+                hint=f"ids that begin with {reserved!r} stand for demands of other kinds; choose another",
+            )
+    seen: set[str] = set()
+    for risk in preferences.risks:
+        if risk.requirement in seen:
+            raise TradeoffError(f"{risk.requirement} is demanded twice", hint="keep one of them")
+        seen.add(risk.requirement)

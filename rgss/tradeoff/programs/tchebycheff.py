@@ -1,0 +1,95 @@
+"""The augmented weighted Tchebycheff program, which reaches every undominated alternative."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.milp import Stage, StageSolution, StageSolver, WeightedValue, WorstOf
+from rgss.tradeoff.problem import Threshold
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.programs.preferences import Preferences
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tchebycheff:
+    """As near as possible to a reference point, the largest weighted shortfall counting.
+
+    ``min max_i w_i (z_i - v_i(x)) + ρ Σ_i (z_i - v_i(x))``, the augmented weighted Tchebycheff metric
+    (Steuer and Choo, "An interactive weighted Tchebycheff procedure", 1983). With the right weights it
+    reaches every undominated alternative, those between others included that no weighted sum
+    selects; the augmentation keeps it from choosing what is only weakly undominated.
+
+    Attributes:
+        reference: The values z_i that are aspired to, by measure; 1 where none is given.
+        augmentation: The factor ρ, positive.
+
+    Raises:
+        TradeoffError: A reference value or the augmentation is out of range.
+    """
+
+    reference: Mapping[str, float] = field(default_factory=dict, hash=False)
+    augmentation: float = 1e-3
+
+    def __post_init__(self) -> None:
+        for measure, value in self.reference.items():
+            if not 0.0 <= value <= 1.0:
+                raise TradeoffError(
+                    f"the reference value of {measure!r} is {value:g}", hint="a value is a number from 0 to 1"
+                )
+        if not 0.0 < self.augmentation <= 1.0:
+            raise TradeoffError(
+                f"the augmentation is {self.augmentation:g}", hint="give a small positive number, such as 0.001"
+            )
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return "tchebycheff"
+
+    @property
+    def limits(self) -> tuple[Threshold, ...]:
+        """None."""
+        return ()
+
+    def needs(self, preferences: Preferences) -> Mapping[str, bool]:
+        """The measures that have a weight."""
+        return dict.fromkeys(preferences.weighting.deciding_measures, False)
+
+    def check(self, preferences: Preferences) -> None:
+        """Reference values name measures that decide."""
+        for measure in self.reference:
+            if measure not in preferences.weighting.deciding_measures:
+                raise TradeoffError(
+                    f"the reference names {measure!r}, which has no weight",
+                    hint=f"measures with a weight: {', '.join(preferences.weighting.deciding_measures)}",
+                )
+
+    def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
+        """One stage."""
+        weights = preferences.weighting.weights
+        deciding = preferences.weighting.deciding_measures
+        functions = {measure: preferences.value_function(measure) for measure in deciding}
+        aspired = {measure: self.reference.get(measure, 1.0) for measure in deciding}
+        shortfalls = WorstOf(
+            scenarios=tuple(
+                (
+                    -weights[measure] * aspired[measure],
+                    (WeightedValue(function=functions[measure], weight=weights[measure]),),
+                )
+                for measure in deciding
+            )
+        )
+        augmentation = WorstOf(
+            scenarios=(
+                (
+                    -self.augmentation * math.fsum(aspired.values()),
+                    tuple(WeightedValue(function=functions[measure], weight=self.augmentation) for measure in deciding),
+                ),
+            )
+        )
+        return (solver.solve(Stage(name="distance", objective=(shortfalls, augmentation), sign=-1.0)),)

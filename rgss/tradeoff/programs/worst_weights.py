@@ -1,0 +1,101 @@
+"""The weights at which one alternative leads another by most: a linear program over the admitted weights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.milp import SOLVER_TOLERANCE
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WorstWeights:
+    """An optimum of ``max c w`` over ``{w : w >= 0, sum(w) = 1, A w <= b}``.
+
+    Attributes:
+        weights: The maximiser, shape (m,).
+        value: The maximum.
+        multipliers: Dual multipliers of ``A w <= b``, none negative, shape (k,). Of any objective c they
+            prove the bound ``b λ + max_j (c - Aᵀ λ)_j`` (weak duality over the simplex).
+    """
+
+    weights: Array
+    value: float
+    multipliers: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WeightProgram:
+    """Linear programs over one set of weights, each started from the optimum of the one before.
+
+    Attributes:
+        rows: The coefficients A, shape (k, m).
+        limits: The right-hand sides b, shape (k,).
+    """
+
+    rows: Array
+    limits: Array
+    _solver: list[Any] = field(default_factory=list)
+
+    def maximise(self, objective: Array) -> WorstWeights:
+        """The weights of the largest objective c w.
+
+        Args:
+            objective: The coefficients c, shape (m,).
+
+        Raises:
+            TradeoffError: No weights satisfy the bounds, or the solver gave no optimum.
+        """
+        import highspy
+
+        if not self._solver:
+            self._solver.append(self._prepared(highspy))
+        solver = self._solver[0]
+        size = len(objective)
+        solver.changeColsCost(size, np.arange(size, dtype=np.int32), np.asarray(-objective, dtype=np.float64))
+        solver.run()
+        status = solver.getModelStatus()
+        if status == highspy.HighsModelStatus.kInfeasible:
+            raise TradeoffError("no weights satisfy all the elicited bounds and orders", hint="widen a bound")
+        if status != highspy.HighsModelStatus.kOptimal:
+            raise TradeoffError(
+                f"a linear program over weights ended without an optimum: {solver.modelStatusToString(status)}",
+                hint="only a proven optimum is accepted; look for bounds that nearly contradict each other",
+            )
+        solution = solver.getSolution()
+        weights = np.clip(np.array(solution.col_value, dtype=np.float64), 0.0, None)
+        weights = weights / weights.sum()
+        multipliers = np.clip(-np.array(solution.row_dual, dtype=np.float64)[1:], 0.0, None)
+        return WorstWeights(weights=weights, value=float(objective @ weights), multipliers=multipliers)
+
+    def _prepared(self, highspy: Any) -> Any:
+        solver = highspy.Highs()
+        for name, value in (
+            ("output_flag", False),
+            ("threads", 1),
+            ("solver", "simplex"),
+            ("presolve", "off"),
+            ("primal_feasibility_tolerance", SOLVER_TOLERANCE),
+            ("dual_feasibility_tolerance", SOLVER_TOLERANCE),
+        ):
+            solver.setOptionValue(name, value)
+        rows = np.vstack([np.ones((1, self.rows.shape[1])), self.rows])
+        count, size = rows.shape
+        program = highspy.HighsLp()
+        program.num_col_, program.num_row_ = size, count
+        program.col_cost_ = np.zeros(size)
+        program.col_lower_, program.col_upper_ = np.zeros(size), np.full(size, np.inf)
+        program.row_lower_ = np.concatenate([[1.0], np.full(count - 1, -np.inf)])
+        program.row_upper_ = np.concatenate([[1.0], self.limits])
+        program.a_matrix_.format_ = highspy.MatrixFormat.kRowwise
+        program.a_matrix_.start_ = np.arange(count + 1) * size
+        program.a_matrix_.index_ = np.tile(np.arange(size), count)
+        program.a_matrix_.value_ = rows.ravel()
+        solver.passModel(program)
+        return solver

@@ -1,0 +1,66 @@
+"""Robustness of a decision: Pareto sets, acceptability, effects, costs and rank reversal."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.robustness.acceptability import Acceptability, Outcomes, OutcomeSource, smaa2
+    from rgss.tradeoff.robustness.assumption_sensitivity import AssumptionRange, Standing, linear_range, scanned_range
+    from rgss.tradeoff.robustness.cost_box import BoxProblem, BoxRange, box_range
+    from rgss.tradeoff.robustness.effects import Effect, FactorialAnalysis, factorial_effects, largest_complete_block
+    from rgss.tradeoff.robustness.flip import WeightRange, WeightShift, weight_ranges, weight_shifts
+    from rgss.tradeoff.robustness.outcomes import admitted_weights, condition_masks, noisy_outcomes, replicate_number
+    from rgss.tradeoff.robustness.overlap import Overlap, SharedPart, overlapping_measures, shared_parts
+    from rgss.tradeoff.robustness.pareto import ParetoFront, Support, pareto_front
+    from rgss.tradeoff.robustness.prices import PriceStep, changes_of_best, price_list, step_at
+    from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
+    from rgss.tradeoff.robustness.resampled_outcomes import ResampledOutcomes
+    from rgss.tradeoff.robustness.sampled_effects import FEWEST_PER_CLASS, SampledIndex, classes_of, first_order_indices
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "FEWEST_PER_CLASS",
+    "Acceptability",
+    "AssumptionRange",
+    "BoxProblem",
+    "BoxRange",
+    "Effect",
+    "FactorialAnalysis",
+    "OutcomeSource",
+    "Outcomes",
+    "Overlap",
+    "ParetoFront",
+    "PriceStep",
+    "RankReversal",
+    "ResampledOutcomes",
+    "SampledIndex",
+    "SharedPart",
+    "Standing",
+    "Support",
+    "WeightRange",
+    "WeightShift",
+    "admitted_weights",
+    "box_range",
+    "changes_of_best",
+    "classes_of",
+    "condition_masks",
+    "factorial_effects",
+    "first_order_indices",
+    "largest_complete_block",
+    "linear_range",
+    "noisy_outcomes",
+    "overlapping_measures",
+    "pareto_front",
+    "price_list",
+    "rank_reversals",
+    "replicate_number",
+    "sample_anchored",
+    "scanned_range",
+    "shared_parts",
+    "smaa2",
+    "step_at",
+    "weight_ranges",
+    "weight_shifts",
+]

@@ -1,0 +1,190 @@
+"""How far one assumed number may move before another alternative is chosen."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.tradeoff.problem import TIE_TOLERANCE, Array, Mask
+
+SCANNED = 64
+"""Steps in which each side is scanned where the dependence is not piecewise linear."""
+
+_HALVINGS = 60
+_NO_SLOPE = 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Standing:
+    """What the alternatives are worth at one value of the assumption.
+
+    Attributes:
+        totals: Weighted values, shape (n,); NaN only where not feasible.
+        feasible: Which alternatives can be chosen, shape (n,).
+    """
+
+    totals: Array
+    feasible: Mask
+
+    def best(self) -> tuple[int, ...]:
+        """The best alternatives, ascending; empty where none is feasible."""
+        if not self.feasible.any():
+            return ()
+        totals = np.where(self.feasible, self.totals, -np.inf)
+        return tuple(int(row) for row in np.flatnonzero(totals >= totals.max() - TIE_TOLERANCE))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AssumptionRange:
+    """The values of an assumption around the assumed one over which the choice stays best.
+
+    Attributes:
+        low: The least such value; None where nothing changes down to `lowest`.
+        high: The largest; None where nothing changes up to `highest`.
+        lowest: Down to where it was followed.
+        highest: Up to where it was followed; may be infinite.
+        below: What is best just below `low`, ascending; empty where nothing is feasible there.
+        above: The same above `high`.
+        exact: Whether the ends were solved for, the dependence being piecewise linear; otherwise
+            they were bracketed by a scan and bisected, and a change that reverts within one step of
+            the scan may have been missed.
+    """
+
+    low: float | None
+    high: float | None
+    lowest: float
+    highest: float
+    below: tuple[int, ...]
+    above: tuple[int, ...]
+    exact: bool
+
+    @property
+    def always(self) -> bool:
+        """Whether the choice stays best as far as was looked."""
+        return self.low is None and self.high is None
+
+
+def linear_range(
+    stand: Callable[[float], Standing], chosen: int, start: float, *, kinks: Array, lowest: float, highest: float
+) -> AssumptionRange:
+    """The exact range where every total is linear and feasibility constant between given kinks.
+
+    Args:
+        stand: What the alternatives are worth at a value.
+        chosen: The alternative that is best at `start`, alone or tied.
+        start: The assumed value.
+        kinks: Every value at which a total has a kink or an alternative meets or misses a
+            threshold; others may be among them.
+        lowest: The least value that makes sense, such as 0 for a cost.
+        highest: The largest; may be infinite.
+    """
+    low, below = _walk(stand, chosen, start, kinks, lowest)
+    high, above = _walk(stand, chosen, start, kinks, highest)
+    return AssumptionRange(low=low, high=high, lowest=lowest, highest=highest, below=below, above=above, exact=True)
+
+
+def scanned_range(
+    stand: Callable[[float], Standing], chosen: int, start: float, *, lowest: float, highest: float
+) -> AssumptionRange:
+    """The range by scan and bisection, for any dependence.
+
+    Args:
+        stand: What the alternatives are worth at a value.
+        chosen: The alternative that is best at `start`, alone or tied.
+        start: The assumed value.
+        lowest: Down to where it is followed; finite.
+        highest: Up to where it is followed; finite.
+    """
+    low, below = _scan(stand, chosen, start, lowest)
+    high, above = _scan(stand, chosen, start, highest)
+    return AssumptionRange(low=low, high=high, lowest=lowest, highest=highest, below=below, above=above, exact=False)
+
+
+def _walk(
+    stand: Callable[[float], Standing], chosen: int, start: float, kinks: Array, end: float
+) -> tuple[float | None, tuple[int, ...]]:
+    """Go from kink to kink until the chosen one is no longer best; where, and what then is."""
+    for near, far in _segments(start, kinks, end):
+        if chosen not in stand(near).best():
+            return near, stand(near).best()
+        if near == far:
+            continue
+        points = _inner_points(near, far)
+        first, second = (stand(point) for point in points)
+        rivals = np.flatnonzero(first.feasible)
+        slope = (second.totals[rivals] - first.totals[rivals]) / (points[1] - points[0])
+        entering = first.totals[rivals] + (near - points[0]) * slope
+        outward = slope * math.copysign(1.0, far - near)
+        if not first.feasible[chosen]:
+            return near, tuple(int(row) for row in rivals[_leaders(entering, outward)])
+        mine = int(np.flatnonzero(rivals == chosen)[0])
+        loss = _first_loss(entering[mine] - entering, outward[mine] - outward, abs(far - near))
+        if loss is not None:
+            there = entering + loss * outward
+            return near + math.copysign(loss, far - near), tuple(int(row) for row in rivals[_leaders(there, outward)])
+    if math.isfinite(end) and chosen not in stand(end).best():
+        return end, stand(end).best()
+    return None, ()
+
+
+def _segments(start: float, kinks: Array, end: float) -> Iterator[tuple[float, float]]:
+    """The pieces between neighbouring kinks, from the start outwards; kinks themselves come as both ends."""
+    low, high = min(start, end), max(start, end)
+    between = sorted({float(kink) for kink in kinks if low < kink < high}, reverse=end < start)
+    return itertools.pairwise([start, *between, end])
+
+
+def _inner_points(near: float, far: float) -> tuple[float, float]:
+    if math.isfinite(far):
+        return near + (far - near) / 3.0, near + 2.0 * (far - near) / 3.0
+    step = math.copysign(max(1.0, abs(near)), far)
+    return near + step, near + 2.0 * step
+
+
+def _first_loss(lead: Array, rate: Array, length: float) -> float | None:
+    """How far on the first lead becomes negative; None if none does on the way.
+
+    At the start no lead is negative beyond a tie, so what is below zero there is rounding.
+    """
+    losing = rate < -_NO_SLOPE * np.abs(rate).max(initial=0.0)
+    reach = np.full(len(lead), math.inf)
+    reach[losing] = np.maximum(lead[losing], 0.0) / -rate[losing]
+    if math.isfinite(length):
+        # A loss that is a tie up to the end of the piece is the next piece's matter.
+        reach[lead + rate * length >= -TIE_TOLERANCE] = math.inf
+    nearest = float(reach.min(initial=math.inf))
+    return nearest if nearest < length else None
+
+
+def _leaders(totals: Array, rate: Array) -> NDArray[np.intp]:
+    """Which are best from here on: of those that are best here, the ones that gain fastest."""
+    if not len(totals):
+        return np.array([], dtype=np.intp)
+    level = totals >= totals.max() - TIE_TOLERANCE
+    return np.flatnonzero(level & (rate >= rate[level].max() - _NO_SLOPE * np.abs(rate).max()))
+
+
+def _scan(
+    stand: Callable[[float], Standing], chosen: int, start: float, end: float
+) -> tuple[float | None, tuple[int, ...]]:
+    inside = start
+    for step in range(1, SCANNED + 1):
+        outside = start + (end - start) * step / SCANNED
+        if chosen in stand(outside).best():
+            inside = outside
+            continue
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (inside + outside)
+            if middle in (inside, outside):
+                break
+            if chosen in stand(middle).best():
+                inside = middle
+            else:
+                outside = middle
+        return inside, stand(outside).best()
+    return None, ()

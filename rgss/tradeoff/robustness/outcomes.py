@@ -1,0 +1,67 @@
+"""From a trade-off to the tables that the analyses of robustness take."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.problem import EvidenceTable, Mask, Resamples
+from rgss.tradeoff.programs import Preferences, condition_column, keeps
+from rgss.tradeoff.robustness.acceptability import Outcomes
+from rgss.tradeoff.robustness.resampled_outcomes import ResampledOutcomes
+from rgss.tradeoff.weights import WeightSet
+
+
+def admitted_weights(preferences: Preferences) -> WeightSet:
+    """The weights, of measures with a weight above 0, that agree with what was elicited.
+
+    Raises:
+        TradeoffError: None do.
+    """
+    measures = preferences.weighting.deciding_measures
+    rows, limits = preferences.weight_bounds.inequalities(measures)
+    fixed, equals = preferences.weight_bounds.equations(measures)
+    if not len(limits) and not len(equals):
+        return WeightSet.simplex(len(measures))
+    return WeightSet.cut(np.vstack([rows, fixed, -fixed]), np.concatenate([limits, equals, -equals]))
+
+
+def condition_masks(preferences: Preferences, table: EvidenceTable) -> list[Mask]:
+    """Which alternatives meet each of the conditions, in their order, shape (n,) each."""
+    return [
+        keeps(condition.sense, condition_column(condition, table), condition.limit)
+        for condition in preferences.conditions
+    ]
+
+
+def replicate_number(table: EvidenceTable) -> int:
+    """How many replicates every alternative has; 0 where nothing is observed in trials.
+
+    Raises:
+        TradeoffError: Alternatives or measures have different numbers of them.
+    """
+    numbers = {int(number) for samples in table.samples.values() for number in samples.ran.sum(axis=1)}
+    if len(numbers) > 1:
+        raise TradeoffError(
+            f"alternatives have from {min(numbers)} to {max(numbers)} replicates",
+            hint="noise is drawn from replicates that all share; run 'rgss sweep' for the others",
+        )
+    return numbers.pop() if numbers else 0
+
+
+def noisy_outcomes(preferences: Preferences, table: EvidenceTable, resamples: Resamples) -> Outcomes:
+    """The outcomes of `ResampledOutcomes` as arrays, for as few alternatives as fit in memory.
+
+    Args:
+        preferences: What is wanted.
+        table: The evidence.
+        resamples: The resamples.
+    """
+    source = ResampledOutcomes.of(preferences, table, resamples)
+    drawn = [source.at(outcome) for outcome in range(source.shape[0])]
+    return Outcomes(
+        values=np.array([values for values, _ in drawn]),
+        feasible=np.array([feasible for _, feasible in drawn]),
+        probabilities=resamples.probabilities,
+        exact=resamples.exact,
+    )

@@ -1,0 +1,22 @@
+"""Sequential comparison: replication until a decision is statistically clear."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.sequential.evidence import SequentialEvidence
+    from rgss.tradeoff.sequential.probability import probability_of_good_selection
+    from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, SequentialRule, next_batch
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "Decided",
+    "Progress",
+    "Reason",
+    "SequentialEvidence",
+    "SequentialRule",
+    "next_batch",
+    "probability_of_good_selection",
+]

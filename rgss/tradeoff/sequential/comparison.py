@@ -1,0 +1,178 @@
+"""What the replicates so far prove: alternatives that cannot be chosen, and verdicts that cannot change."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.tradeoff.problem import Comparison, Threshold
+from rgss.tradeoff.sequential.evidence import Observed, SequentialEvidence
+from rgss.tradeoff.sequential.tests import difference_above, mean_above, mean_evidence, proportion_evidence
+
+_STEP = 1e-6
+_PROPORTIONS, _MEANS, _THRESHOLDS = 0.6, 0.1, 0.3
+
+
+def threshold_evidence(
+    observed: Observed, row: int, threshold: Threshold, *, met: bool, slack: float = 0.0, after: int = 0
+) -> float:
+    """Logarithm of the evidence that an alternative meets, or violates, a threshold.
+
+    Args:
+        observed: The measure that is bounded.
+        row: The alternative.
+        threshold: The threshold.
+        met: Whether the evidence is for its being met; for its being violated otherwise.
+        slack: So much of the threshold's magnitude is allowed on the bad side.
+        after: So many first replicates are left out.
+    """
+    at_least = threshold.comparison is Comparison.AT_LEAST
+    limit = threshold.value - math.copysign(slack * abs(threshold.value), 1.0 if at_least else -1.0)
+    above = at_least == met
+    values = observed.known(row, after=after)
+    if observed.is_proportion:
+        return proportion_evidence(int(values.sum()), len(values), limit, above=above)
+    return mean_evidence(values, limit, above=above)
+
+
+def is_infeasible(evidence: SequentialEvidence, row: int, level: float) -> bool:
+    """Tell whether an alternative is proven to violate a threshold.
+
+    Args:
+        evidence: The evidence.
+        row: The alternative.
+        level: Probability that one is ever taken for infeasible that is not.
+    """
+    if not evidence.fixed_met[row]:
+        return True
+    bounds = [(one, threshold) for one in evidence.observed for threshold in one.thresholds.values()]
+    needed = math.log(max(len(bounds), 1) / level)
+    return any(threshold_evidence(one, row, threshold, met=False) >= needed for one, threshold in bounds)
+
+
+def is_acceptable(evidence: SequentialEvidence, row: int, *, level: float, slack: float, after: int) -> bool:
+    """Tell whether an alternative is proven to meet every threshold but for a slack.
+
+    Args:
+        evidence: The evidence.
+        row: The alternative.
+        level: Probability that one is ever taken for acceptable that is not.
+        slack: As for `threshold_evidence`.
+        after: So many first replicates are left out.
+    """
+    needed = math.log(1.0 / level)
+    return bool(evidence.fixed_met[row]) and all(
+        threshold_evidence(one, row, threshold, met=True, slack=slack, after=after) >= needed
+        for one in evidence.observed
+        for threshold in one.thresholds.values()
+    )
+
+
+def is_beaten(
+    evidence: SequentialEvidence, row: int, rival: int, *, level: float, after: int, lead: float, slack: float
+) -> bool:
+    """Tell whether an alternative is proven not to be worth choosing before a rival.
+
+    It would be if it met every threshold and either were worth more than the rival by the lead, or
+    the rival violated a threshold by more than the slack. Both must be refuted. The level
+    is divided among the differences of proportions, which are compared seed by seed and need the
+    most replicates, the difference of means, and the rival's own thresholds.
+
+    Args:
+        evidence: The evidence.
+        row: The alternative.
+        rival: The rival.
+        level: Probability that this is ever said wrongly of these two.
+        after: So many first replicates are left out, because they chose the rival.
+        lead: How much more the alternative may be worth.
+        slack: As for `threshold_evidence`.
+    """
+    if not evidence.fixed_met[rival]:
+        return False
+    proportions = [one for one in evidence.observed if one.is_proportion]
+    most_more = [_most_more(one, row, rival, level * _PROPORTIONS / len(proportions), after) for one in proportions]
+    gain = float(evidence.fixed_value[row] - evidence.fixed_value[rival])
+    for one, more in zip(proportions, most_more, strict=True):
+        gain += one.weight * _largest_gain(one, more, slack)
+    # An unmet threshold of the alternative makes the gain minus infinite: it cannot be chosen at all.
+    if gain > lead:
+        return False
+    gain += _gain_of_means(evidence, row, rival, level * _MEANS, after)
+    if gain > lead:
+        return False
+    needed = -math.log(level * _THRESHOLDS)
+    bounds = dict(zip((one.measure for one in proportions), most_more, strict=True))
+    return all(
+        _keeps_up(threshold, bounds.get(one.measure), slack)
+        or threshold_evidence(one, rival, threshold, met=True, slack=slack, after=after) >= needed
+        for one in evidence.observed
+        for threshold in one.thresholds.values()
+    )
+
+
+def _most_more(one: Observed, row: int, rival: int, level: float, after: int) -> float:
+    mine, theirs = one.values[row, after:], one.values[rival, after:]
+    both = ~np.isnan(mine) & ~np.isnan(theirs)
+    differences = mine[both] - theirs[both]
+    return difference_above(int((differences > 0).sum()), int((differences < 0).sum()), int(both.sum()), level)
+
+
+def _keeps_up(threshold: Threshold, most_more: float | None, slack: float) -> bool:
+    """Tell whether a rival is near enough to an alternative that meets the threshold."""
+    if most_more is None or threshold.comparison is not Comparison.AT_LEAST:
+        return False
+    return most_more <= slack * abs(threshold.value)
+
+
+def _largest_gain(one: Observed, most_more: float, slack: float) -> float:
+    """The largest v(x) - v(y) with x - y at most so much; x meets the thresholds, y but for the slack."""
+    low, high = max(0.0, one.least), min(1.0, one.most)
+    if low - high > most_more:
+        return -math.inf
+    if one.function is None:
+        return 0.0
+    rivals = np.linspace(max(low - slack * abs(low), low - most_more), min(1.0, high + slack * abs(high)), 65)
+    best = -math.inf
+    for rival in rivals.tolist():
+        top = min(high, rival + most_more)
+        mine = one.function.value_at(top)
+        if one.function.more_is_better is not True:
+            mine = max(one.function.value_at(each) for each in np.linspace(low, max(top, low), 65).tolist())
+        best = max(best, mine - one.function.value_at(rival))
+    return best
+
+
+def _gain_of_means(evidence: SequentialEvidence, row: int, rival: int, level: float, after: int) -> float:
+    """An upper bound of the difference of value in all measures that are means.
+
+    Each mean is expanded about its estimate: seed s adds ``w v'(m) (x_s - m) r/k`` with the slope v'
+    of the value function, r the seeds and k those that tell the measure, as the influence function
+    of a mean over some trials does. The sums of two alternatives are compared seed by seed.
+    """
+    means = [one for one in evidence.observed if not one.is_proportion and one.function is not None]
+    if not means:
+        return 0.0
+    shared = int(min(evidence.replicates[row], evidence.replicates[rival]))
+    if shared <= after:
+        return math.inf
+    scores = np.zeros(shared - after)
+    difference = 0.0
+    for one in means:
+        for sign, each in ((1.0, row), (-1.0, rival)):
+            values = one.values[each, after:shared]
+            known = ~np.isnan(values)
+            if known.sum() < 2 or one.function is None:
+                return math.inf
+            mean = math.fsum(values[known].tolist()) / int(known.sum())
+            slope = (one.function.value_at(mean + _STEP) - one.function.value_at(mean - _STEP)) / (2.0 * _STEP)
+            deviation = np.where(known, values - mean, 0.0) * (len(values) / known.sum())
+            scores += sign * one.weight * slope * deviation
+            difference += sign * one.weight * one.function.value_at(mean)
+    return difference + mean_above(_rounded(scores), level)
+
+
+def _rounded(scores: NDArray[np.float64]) -> NDArray[np.float64]:
+    # What differs by rounding alone is the same; it must not look like a little noise.
+    return np.where(np.abs(scores) < 1e-12, 0.0, scores)

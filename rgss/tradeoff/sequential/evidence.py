@@ -1,0 +1,205 @@
+"""The evidence of a trade-off as sequential tests see it: what is fixed, and what each replicate showed."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.problem import Comparison, EvidenceTable, Threshold, ValueFunction, tabulated
+from rgss.tradeoff.programs import TradeProblem
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Observed:
+    """A measure that is observed in trials.
+
+    Attributes:
+        measure: The measure.
+        is_proportion: Whether each replicate is 0 or 1; the mean of its replicates otherwise.
+        values: Quantities, shape (n, r); NaN where a replicate does not tell or was not run.
+        weight: Its weight in the value; 0 if it has none.
+        function: Its value function; None if it has no weight.
+        thresholds: What bounds it, by their place among all thresholds.
+    """
+
+    measure: str
+    is_proportion: bool
+    values: NDArray[np.float64]
+    weight: float
+    function: ValueFunction | None
+    thresholds: Mapping[int, Threshold]
+
+    def known(self, row: int, *, after: int = 0) -> NDArray[np.float64]:
+        """What the replicates of one alternative tell, without the first ones.
+
+        Args:
+            row: The alternative.
+            after: So many first replicates are left out.
+        """
+        values = self.values[row, after:]
+        return values[~np.isnan(values)]
+
+    @property
+    def least(self) -> float:
+        """The smallest quantity that meets every threshold."""
+        return max(
+            (one.value for one in self.thresholds.values() if one.comparison is Comparison.AT_LEAST), default=-np.inf
+        )
+
+    @property
+    def most(self) -> float:
+        """The largest quantity that meets every threshold."""
+        return min(
+            (one.value for one in self.thresholds.values() if one.comparison is Comparison.AT_MOST), default=np.inf
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SequentialEvidence:
+    """What is known of n alternatives.
+
+    Attributes:
+        table: The alternatives, by ascending id.
+        replicates: How many replicates of each were run, shape (n,).
+        thresholds: What the requirements demand.
+        observed: The measures that are observed in trials and that matter.
+        fixed_value: What the measures that follow from the design add to the value, shape (n,).
+        fixed_met: Which alternatives meet every threshold on such measures, shape (n,).
+        values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
+        feasible: Which alternatives meet everything by their estimates, shape (n,).
+    """
+
+    table: EvidenceTable
+    replicates: NDArray[np.int64]
+    thresholds: tuple[Threshold, ...]
+    observed: tuple[Observed, ...]
+    fixed_value: NDArray[np.float64]
+    fixed_met: NDArray[np.bool_]
+    values: NDArray[np.float64]
+    feasible: NDArray[np.bool_]
+
+    @staticmethod
+    def of(problem: TradeProblem, proportions: Collection[str]) -> SequentialEvidence:
+        """The evidence of a trade-off.
+
+        Args:
+            problem: The trade-off, whose alternatives hold their replicates.
+            proportions: The measures that are shares of trials.
+
+        Raises:
+            TradeoffError: The trade-off is none of weighted values under thresholds on estimates.
+        """
+        _check(problem)
+        table = tabulated(problem.alternatives)
+        weights = problem.weighting.weights
+        valued = problem.weighting.deciding_measures
+        fixed_value = np.zeros(len(table))
+        values = np.zeros(len(table))
+        observed = []
+        for measure in dict.fromkeys((*valued, *(one.measure for one in problem.thresholds))):
+            worth = np.zeros(len(table))
+            function = problem.value_function(measure) if measure in valued else None
+            if function is not None:
+                worth = weights[measure] * _worth(function, table.column(measure))
+                values += worth
+            if measure not in table.samples:
+                fixed_value += worth
+                continue
+            observed.append(
+                Observed(
+                    measure=measure,
+                    is_proportion=measure in proportions,
+                    values=table.samples[measure].values,
+                    weight=weights.get(measure, 0.0),
+                    function=function,
+                    thresholds={at: one for at, one in enumerate(problem.thresholds) if one.measure == measure},
+                )
+            )
+        fixed = [one for one in problem.thresholds if one.measure not in table.samples]
+        return SequentialEvidence(
+            table=table,
+            replicates=_replicates(table),
+            thresholds=problem.thresholds,
+            observed=tuple(observed),
+            fixed_value=fixed_value,
+            fixed_met=_met(table, fixed),
+            values=values,
+            feasible=_met(table, problem.thresholds) & ~np.isnan(values),
+        )
+
+    def optimistic_values(self) -> NDArray[np.float64]:
+        """The values if each proportion were higher by two standard deviations of a fair coin, shape (n,).
+
+        NaN where a threshold is missed even so, or a measure that is weighted is unknown.
+        """
+        values: NDArray[np.float64] = self.fixed_value.copy()
+        values[~self.fixed_met] = np.nan
+        for one in self.observed:
+            column = self.table.column(one.measure)
+            if one.is_proportion:
+                column = np.minimum(1.0, column + 1.0 / np.sqrt(np.maximum(self.replicates, 1)))
+            if one.function is not None:
+                values += one.weight * _worth(one.function, column)
+            for threshold in one.thresholds.values():
+                missed = threshold.comparison.margin(1.0, 0.0) * (column - threshold.value) < 0.0
+                values[missed] = np.nan
+        return values
+
+    def is_nearly_feasible(self, row: int, slack: float) -> bool:
+        """Tell whether an alternative's estimates miss no threshold by more than a share of it.
+
+        Args:
+            row: The alternative.
+            slack: The share; only measures that are observed in trials are given it.
+        """
+        if not self.fixed_met[row] or np.isnan(self.values[row]):
+            return False
+        return all(
+            threshold.comparison.margin(float(self.table.column(one.measure)[row]), threshold.value)
+            >= -slack * abs(threshold.value)
+            for one in self.observed
+            for threshold in one.thresholds.values()
+        )
+
+
+def _check(problem: TradeProblem) -> None:
+    if problem.program.name != "additive":
+        raise TradeoffError(
+            f"replication until decided knows no {problem.program.name} program",
+            hint="decide by the weighted value, or run a fixed number of replicates",
+        )
+    if problem.risks:
+        raise TradeoffError(
+            f"replication until decided knows no demand on replicates, such as {problem.risks[0].requirement}",
+            hint="take the risks out, or run a fixed number of replicates",
+        )
+    for threshold in problem.thresholds:
+        measure, dot, end = threshold.measure.rpartition(".")
+        if dot and end in ("low", "high"):
+            raise TradeoffError(
+                f"replication until decided cannot judge {threshold.requirement} by an end of {measure}'s interval",
+                hint="judge it by the value, or run a fixed number of replicates",
+            )
+
+
+def _worth(function: ValueFunction, column: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.array([np.nan if np.isnan(quantity) else function.value_at(quantity) for quantity in column.tolist()])
+
+
+def _met(table: EvidenceTable, thresholds: Collection[Threshold]) -> NDArray[np.bool_]:
+    met = np.ones(len(table), dtype=np.bool_)
+    for threshold in thresholds:
+        column = table.column(threshold.measure).tolist()
+        met &= np.array([threshold.is_met_by(None if np.isnan(quantity) else quantity) for quantity in column])
+    return met
+
+
+def _replicates(table: EvidenceTable) -> NDArray[np.int64]:
+    counts = np.zeros(len(table), dtype=np.int64)
+    for samples in table.samples.values():
+        counts = np.maximum(counts, samples.ran.sum(axis=1))
+    return counts

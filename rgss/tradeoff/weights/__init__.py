@@ -1,0 +1,34 @@
+"""Sets of weights: polytopes, regions of a winner, and sampling."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.weights.polytope import THINNEST, Polytope
+    from rgss.tradeoff.weights.sampling import Drawing, sample_weights
+    from rgss.tradeoff.weights.weight_region import (
+        WeightRegion,
+        never_best,
+        rivals_of,
+        shared_region_keys,
+        winning_polytope,
+        winning_regions,
+    )
+    from rgss.tradeoff.weights.weight_set import WeightSet
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "THINNEST",
+    "Drawing",
+    "Polytope",
+    "WeightRegion",
+    "WeightSet",
+    "never_best",
+    "rivals_of",
+    "sample_weights",
+    "shared_region_keys",
+    "winning_polytope",
+    "winning_regions",
+]

@@ -1,0 +1,100 @@
+"""Versions of the code and the engines that each piece of a trial depends on."""
+
+from __future__ import annotations
+
+import importlib.metadata
+from collections.abc import Mapping
+from functools import lru_cache
+from types import MappingProxyType
+
+from rgss.trials.code.code_fingerprint import SourceClosure, own_sources
+
+ENGINES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "pybullet": ("pybullet",),
+        "ompl": ("ompl",),
+        "pinocchio": ("pin", "coal"),
+        "coal": ("coal",),
+        "eaik": ("eaik",),
+        "toppra": ("toppra",),
+        "numpy": ("numpy",),
+        "scipy": ("scipy",),
+        "highspy": ("highspy",),
+    }
+)
+"""The distributions behind each foreign module that a piece's making may import."""
+
+ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "plan": ("rgss.trials.pieces.pieces:make_plan",),
+        "timing": ("rgss.trials.pieces.pieces:make_timing",),
+        "execution": ("rgss.trials.pieces.pieces:make_execution",),
+        "bench": ("rgss.trials.pieces.pieces:make_bench",),
+        # A trial that shares nothing is put together by the second, from what the others make.
+        "record": ("rgss.trials.pieces.pieces:record_of", "rgss.trials.pieces.run:"),
+    }
+)
+"""The function that a worker calls to make each piece, and those that put the record together."""
+
+_EVERYWHERE = ("rgss.trials.code.kernel_environment",)
+"""What decides a result without being called for it: the kernels that a worker is started with."""
+
+_CODE = "rgss-"
+
+
+def versions() -> dict[str, str]:
+    """Installed version of each engine, and for each piece a digest of the source that makes it.
+
+    The source is digested so that evidence of other code is never taken for evidence of this.
+    """
+    return dict(_found())
+
+
+def versions_of(piece: str, among: Mapping[str, str]) -> dict[str, str]:
+    """The versions that a piece depends on by itself, its forerunners not counted.
+
+    Args:
+        piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
+        among: Versions as `versions` gives them; those that are not there are left out.
+    """
+    return {name: among[name] for name in _names_of(piece) if name in among}
+
+
+def are_of_this_kind(found: Mapping[str, str]) -> bool:
+    """Tell whether versions name the source of each piece; those that rgss kept before named one for all.
+
+    Args:
+        found: Versions as a trial's provenance has them.
+    """
+    return all(f"{_CODE}{piece}" in found for piece in ENTRIES)
+
+
+@lru_cache(maxsize=len(ENTRIES))
+def source_of(piece: str) -> SourceClosure:
+    """The modules and engines that make a piece.
+
+    Args:
+        piece: ``plan``, ``timing``, ``execution``, ``bench`` or ``record``.
+    """
+    return own_sources().closure_of((*ENTRIES[piece], *_EVERYWHERE))
+
+
+def code_of_trials() -> dict[str, str]:
+    """A short digest of each module that makes any piece of a trial, by its name."""
+    modules = sorted({module for piece in ENTRIES for module in source_of(piece).modules})
+    return {module: own_sources().module_digest(module)[:12] for module in modules}
+
+
+@lru_cache(maxsize=1)
+def _found() -> Mapping[str, str]:
+    engines = sorted({name for names in ENGINES.values() for name in names})
+    found = {name: importlib.metadata.version(name) for name in engines}
+    for piece in ENTRIES:
+        found[f"{_CODE}{piece}"] = source_of(piece).digest
+    return found
+
+
+@lru_cache(maxsize=len(ENTRIES))
+def _names_of(piece: str) -> tuple[str, ...]:
+    engines = {name for module in source_of(piece).foreign for name in ENGINES.get(module, ())}
+    return (*sorted(engines), f"{_CODE}{piece}")

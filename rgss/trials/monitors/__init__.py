@@ -1,0 +1,32 @@
+"""Monitors of a trial: arm, grasp, contact forces, release and phases."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.trials.monitors.arm_monitor import ToolKinematics
+    from rgss.trials.monitors.drag_monitor import DragMonitor
+    from rgss.trials.monitors.force_sensor import ForceSensor
+    from rgss.trials.monitors.grasp_record import GREATEST, LEAST, grasp_metrics, worst_of
+    from rgss.trials.monitors.in_hand_motion import InHandMotionTracker
+    from rgss.trials.monitors.observer import StepObserver
+    from rgss.trials.monitors.phase_monitor import PhaseMonitor
+    from rgss.trials.monitors.release_monitor import LandingMonitor, PlacedObjectMonitor
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "GREATEST",
+    "LEAST",
+    "DragMonitor",
+    "ForceSensor",
+    "InHandMotionTracker",
+    "LandingMonitor",
+    "PhaseMonitor",
+    "PlacedObjectMonitor",
+    "StepObserver",
+    "ToolKinematics",
+    "grasp_metrics",
+    "worst_of",
+]

@@ -1,0 +1,127 @@
+"""What the arm does over a phase: the torques of its joints, and how its tool follows its path."""
+
+from __future__ import annotations
+
+import math
+from array import array
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rgss.evidence import Metric
+from rgss.physics import PhysicsSettings
+from rgss.scenes import Robot
+from rgss.trials.plants import ControlSettings, JointLoad
+
+Array = NDArray[np.float64]
+JointState = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
+
+
+class ToolKinematics(Protocol):
+    """What turns the motion of the joints into that of the tool."""
+
+    @property
+    def reach_m(self) -> float:
+        """No axis of a joint is farther from the tool."""
+
+    def tool_motion(self, qs: ArrayLike, dqs: ArrayLike) -> tuple[Array, Array]:
+        """Positions (m) and velocities (m/s) of the tool, each (n, 3), for joint angles and speeds, each (n, 6)."""
+
+
+class ArmMonitor:
+    """Notes the joints step by step; what follows from them is worked out when it is asked for, all steps at once."""
+
+    def __init__(
+        self,
+        kinematics: ToolKinematics,
+        robot: Robot,
+        control: ControlSettings,
+        settings: PhysicsSettings,
+        *,
+        path_m: Sequence[Sequence[float]] | Array = (),
+    ) -> None:
+        """Begin at rest.
+
+        Args:
+            kinematics: The arm's, with the tool at the grasp centre.
+            robot: The arm.
+            control: How far the tool may stray, and how its acceleration is averaged.
+            settings: Length of a step.
+            path_m: Where the tool should be in the world, at the start of a move and after each of its steps; empty
+                where the arm is held.
+        """
+        self._kinematics = kinematics
+        self._joints = robot.joints
+        self._limit_m = control.largest_tracking_error_m
+        # A joint that is off by an angle moves the tool by at most the angle times the reach.
+        self._near_rad = self._limit_m / (kinematics.reach_m * math.sqrt(len(robot.joints)))
+        self._step_s = settings.step_s
+        self._window = max(1, round(control.acceleration_window_s * settings.rate_hz))
+        # Torques of the steps in which the arm was held; positions, velocities and torques of those of a move.
+        self._held = array("d")
+        self._followed = array("d")
+        self._path_m = path_m
+
+    def note(self, state: JointState) -> None:
+        """Add a step in which the arm is held where it is.
+
+        Args:
+            state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
+        """
+        self._held.extend(state[2])
+
+    def follow(self, state: JointState, target_rad: Sequence[float]) -> str | None:
+        """Add a step of a move.
+
+        Args:
+            state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
+            target_rad: Where the joints should be.
+
+        Returns:
+            What is wrong, if the tool is farther from where it should be than it may be.
+        """
+        positions, velocities, torques = state
+        self._followed.extend(positions + velocities + torques)
+        if math.dist(positions, target_rad) <= self._near_rad:
+            return None
+        target_m = self._path_m[len(self._followed) // (3 * len(positions))]
+        error = math.dist(self._kinematics.tool_motion([positions], [velocities])[0][0], target_m)
+        if error <= self._limit_m:
+            return None
+        return f"the tool was {error * 1e3:.2f} mm from where it should be{self._load().words()}"
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit; those of the tool are missing where it did not follow a path."""
+        states = self._states()
+        if not len(states):
+            off = 0.0
+            speed = acceleration = None
+        else:
+            positions, velocities = self._kinematics.tool_motion(states[:, 0], states[:, 1])
+            targets = np.asarray(self._path_m[1 : len(states) + 1])
+            off = float(np.linalg.norm(positions - targets, axis=1).max())
+            speed = float(np.linalg.norm(velocities, axis=1).max())
+            # Every move starts from rest.
+            padded = np.vstack([np.zeros((self._window, 3)), velocities])
+            changes = np.linalg.norm(padded[self._window :] - padded[: -self._window], axis=1)
+            acceleration = float(changes.max()) / (self._window * self._step_s)
+        return {
+            **self._load().metrics(),
+            "tracking_error_m": off,
+            "peak_tool_speed_m_s": speed,
+            "peak_tool_acceleration_m_s2": acceleration,
+        }
+
+    def _states(self) -> Array:
+        """Positions, velocities and torques of the steps of a move, shape (steps, 3, joints)."""
+        return np.frombuffer(self._followed).reshape(-1, 3, len(self._joints))
+
+    def _load(self) -> JointLoad:
+        load = JointLoad(self._joints)
+        # A phase holds the arm or moves it.
+        for torques in (np.array(self._held).reshape(-1, len(self._joints)), np.array(self._states()[:, 2])):
+            if len(torques):
+                load.note_all(torques, self._step_s)
+        return load

@@ -1,0 +1,90 @@
+"""The grasp over a phase in which the object is carried: sampled at a fixed rate, kept at its worst."""
+
+from __future__ import annotations
+
+import math
+
+from rgss.evidence import Metric
+from rgss.grasping import GraspGeometryCache
+from rgss.physics import World
+from rgss.scenes import Pose
+from rgss.trials.monitors.grasp_record import grasp_metrics, worst_of
+from rgss.trials.monitors.in_hand_motion import InHandMotionTracker
+from rgss.trials.plants import ControlSettings
+
+
+class GraspMonitor:
+    """Looks at the object in the hand often, and analyses the grasp now and then.
+
+    One instant says little of a carry: beside the worst it keeps in how many of the samples the grasp
+    was force-closed.
+
+    Attributes:
+        slip_m: Greatest distance of the object from where it was grasped.
+    """
+
+    def __init__(self, world: World, control: ControlSettings, held_at: Pose, memory: GraspGeometryCache) -> None:
+        """Take the first look.
+
+        Args:
+            world: The world that is stepped.
+            control: How often to look, and to analyse.
+            held_at: Transform of the object to the grasp centre when it was grasped.
+            memory: Remembers the analysis of this grasp from one look to the next.
+        """
+        self.slip_m = 0.0
+        self._world = world
+        self._held_at = held_at
+        self._memory = memory
+        self._hand = InHandMotionTracker(world)
+        rate_hz = world.settings.rate_hz
+        self._look_every = max(1, round(rate_hz / control.observation_rate_hz))
+        looks = max(1, round(control.observation_rate_hz / control.grasp_rate_hz))
+        self._sample_every = looks * self._look_every
+        self._steps = self._sampled_at = 0
+        self._samples: list[dict[str, Metric]] = []
+
+    def after_step(self) -> float | None:
+        """Look, if it is time.
+
+        Returns:
+            How far the object is from where it was grasped (m); None if it was not looked at.
+        """
+        self._steps += 1
+        if self._steps % self._look_every:
+            return None
+        slip = self._look()
+        if self._steps % self._sample_every == 0:
+            self._sample(strength=False)
+        return slip
+
+    def finish(self) -> float:
+        """Look and analyse at the end of the phase, whatever the time.
+
+        Returns:
+            How far the object is from where it was grasped (m).
+        """
+        slip = self._look()
+        if self._sampled_at == self._steps and self._samples:
+            self._samples.pop()
+        self._sample(strength=True)
+        return slip
+
+    def metrics(self) -> dict[str, Metric]:
+        """The worst of each measure over the phase, and the number of samples."""
+        return {
+            **worst_of(self._samples),
+            "grasp_samples": len(self._samples),
+            "grasp_samples_closed": sum(1 for sample in self._samples if sample["grasp_force_closure"]),
+        }
+
+    def _look(self) -> float:
+        slip = math.dist(self._hand.look(self._steps).held_at_m, self._held_at.position_m)
+        self.slip_m = max(self.slip_m, slip)
+        return slip
+
+    def _sample(self, *, strength: bool) -> None:
+        self._sampled_at = self._steps
+        self._samples.append(
+            grasp_metrics(self._world, self._hand.motion, self._held_at, self._memory, strength=strength)
+        )

@@ -1,0 +1,219 @@
+"""The grasp as the simulation has it at one instant, analysed for the record."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+from rgss.evidence import Metric
+from rgss.grasping import (
+    ContactKind,
+    ContactPoint,
+    ContactState,
+    ContactTolerances,
+    GraspGeometryCache,
+    Sliding,
+    Tendency,
+    Twist,
+    Wrench,
+    analyse_grasp,
+    configuration_distance_m,
+    contact_status,
+    recorded_motion,
+    velocity_norm_m_s,
+)
+from rgss.physics import FingerContact, World
+from rgss.scenes import RIBS, Cylinder, Pose
+from rgss.trials.monitors.in_hand_motion import HandMotion
+
+Vector3 = tuple[float, float, float]
+
+LEAST: tuple[str, ...] = (
+    "grasp_contact_count",
+    "grasp_equilibrium",
+    "grasp_force_closure",
+    "grasp_form_closure",
+    "grasp_q_msv_1",
+    "grasp_q_voe_1",
+    "grasp_q_gii_1",
+    "grasp_q_smw_n",
+    "grasp_load_factor_1",
+    "contact_gap_min_m",
+    "contacts_rolling",
+)
+"""What is the worse the less it is."""
+
+GREATEST: tuple[str, ...] = (
+    "grasp_q_gpri_1",
+    "grasp_q_diff_m",
+    "contact_closing_speed_m_s",
+    "contact_opening_speed_m_s",
+    "contact_slip_speed_m_s",
+    "contacts_penetrating",
+    "contacts_separating",
+    "contacts_slipping",
+    "held_distance_m",
+    "held_speed_m_s",
+    "held_wrench_n",
+)
+"""What is the worse the more it is."""
+
+_ANALYSED = (
+    "contact_count",
+    "equilibrium",
+    "force_closure",
+    "form_closure",
+    "q_msv_1",
+    "q_voe_1",
+    "q_gii_1",
+    "q_gpri_1",
+    "q_diff_m",
+    "q_smw_n",
+    "load_factor_1",
+)
+# A pyramid of six edges underrates friction by at most 1 - cos(30°); more edges cost more than the physics.
+_CONE_EDGES = 6
+# Contacts of the engine penetrate by hundredths of a millimetre beyond a pad's deflection; a held object turns and
+# yields in its fingers by less than as much from one look to the next (0.35 mm/s was seen; an object that slips is ten
+# times as fast).
+_PENETRATION_M, _SLIP_M_S = 5.0e-5, 1.0e-3
+# A point this far inside is not on the wall.
+_WALL_M = 1.0e-3
+# What is known of a grasp that has come apart: it holds nothing, and nothing else can be said of it.
+_APART: Mapping[str, Metric] = {
+    **{f"grasp_{name}": 0 for name in ("contact_count", "equilibrium", "force_closure", "form_closure")},
+    **{f"grasp_{name}": 0.0 for name in ("q_msv_1", "q_voe_1", "q_gii_1", "q_smw_n", "load_factor_1")},
+    "held_wrench_n": 0.0,
+}
+
+
+def grasp_metrics(
+    world: World, motion: HandMotion, held_at: Pose, memory: GraspGeometryCache, *, strength: bool = True
+) -> dict[str, Metric]:
+    """Analyse the contacts between fingers and workpiece, and the workpiece in the hand, as they are now.
+
+    The contacts are hard points with friction, in the workpiece's frame; torques are divided by
+    the workpiece's radius, so that grasps of one object can be compared; the load is its weight.
+
+    Args:
+        world: The world after a step.
+        motion: What happened in the hand until now.
+        held_at: Transform of the workpiece to the grasp centre when it was grasped.
+        memory: Remembers the analysis of this grasp from one look to the next.
+        strength: Whether to say what the grasp resists, which takes most of the time.
+
+    Returns:
+        The measures by name with unit; those that need a contact are 0 or missing where no finger touches.
+    """
+    workpiece, gripper = world.scene.workpiece, world.gripper
+    contacts = world.finger_contacts()
+    moved = _motion_in_the_hand(motion, held_at, workpiece.shape.radius_m)
+    if not contacts:
+        return {**_APART, **moved}
+    closing = [
+        _closing_velocity(azimuth, speed, motion)
+        for azimuth, speed in zip(gripper.geometry.azimuths_rad, motion.closing_m_s, strict=True)
+    ]
+    friction = gripper.friction * workpiece.friction
+    points = [_point(one, workpiece.shape, friction, motion, closing[one.finger]) for one in contacts]
+    weight_n = workpiece.mass_kg * world.scene.gravity_m_s2
+    found = analyse_grasp(
+        points,
+        centre_of_mass_m=(0.0, 0.0, 0.0),
+        finger_force_limit_n=gripper.finger_force_n,
+        grasp_axis=(0.0, 0.0, 1.0),
+        characteristic_length_m=workpiece.shape.radius_m,
+        external_wrench=Wrench(force_n=world.workpiece_pose().inverse_rotate((0.0, 0.0, -weight_n))),
+        cone_edges=_CONE_EDGES,
+        with_margins=False,
+        with_strength=strength,
+        memory=memory,
+    ).metrics()
+    return {
+        **{f"grasp_{name}": found[name] for name in _ANALYSED},
+        **_kinematics(points, _tolerances(world)),
+        **moved,
+        "held_wrench_n": found["net_wrench_n"],
+    }
+
+
+def worst_of(samples: Iterable[Mapping[str, Metric]]) -> dict[str, Metric]:
+    """The worst of each measure over several instants; what none of them knows is missing."""
+    rows = list(samples)
+    worst: dict[str, Metric] = {}
+    for names, choose in ((LEAST, min), (GREATEST, max)):
+        for name in names:
+            known = [value for row in rows if isinstance(value := row.get(name), (int, float))]
+            if known:
+                worst[name] = choose(known)
+    return worst
+
+
+def _point(
+    contact: FingerContact, shape: Cylinder, friction: float, motion: HandMotion, closing_m_s: Vector3
+) -> ContactPoint:
+    normal = _wall_normal(contact, shape)
+    nx, ny, nz = contact.normal
+    fx, fy, fz = contact.friction_n
+    force = contact.normal_force_n
+    fx, fy, fz = fx + force * nx, fy + force * ny, fz + force * nz
+    # The force is what the engine had; how much of it is pressure depends on the normal.
+    pressure = max(0.0, fx * normal[0] + fy * normal[1] + fz * normal[2])
+    vx, vy, vz = motion.velocity_at(contact.position_m)
+    return ContactPoint(
+        position_m=contact.position_m,
+        normal=normal,
+        kind=ContactKind.HARD,
+        friction=friction,
+        normal_force_n=pressure,
+        friction_force_n=(fx - pressure * normal[0], fy - pressure * normal[1], fz - pressure * normal[2]),
+        gap_m=contact.gap_m,
+        relative_velocity_m_s=(vx - closing_m_s[0], vy - closing_m_s[1], vz - closing_m_s[2]),
+        finger=contact.finger,
+    )
+
+
+def _wall_normal(contact: FingerContact, shape: Cylinder) -> Vector3:
+    """The normal of the wall where that is what is touched; the engine's may be of an earlier moment."""
+    x, y, z = contact.position_m
+    radius = math.hypot(x, y)
+    if radius < shape.radius_m - _WALL_M or abs(z) > shape.half_height_m:
+        return contact.normal
+    return (-x / radius, -y / radius, 0.0)
+
+
+def _closing_velocity(azimuth_rad: float, speed_m_s: float, motion: HandMotion) -> Vector3:
+    """Velocity of a closing finger in the object's frame; fingers close across the tool's axis."""
+    return motion.held.inverse_rotate((-speed_m_s * math.cos(azimuth_rad), -speed_m_s * math.sin(azimuth_rad), 0.0))
+
+
+def _tolerances(world: World) -> ContactTolerances:
+    """Tolerances of the contact status; a pad may yield by what all of its finger's force deflects one of its ends."""
+    yields_m = world.gripper.finger_force_n / (world.settings.pad_stiffness_n_m / RIBS)
+    return ContactTolerances(gap_m=_PENETRATION_M + yields_m, speed_m_s=_SLIP_M_S)
+
+
+def _kinematics(points: Sequence[ContactPoint], tolerances: ContactTolerances) -> dict[str, Metric]:
+    """How the contacts move: gap and its rate, slip, and how many of them do what."""
+    motions = [recorded_motion(point) for point in points]
+    statuses = [contact_status(motion, tolerances) for motion in motions]
+    rates = [motion.gap_rate_m_s for motion in motions]
+    return {
+        "contact_gap_min_m": min(point.gap_m for point in points),
+        "contact_closing_speed_m_s": max(0.0, -min(rates)),
+        "contact_opening_speed_m_s": max(0.0, *rates),
+        "contact_slip_speed_m_s": max(math.hypot(*motion.tangential_velocity_m_s) for motion in motions),
+        "contacts_penetrating": sum(status.state is ContactState.PENETRATING for status in statuses),
+        "contacts_separating": sum(status.tendency is Tendency.SEPARATING for status in statuses),
+        "contacts_slipping": sum(status.sliding is Sliding.SLIPPING for status in statuses),
+        "contacts_rolling": sum(status.sliding is Sliding.ROLLING for status in statuses),
+    }
+
+
+def _motion_in_the_hand(motion: HandMotion, held_at: Pose, radius_m: float) -> dict[str, Metric]:
+    """The rigid-body measures: how far the workpiece is from where it was grasped, and how fast it moves there."""
+    linear, angular = motion.twist()
+    return {
+        "held_distance_m": configuration_distance_m(held_at, motion.held, radius_m),
+        "held_speed_m_s": velocity_norm_m_s(Twist(linear_m_s=linear, angular_rad_s=angular), radius_m),
+    }

@@ -1,0 +1,96 @@
+"""How the object and the fingers move in the hand, from where they were a moment ago."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.physics import HandView, World
+from rgss.scenes import Pose
+
+_Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class HandMotion:
+    """Object and fingers at the ends of a short time.
+
+    Velocities are from places, not from the engine's velocities: of bodies that go round a bend
+    together these differ by the acceleration times a step, which is no slip.
+
+    Attributes:
+        before: Transform of the object to the grasp centre at the start.
+        held: The same at the end.
+        closing_m_s: Speed at which each finger closes.
+        span_s: The time between the two.
+    """
+
+    before: Pose
+    held: Pose
+    closing_m_s: tuple[float, ...]
+    span_s: float
+
+    def velocity_at(self, point_m: _Triple) -> _Triple:
+        """Velocity (m/s) in the hand of a point of the object, which is given and answered in the object's frame."""
+        (ax, ay, az), (bx, by, bz) = self.held.rotate(point_m), self.before.rotate(point_m)
+        (px, py, pz), (qx, qy, qz) = self.held.position_m, self.before.position_m
+        span_s = self.span_s
+        motion = ((px + ax) - (qx + bx)) / span_s, ((py + ay) - (qy + by)) / span_s, ((pz + az) - (qz + bz)) / span_s
+        return self.held.inverse_rotate(motion)
+
+    def twist(self) -> tuple[_Triple, _Triple]:
+        """Velocity (m/s) of the object's centre and angular velocity (rad/s) of the object, in the hand's frame."""
+        now, then = self.held.position_m, self.before.position_m
+        x, y, z = ((one - other) / self.span_s for one, other in zip(now, then, strict=True))
+        # A rotation by so little that its vector is twice the quaternion's.
+        turned = self.held @ self.before.inverse()
+        qx, qy, qz, qw = turned.quaternion_xyzw
+        scale = (2.0 if qw > 0.0 else -2.0) / self.span_s
+        return (x, y, z), (qx * scale, qy * scale, qz * scale)
+
+
+class InHandMotionTracker:
+    """Looks into the hand now and then, and remembers what it saw last."""
+
+    def __init__(self, world: World) -> None:
+        """Take the first look.
+
+        Args:
+            world: The world that is stepped.
+        """
+        self._world = world
+        self._at = 0
+        self._view = world.hand_view()
+        self._earlier = (0, self._view)
+        self._motion: HandMotion | None = None
+
+    @property
+    def motion(self) -> HandMotion:
+        """What happened between the last two looks; nothing, before the second."""
+        # What follows from two looks is worked out only if it is asked for.
+        if self._motion is None:
+            (then, before), now = self._earlier, self._view
+            span_s = (self._at - then) * self._world.settings.step_s
+            if span_s > 0.0:
+                closing = tuple(
+                    (end - start) / span_s for end, start in zip(now.travel_m, before.travel_m, strict=True)
+                )
+                self._motion = HandMotion(before.held, now.held, closing, span_s)
+            else:
+                still = (0.0,) * len(now.travel_m)
+                self._motion = HandMotion(now.held, now.held, still, self._world.settings.step_s)
+        return self._motion
+
+    def look(self, steps: int) -> HandView:
+        """Look again.
+
+        Args:
+            steps: Steps since the first look.
+
+        Returns:
+            What is seen now.
+        """
+        if steps != self._at:
+            self._earlier, self._motion = (self._at, self._view), None
+            self._at = steps
+            self._view = self._world.hand_view()
+        return self._view

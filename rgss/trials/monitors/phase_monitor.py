@@ -1,0 +1,202 @@
+"""What is observed during a phase, step by step."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Sequence
+
+from rgss.evidence import Failure, Metric
+from rgss.grasping import GraspGeometryCache
+from rgss.physics import Contacts, World
+from rgss.scenes import Pose
+from rgss.trials.monitors.arm_monitor import ArmMonitor, Array, ToolKinematics
+from rgss.trials.monitors.force_sensor import ForceSensor
+from rgss.trials.monitors.grasp_monitor import GraspMonitor
+from rgss.trials.monitors.release_monitor import PlacedObjectMonitor, Violation
+from rgss.trials.plants import ControlSettings
+
+_FEWEST_FINGERS = 2
+
+
+class PhaseMonitor:
+    """Accumulates the observations of one phase and names what goes wrong.
+
+    Attributes:
+        failure: The first thing that went wrong; None so far.
+        detail: The numbers that show it.
+        grip_margin: Friction available over friction needed as last observed; None so far.
+        robot_touched_object: Whether a finger or another link pressed the object so far.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        kinematics: ToolKinematics,
+        control: ControlSettings,
+        *,
+        carried_at: Pose | None,
+        resting_on: str,
+        path_m: Sequence[Sequence[float]] | Array = (),
+        memory: GraspGeometryCache | None = None,
+        placed: PlacedObjectMonitor | None = None,
+        sensor: ForceSensor | None = None,
+    ) -> None:
+        """Begin to watch.
+
+        Args:
+            world: The world that is stepped.
+            kinematics: The arm's, with the tool at the grasp centre.
+            control: Thresholds.
+            carried_at: Transform of the object to the grasp centre when it was grasped; None
+                when it is not carried.
+            resting_on: The body that the object may touch in this phase; empty for none.
+            path_m: Where the tool should be in the world, at the start of a move and after each of its steps; empty
+                where the arm is held.
+            memory: Remembers the analysis of a carried object's grasp from one phase to the next.
+            placed: Monitor of the object that was released, if the hand leaves it.
+            sensor: The fingers' force sensors, which go on from one phase to the next; new ones if not given.
+        """
+        self.failure: Failure | None = None
+        self.detail = ""
+        self.grip_margin: float | None = None
+        self.robot_touched_object = False
+        self._world = world
+        self._control = control
+        self._resting_on = resting_on
+        self._friction = world.gripper.friction * world.scene.workpiece.friction
+        self._mass_kg = world.scene.workpiece.mass_kg
+        self._step_s = world.settings.step_s
+        self._window = max(1, round(control.force_window_s * world.settings.rate_hz))
+        self._forces_n: deque[float] = deque(maxlen=self._window)
+        self._as_it_may = ((), (resting_on,))
+        workpiece = world.scene.workpiece
+        self._limit_n = workpiece.force_limit_n
+        self._sensor = sensor or ForceSensor(workpiece.force_window_s, world.settings.rate_hz)
+        self._sensor.restart()
+        self._lost_s = 0.0
+        self._touches = 0
+        self._peak_force_n = 0.0
+        self._margin = math.inf
+        # While the hand is empty and moves, the object stands.
+        self._is_empty_handed = carried_at is None
+        self._standing: Contacts | None = None
+        self._arm = ArmMonitor(kinematics, world.scene.robot, control, world.settings, path_m=path_m)
+        self._placed = placed
+        self._grasp = (
+            None if carried_at is None else GraspMonitor(world, control, carried_at, memory or GraspGeometryCache())
+        )
+
+    def after_step(self, load_m_s2: float, target_rad: Sequence[float] | None) -> Contacts:
+        """Observe the world after a step.
+
+        Args:
+            load_m_s2: Tool acceleration minus gravity, in magnitude.
+            target_rad: Where the joints should be; None where the arm is held.
+        """
+        world = self._world
+        contacts = world.contacts(self._standing)
+        # What was seen in the step before, and was right then, is right now.
+        if contacts is not self._standing:
+            self._watch_touching(contacts)
+            is_standing = self._is_empty_handed and target_rad is not None and not contacts.is_robot_touching
+            self._standing = contacts if is_standing else None
+            if self._placed is not None:
+                self.note(self._placed.after_step(contacts))
+            if is_standing:
+                self._sensor.clear()
+        if target_rad is None:
+            self._arm.note(world.arm_state())
+        elif (stray := self._arm.follow(world.arm_state(), target_rad)) is not None:
+            self.fail(Failure.TRACKING_ERROR, stray)
+        if self._grasp is not None:
+            self._watch_grip(contacts.finger_forces_n, load_m_s2)
+            slip_m = self._grasp.after_step()
+            if slip_m is not None:
+                self._watch_slip(slip_m)
+        return contacts
+
+    def finish(self) -> None:
+        """Observe a carried or released object at the end of the phase."""
+        if self._placed is not None:
+            self.note(self._placed.finish())
+        if self._grasp is not None:
+            self._watch_slip(self._grasp.finish())
+
+    def fail(self, failure: Failure, detail: str) -> None:
+        """Note what went wrong, unless something did before."""
+        if self.failure is None:
+            self.failure, self.detail = failure, detail
+
+    def note(self, violation: Violation | None) -> None:
+        """Note what a monitor found to be wrong, if anything."""
+        if violation is not None:
+            self.fail(*violation)
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit."""
+        grasp = self._grasp
+        return {
+            "arm_scene_contacts": self._touches,
+            "sensed_finger_force_n": self._sensor.peak_n,
+            "peak_finger_force_n": self._peak_force_n,
+            **self._arm.metrics(),
+            "slip_m": grasp.slip_m if grasp is not None else None,
+            "grip_margin_min": self._margin if math.isfinite(self._margin) else None,
+            **(grasp.metrics() if grasp is not None else {}),
+            **(self._placed.metrics() if self._placed is not None else {}),
+        }
+
+    def _watch_touching(self, contacts: Contacts) -> None:
+        forces_n, other_n, _, robot_bodies, workpiece_bodies = contacts
+        force_n = max(forces_n)
+        if force_n > self._peak_force_n:
+            self._peak_force_n = force_n
+        if force_n > 0.0 or other_n > 0.0:
+            self.robot_touched_object = True
+        sensor = self._sensor
+        sensor.note(forces_n)
+        # Mostly there is nothing to tell.
+        is_whole = sensor.peak_n <= self._limit_n
+        if is_whole and not robot_bodies and other_n <= 0.0 and workpiece_bodies in self._as_it_may:
+            return
+        if robot_bodies:
+            self._touches += 1
+            link, body = robot_bodies[0]
+            self.fail(Failure.ARM_COLLISION, f"{link} touched {body}")
+        if other_n > 0.0:
+            self.fail(Failure.OBJECT_COLLISION, f"the arm pressed the object with {other_n:.2f} N")
+        for body in workpiece_bodies:
+            if body != self._resting_on:
+                self.fail(Failure.OBJECT_COLLISION, f"the object touched {body}")
+        if not is_whole:
+            window_ms = self._world.scene.workpiece.force_window_s * 1e3
+            self.fail(
+                Failure.OBJECT_DAMAGED,
+                f"a finger pressed with {sensor.peak_n:.2f} N over {window_ms:g} ms, "
+                f"the object bears {self._limit_n:g} N",
+            )
+
+    def _watch_grip(self, forces_n: tuple[float, ...], load_m_s2: float) -> None:
+        window = self._forces_n
+        window.append(math.fsum(forces_n))
+        if len(window) == self._window:
+            margin = self._friction * math.fsum(window) / self._window / (self._mass_kg * load_m_s2)
+            self.grip_margin = margin
+            if margin < self._margin:
+                self._margin = margin
+        # Mostly all of them press, which is told at once.
+        if min(forces_n) > 0.0:
+            self._lost_s = 0.0
+            return
+        touching = sum(force > 0.0 for force in forces_n)
+        if touching >= _FEWEST_FINGERS:
+            self._lost_s = 0.0
+            return
+        self._lost_s += self._step_s
+        if self._lost_s >= self._control.lost_contact_s:
+            self.fail(Failure.OBJECT_DROPPED, f"{touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms")
+
+    def _watch_slip(self, slip_m: float) -> None:
+        if slip_m > self._control.largest_slip_m:
+            self.fail(Failure.OBJECT_DROPPED, f"the object slipped {slip_m * 1e3:.1f} mm in the gripper")

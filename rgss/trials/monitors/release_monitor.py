@@ -1,0 +1,130 @@
+"""Monitors of an object that is set down: how it lands, and that the robot leaves it where it stands."""
+
+from __future__ import annotations
+
+import math
+
+from rgss.evidence import Failure, Metric
+from rgss.grasping import configuration_distance_m
+from rgss.physics import Contacts, World
+from rgss.scenes import Cylinder, Pose
+from rgss.trials.monitors.force_sensor import ForceSensor
+
+Violation = tuple[Failure, str]
+
+
+class LandingMonitor:
+    """Monitor of a release: the height that the object falls, and its velocity change as it lands.
+
+    The velocity change is the impulse of the support over a window, less that of the weight, over the mass. It
+    converges to the speed of the fall, sqrt(2 g h), as the step shrinks, and does not depend on the mass. One step of
+    the fall is lost: at most 1.5 g dt.
+    """
+
+    def __init__(self, world: World) -> None:
+        """Begin when the hand still holds the object.
+
+        Args:
+            world: The world that is stepped.
+        """
+        scene = world.scene
+        self._world = world
+        self._place = scene.place
+        self._support = scene.place_support
+        workpiece = scene.workpiece
+        self._limit_m_s = workpiece.landing_limit_m_s
+        self._weight_n = workpiece.mass_kg * scene.gravity_m_s2
+        # A window that is shorter than a step is that step.
+        self._over_mass_s_kg = max(workpiece.force_window_s, world.settings.step_s) / workpiece.mass_kg
+        self._sensor = ForceSensor(workpiece.force_window_s, world.settings.rate_hz)
+        self._height_m = lowest_point_m(world.workpiece_pose(), scene.workpiece.shape) - scene.place.centre_m[2]
+
+    @property
+    def speed_m_s(self) -> float:
+        """Greatest velocity change by the support so far."""
+        return max(0.0, self._sensor.peak_n - self._weight_n) * self._over_mass_s_kg
+
+    def after_step(self) -> Violation | None:
+        """Observe the world after a step; returns what goes wrong."""
+        self._sensor.note((self._world.support_force_n(),))
+        speed_m_s = self.speed_m_s
+        if speed_m_s <= self._limit_m_s:
+            return None
+        return Failure.OBJECT_DAMAGED, (
+            f"the object landed with {speed_m_s:.2f} m/s after a drop of {self._height_m * 1e3:.1f} mm, "
+            f"it bears {self._limit_m_s:g} m/s"
+        )
+
+    def after_opening(self) -> Violation | None:
+        """Judge the height of the release; returns what was wrong."""
+        if self._height_m <= self._place.largest_drop_m:
+            return None
+        return Failure.OBJECT_DROPPED, (
+            f"the object was released {self._height_m * 1e3:.1f} mm above {self._support}, "
+            f"at most {self._place.largest_drop_m * 1e3:g} mm"
+        )
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit."""
+        return {
+            "release_height_m": self._height_m,
+            "landing_force_n": self._sensor.peak_n,
+            "landing_speed_m_s": self.speed_m_s,
+        }
+
+
+class PlacedObjectMonitor:
+    """Monitor of a placed object while the hand leaves it: the robot must not move it any more.
+
+    A displacement counts from the first touch on, to the end: what was pushed may roll on or fall over.
+    """
+
+    def __init__(self, world: World) -> None:
+        """Begin when the object stands and the hand is open.
+
+        Args:
+            world: The world that is stepped.
+        """
+        self._world = world
+        self._largest_m = world.scene.place.largest_drag_m
+        self._half_height_m = world.scene.workpiece.shape.half_height_m
+        self._stood_at = world.workpiece_pose()
+        self._force_n = 0.0
+        self._finger: int | None = None
+        self._moved_m = 0.0
+
+    def after_step(self, contacts: Contacts) -> Violation | None:
+        """Observe the world after a step; returns what goes wrong."""
+        force_n = max(contacts.finger_forces_n)
+        if force_n > self._force_n:
+            self._force_n, self._finger = force_n, contacts.finger_forces_n.index(force_n)
+        return None if self._finger is None else self.finish()
+
+    def finish(self) -> Violation | None:
+        """Observe the object alone, as at the end; returns what went wrong."""
+        if self._finger is None:
+            return None
+        stands_at = self._world.workpiece_pose()
+        self._moved_m = max(self._moved_m, configuration_distance_m(self._stood_at, stands_at, self._half_height_m))
+        if self._moved_m <= self._largest_m:
+            return None
+        return Failure.OBJECT_COLLISION, (
+            f"finger_{self._finger} moved the placed object by {self._moved_m * 1e3:.1f} mm "
+            f"with {self._force_n:.2f} N, at most {self._largest_m * 1e3:g} mm"
+        )
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit."""
+        return {"workpiece_displacement_m": self._moved_m, "touch_force_n": self._force_n}
+
+
+def lowest_point_m(pose: Pose, shape: Cylinder) -> float:
+    """Height in the world of the lowest point of a cylinder.
+
+    Args:
+        pose: Transform of its frame to the world.
+        shape: The cylinder.
+    """
+    up = pose.rotate((0.0, 0.0, 1.0))[2]
+    reach_m = shape.half_height_m * abs(up) + shape.radius_m * math.sqrt(max(0.0, 1.0 - up * up))
+    return pose.position_m[2] - reach_m

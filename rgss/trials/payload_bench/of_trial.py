@@ -1,0 +1,36 @@
+"""The payload bench of a trial's gripper."""
+
+from __future__ import annotations
+
+from rgss.evidence import Fidelity
+from rgss.trials.payload_bench.range import outside
+from rgss.trials.payload_bench.spec import BenchSpec, bench_spec
+from rgss.trials.trial_spec import TrialSpec
+
+
+def bench_of(spec: TrialSpec) -> BenchSpec | None:
+    """The payload bench of a trial's gripper; None where only contact physics would know, or outside its range.
+
+    Args:
+        spec: The trial.
+    """
+    if spec.fidelity is not Fidelity.CONTACT:
+        return None
+    bench = payload_bench(spec)
+    return None if outside(bench) else bench
+
+
+def payload_bench(spec: TrialSpec) -> BenchSpec:
+    """The payload bench of a trial's gripper, object and physics, validated or not.
+
+    Args:
+        spec: The trial.
+    """
+    robot = spec.scene.robot
+    return bench_spec(
+        spec.scene,
+        spec.gripper,
+        acceleration_m_s2=robot.tool_acceleration_m_s2,
+        rated_kg=robot.payload_kg,
+        physics=spec.settings.physics,
+    )

@@ -1,0 +1,186 @@
+"""The digests of exactly the inputs of each piece of a trial.
+
+A trial is cut where its inputs are. The *plan* needs the scene, the gripper's shape, the planner and
+the seed; the *timing* needs the plan, the tool speed and how fast the joints may move; the *execution*
+needs the timing, the joints' torques and the gripper's masses, forces and friction; the *bench* needs
+the gripper and the object alone; only the *record* needs the planning limit. Variants that share a
+piece's digest share the piece.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from rgss.documents import digest
+from rgss.scenes import Robot, Scene, Shape
+from rgss.trials.code import ENTRIES, versions_of
+from rgss.trials.payload_bench import BenchSpec, bench_of
+from rgss.trials.pieces.plain_values import to_plain
+from rgss.trials.trial_spec import TrialSpec
+
+__all__ = ["TrialDigests", "TrialSpec", "bench_digest", "bench_of", "digests_of", "physics_inputs", "to_plain"]
+
+# Trials of a study share most of what they are made of, and a digest of it need be made but once.
+_KEPT = 512
+_RATES = ("speed_rad_s", "acceleration_rad_s2")
+_JOINED_KEPT = 8192
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrialDigests:
+    """Digests of the inputs of a trial's pieces, each covering those before it.
+
+    Attributes:
+        plan: Geometry of the scene, gripper's shape, planner, seed, planning settings.
+        timing: The plan and the tool speed.
+        execution: The timing, the gripper, masses and frictions of the scene, physics and control
+            settings, fidelity.
+        bench: The gripper, the object, the acceleration and the physics settings; empty where the
+            trial's fidelity knows no bench.
+        trial: The execution, the bench and the planning limit; the variant's number is no input.
+    """
+
+    plan: str
+    timing: str
+    execution: str
+    bench: str
+    trial: str
+
+    def as_mapping(self) -> dict[str, str]:
+        """The digests by the name of the piece; a piece that the trial does not have is left out."""
+        named = {"plan": self.plan, "timing": self.timing, "execution": self.execution, "bench": self.bench}
+        return {**{name: value for name, value in named.items() if value}, "trial": self.trial}
+
+
+def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
+    """The digests of a trial's pieces.
+
+    Args:
+        spec: The trial.
+        versions: Versions of the code and the engines, which are inputs like any other; each piece
+            takes those that it depends on.
+    """
+    used = _version_digests(tuple(sorted(versions.items())))
+    plan = _joined(
+        _geometry_digest(spec.scene),
+        _digest_of(spec.gripper.geometry),
+        spec.planner,
+        spec.seed,
+        _digest_of(spec.settings.planning),
+        used["plan"],
+    )
+    timing = _joined(plan, spec.tool_speed_m_s, _rates_digest(spec.scene.robot), used["timing"])
+    execution = _joined(
+        timing,
+        _digest_of(spec.gripper),
+        _matter_digest(spec.scene),
+        _digest_of(spec.settings.physics),
+        _digest_of(spec.settings.control),
+        spec.fidelity.value,
+        used["execution"],
+    )
+    bench = bench_of(spec)
+    lifted = "" if bench is None else _bench_digest(bench, used["bench"])
+    trial = digest([execution, lifted, spec.planning_limit_s, used["record"]])
+    return TrialDigests(plan=plan, timing=timing, execution=execution, bench=lifted, trial=trial)
+
+
+def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
+    """The digest of the inputs of a bench, by which designs with the same gripper share one.
+
+    Args:
+        spec: The bench; the name of the gripper's shape is no input.
+        versions: Versions of the code and the engines; only those that a bench uses are taken.
+    """
+    return _bench_digest(spec, _version_digests(tuple(sorted(versions.items())))["bench"])
+
+
+def physics_inputs(scene: Scene) -> dict[str, Any]:
+    """What only the physics needs of a scene; colours are nobody's input."""
+    workpiece = scene.workpiece
+    return {
+        "id": scene.id,
+        "gravity_m_s2": scene.gravity_m_s2,
+        "frictions": [body.friction for body in scene.bodies],
+        "workpiece": [
+            workpiece.mass_kg,
+            workpiece.friction,
+            workpiece.force_limit_n,
+            workpiece.force_window_s,
+            workpiece.landing_limit_m_s,
+        ],
+        "place": [
+            scene.place.radius_m,
+            scene.place.largest_tilt_rad,
+            scene.place.largest_drop_m,
+            scene.place.largest_drag_m,
+        ],
+        "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
+    }
+
+
+@lru_cache(maxsize=_KEPT)
+def _digest_of(value: Any) -> str:
+    return digest(to_plain(value))
+
+
+@lru_cache(maxsize=16)
+def _version_digests(versions: tuple[tuple[str, str], ...]) -> Mapping[str, str]:
+    """A digest of the versions that each piece takes."""
+    return {piece: digest(versions_of(piece, dict(versions))) for piece in ENTRIES}
+
+
+@lru_cache(maxsize=_JOINED_KEPT, typed=True)
+def _joined(*inputs: str | float) -> str:
+    return digest(inputs)
+
+
+@lru_cache(maxsize=_KEPT)
+def _bench_digest(spec: BenchSpec, versions: str) -> str:
+    inputs = to_plain(spec)
+    del inputs["gripper"]["geometry"]["id"]
+    return digest({"bench": inputs, "versions": versions})
+
+
+@lru_cache(maxsize=_KEPT)
+def _matter_digest(scene: Scene) -> str:
+    return digest(physics_inputs(scene))
+
+
+@lru_cache(maxsize=_KEPT)
+def _rates_digest(robot: Robot) -> str:
+    """Digest of what timing needs of an arm besides: how fast it may move."""
+    joints = [[getattr(joint, name) for name in _RATES] for joint in robot.joints]
+    return digest([joints, robot.tool_acceleration_m_s2])
+
+
+@lru_cache(maxsize=_KEPT)
+def _geometry_digest(scene: Scene) -> str:
+    """Digest of what planning needs of a scene: where everything is, and where the arm may move."""
+    robot = to_plain(scene.robot)
+    for name in ("payload_kg", "tool_acceleration_m_s2"):
+        del robot[name]
+    for joint in robot["joints"]:
+        for name in _RATES:
+            del joint[name]
+        del joint["torque_n_m"]
+    geometry = {
+        "robot": robot,
+        "bodies": [{"id": body.id, "shape": _shape(body.shape), "pose": to_plain(body.pose)} for body in scene.bodies],
+        "workpiece": {
+            "id": scene.workpiece.id,
+            "shape": _shape(scene.workpiece.shape),
+            "pose": to_plain(scene.workpiece.pose),
+        },
+        "supports": [scene.support, scene.place_support],
+        "place": to_plain(scene.place.centre_m),
+        "task": to_plain(scene.task),
+    }
+    return digest(geometry)
+
+
+def _shape(shape: Shape) -> dict[str, Any]:
+    return {"kind": type(shape).__name__, **to_plain(shape)}

@@ -1,0 +1,25 @@
+"""Values of the domain as plain data, for digests and for comparing."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from enum import Enum
+from typing import Any
+
+
+def to_plain(value: Any) -> Any:
+    """A value of frozen dataclasses as plain mappings, lists, texts and numbers.
+
+    Args:
+        value: A dataclass, an enumeration, a tuple, a list, a mapping, or plain data.
+    """
+    if dataclasses.is_dataclass(value):
+        return {f.name: to_plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, (tuple, list)):
+        return [to_plain(item) for item in value]
+    if isinstance(value, Mapping):
+        return {key: to_plain(item) for key, item in value.items()}
+    return value

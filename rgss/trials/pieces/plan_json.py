@@ -1,0 +1,98 @@
+"""A plan as text, and back, bit for bit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.documents import canonical_json
+from rgss.errors import EvidenceError
+from rgss.evidence import Phase, PlanOutcome, read_json
+from rgss.motion import PlanningClock
+from rgss.trials.pieces.float_array import Array, FloatArray
+from rgss.trials.pieces.plain_values import to_plain
+from rgss.trials.plan import PlannedMove, TaskPlan
+
+_LARGEST_ARM = 16
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Move:
+    phase: Phase
+    outcome: PlanOutcome
+    checks: int
+    simplification_checks: int
+    search_time_s: float
+    time_s: float
+    path_rad: FloatArray | None
+    path_length_m: float | None
+    detail: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Plan:
+    moves: tuple[_Move, ...]
+    lift_rad: FloatArray | None
+    clock: PlanningClock
+
+
+def plan_to_json(plan: TaskPlan) -> str:
+    """Write a plan as canonical JSON.
+
+    Args:
+        plan: The plan.
+    """
+    moves = tuple(
+        _Move(
+            phase=move.phase,
+            outcome=move.outcome,
+            checks=move.checks,
+            simplification_checks=move.simplification_checks,
+            search_time_s=move.search_time_s,
+            time_s=move.time_s,
+            path_rad=None if move.path_rad is None else FloatArray.of(move.path_rad),
+            path_length_m=move.path_length_m,
+            detail=move.detail,
+        )
+        for move in plan.moves.values()
+    )
+    lift = None if plan.lift_rad is None else FloatArray.of(plan.lift_rad)
+    return canonical_json(to_plain(_Plan(moves=moves, lift_rad=lift, clock=plan.clock)))
+
+
+def plan_from_json(text: str) -> TaskPlan:
+    """Read a plan that `plan_to_text` wrote.
+
+    Args:
+        text: The text.
+
+    Raises:
+        EvidenceError: It is no such text.
+    """
+    read = read_json(text, _Plan, "plan")
+    moves = {
+        move.phase: PlannedMove(
+            phase=move.phase,
+            outcome=move.outcome,
+            checks=move.checks,
+            simplification_checks=move.simplification_checks,
+            search_time_s=move.search_time_s,
+            time_s=move.time_s,
+            path_rad=_path(move.path_rad),
+            path_length_m=move.path_length_m,
+            detail=move.detail,
+        )
+        for move in read.moves
+    }
+    if len(moves) != len(read.moves):
+        raise EvidenceError("the plan has two moves of one phase")
+    if any((move.path_rad is not None) != (move.outcome is PlanOutcome.SOLVED) for move in moves.values()):
+        raise EvidenceError("the plan has a path where there is none, or none where there is one")
+    return TaskPlan(moves=moves, lift_rad=_path(read.lift_rad), clock=read.clock)
+
+
+def _path(kept: FloatArray | None) -> Array | None:
+    if kept is None:
+        return None
+    if len(kept.shape) != 2 or not (kept.shape[0] >= 1 and 1 <= kept.shape[1] <= _LARGEST_ARM):
+        raise EvidenceError(f"a path cannot have the shape {kept.shape}")
+    return kept.array()

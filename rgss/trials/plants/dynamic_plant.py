@@ -1,0 +1,199 @@
+"""The middle fidelity: joint torques against the arm's dynamics, without contact.
+
+It knows what torques the task needs, how well the arm tracks under them, and which joint reaches
+its limit. It knows nothing of the grasp: the object is a load that the flange has from the grasp
+to the release, and no force or slip of it is recorded.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rgss.evidence import Failure, Metric, Phase
+from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
+from rgss.physics import PhysicsSettings, TorqueArm
+from rgss.scenes import Gripper, Joint, Scene
+from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants.control import ControlSettings
+from rgss.trials.plants.joint_load import JointLoad
+from rgss.trials.reference import Array, Reference
+
+_SETTLING_S = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComputedTorque:
+    """Gains of the computed-torque controller, the same for every joint.
+
+    The commanded acceleration is q̈_target + 2 ζ ω ė + ω² e, with e the deviation to be removed;
+    inverse dynamics turns it into torques.
+
+    Attributes:
+        natural_frequency_rad_s: ω.
+        damping_ratio: ζ.
+        reached_rad: Deviation of any joint below which the end of a move counts as reached.
+    """
+
+    natural_frequency_rad_s: float = 40.0
+    damping_ratio: float = 1.0
+    reached_rad: float = 1.0e-3
+
+
+class DynamicPlant:
+    """The arm under computed-torque control; a Boolean hand."""
+
+    def __init__(
+        self,
+        machine: TorqueArm,
+        arm: Arm,
+        scene: Scene,
+        gripper: Gripper,
+        settings: PhysicsSettings,
+        control: ControlSettings,
+        *,
+        controller: ComputedTorque | None = None,
+        checkpoint: Callable[[], None] | None = None,
+    ) -> None:
+        """Prepare the plant.
+
+        Args:
+            machine: The simulated arm.
+            arm: Kinematics of the tool.
+            scene: The robot with its limits, gravity, the object.
+            gripper: The hand.
+            settings: Step length.
+            control: Thresholds of the task program.
+            controller: Gains.
+            checkpoint: Called before each step; it may wait, or end the task by raising.
+        """
+        self._machine = machine
+        self._arm = arm
+        self._scene = scene
+        self._gripper = gripper
+        self._step_s = settings.step_s
+        self._control = control
+        self._controller = controller or ComputedTorque()
+        self._checkpoint = checkpoint
+        self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
+        opening_m = gripper.geometry.largest_opening_m
+        empty, loaded = gripper_loads(gripper, opening_m), gripper_loads(gripper, scene.workpiece.shape.radius_m)
+        held = workpiece_load(scene.workpiece, gripper.geometry.grasp_centre)
+        self._empty = ArmDynamics(scene.robot, empty, gravity_m_s2=scene.gravity_m_s2)
+        self._loaded = ArmDynamics(scene.robot, (*loaded, held), gravity_m_s2=scene.gravity_m_s2)
+        self._model = self._empty
+        self._at_rad: Array = np.zeros(len(scene.robot.joints))
+
+    def start(self, configuration_rad: Sequence[float]) -> None:
+        """Stand at rest at a configuration."""
+        self._at_rad = np.array(configuration_rad)
+        self._machine.reset(configuration_rad, 0.0)
+
+    def move(self, phase: Phase, reference: Reference) -> PhaseResult:
+        """Follow the targets under computed torque until the end is reached."""
+        log = _Log(self._scene.robot.joints)
+        target = reference.positions_rad
+        # The engine adds an acceleration to the speed of the step before, and that speed to the position.
+        speeds = np.vstack([np.zeros((1, target.shape[1])), reference.velocities_rad_s])
+        accelerations = np.diff(speeds, axis=0) / self._step_s
+        actual = [
+            self._drive(target[index], speeds[index], accelerations[index], log) for index in range(reference.steps)
+        ]
+        tool_m = np.vstack([reference.tool_m[:1], self._arm.tool_position(np.array(actual))])
+        log.tracking_m = float(np.linalg.norm(tool_m - reference.tool_m, axis=1).max())
+        self._at_rad = target[-1]
+        reached = self._settle(log)
+        failure, detail = self._judge(reached, log)
+        metrics = log.metrics()
+        velocity = np.diff(tool_m, axis=0) / self._step_s
+        acceleration = np.diff(velocity, axis=0) / self._step_s
+        metrics["peak_tool_speed_m_s"] = float(np.linalg.norm(velocity, axis=1).max())
+        metrics["peak_tool_acceleration_m_s2"] = float(np.linalg.norm(acceleration, axis=1).max(initial=0.0))
+        return PhaseResult(
+            phase=phase, failure=failure, detail=detail, duration_s=log.steps * self._step_s, metrics=metrics
+        )
+
+    def grasp(self) -> PhaseResult:
+        """Close: the arm holds still for the fingers' travel and the time of a firm grasp."""
+        result = self._wait(Phase.GRASP, self._finger_time_s() + self._control.firm_grasp_s, {})
+        self._machine.hold_fingers(self._finger_travel_m())
+        self._machine.attach(self._scene.workpiece)
+        self._model = self._loaded
+        return result
+
+    def place(self) -> PhaseResult:
+        """Open: the arm holds still for the fingers' travel."""
+        self._machine.detach()
+        self._machine.hold_fingers(0.0)
+        self._model = self._empty
+        opening_s = self._finger_time_s()
+        return self._wait(Phase.PLACE, opening_s, {"opening_s": opening_s})
+
+    def _wait(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
+        log = _Log(self._scene.robot.joints)
+        still = np.zeros(len(self._at_rad))
+        for _ in range(math.ceil(duration_s / self._step_s)):
+            self._drive(self._at_rad, still, still, log)
+        return PhaseResult(
+            phase=phase,
+            failure=None,
+            detail="",
+            duration_s=log.steps * self._step_s,
+            metrics={**metrics, **log.metrics()},
+        )
+
+    def _drive(self, target: Array, speed: Array, acceleration: Array, log: _Log) -> Array:
+        """One step of the controller; returns where the joints are after it."""
+        if self._checkpoint is not None:
+            self._checkpoint()
+        omega, zeta = self._controller.natural_frequency_rad_s, self._controller.damping_ratio
+        q, dq = (np.array(values) for values in self._machine.state())
+        wanted = acceleration + 2 * zeta * omega * (speed - dq) + omega**2 * (target - q)
+        torques = self._model.torques(q, dq, wanted)
+        log.note(torques, self._step_s)
+        self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
+        return np.array(self._machine.state()[0])
+
+    def _settle(self, log: _Log) -> bool:
+        still = np.zeros(len(self._at_rad))
+        for _ in range(math.ceil(_SETTLING_S / self._step_s)):
+            q = np.array(self._machine.state()[0])
+            if np.max(np.abs(q - self._at_rad)) <= self._controller.reached_rad:
+                return True
+            self._drive(self._at_rad, still, still, log)
+        return False
+
+    def _judge(self, reached: bool, log: _Log) -> tuple[Failure | None, str]:  # noqa: FBT001 - a verdict, not a switch
+        worst = log.tracking_m
+        if not reached or worst > self._control.largest_tracking_error_m:
+            words = f"the tool was {worst * 1e3:.2f} mm from where it should be{log.load.words()}"
+            return Failure.TRACKING_ERROR, words
+        return None, ""
+
+    def _finger_time_s(self) -> float:
+        return self._finger_travel_m() / self._gripper.finger_velocity_m_s
+
+    def _finger_travel_m(self) -> float:
+        geometry = self._gripper.geometry
+        return min(geometry.stroke_m, geometry.largest_opening_m - self._scene.workpiece.shape.radius_m)
+
+
+class _Log:
+    """What one phase observes."""
+
+    def __init__(self, joints: Sequence[Joint]) -> None:
+        self.steps = 0
+        self.tracking_m = 0.0
+        self.load = JointLoad(joints)
+
+    def note(self, torques: Array, step_s: float) -> None:
+        """Add one step's commanded torques."""
+        self.steps += 1
+        self.load.note(torques.tolist(), step_s)
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit."""
+        return {"tracking_error_m": self.tracking_m, **self.load.metrics()} if self.steps else {}

@@ -1,0 +1,157 @@
+"""The lowest fidelity: joints that follow with a given response, a hand that opens and closes.
+
+It knows how long a task takes and where the tool goes. It knows nothing of forces, of the object
+or of contact, and records none of these.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from rgss.evidence import Metric, Phase
+from rgss.scenes import Gripper, Workpiece
+from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants.control import ControlSettings
+from rgss.trials.reference import Array, Reference, ToolPositions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointResponse:
+    """How a controlled joint follows its target: as a damped oscillator.
+
+    The deviation e from the target obeys ë + 2 ζ ω ė + ω² e = -q̈_target, the closed loop of a
+    joint under position control without feed-forward of the acceleration.
+
+    Attributes:
+        natural_frequency_rad_s: ω.
+        damping_ratio: ζ; 1 is critical.
+        reached_rad: Deviation of any joint below which the end of a move counts as reached.
+    """
+
+    natural_frequency_rad_s: float = 100.0
+    damping_ratio: float = 1.0
+    reached_rad: float = 1.0e-3
+
+
+class KinematicPlant:
+    """A motion model of the arm and a Boolean hand."""
+
+    def __init__(
+        self,
+        tool: ToolPositions,
+        gripper: Gripper,
+        workpiece: Workpiece,
+        control: ControlSettings,
+        *,
+        step_s: float,
+        response: JointResponse | None = None,
+    ) -> None:
+        """Prepare the model.
+
+        Args:
+            tool: Kinematics of the tool.
+            gripper: The hand; its fingers move at their velocity.
+            workpiece: The object; its radius is where the fingers stop.
+            control: Thresholds of the task program.
+            step_s: Time between two targets.
+            response: How the joints follow.
+        """
+        self._tool = tool
+        self._gripper = gripper
+        self._workpiece = workpiece
+        self._control = control
+        self._step_s = step_s
+        self._response = response or JointResponse()
+
+    def start(self, configuration_rad: Sequence[float]) -> None:
+        """Stand at a configuration; the model has no state between moves, as each ends at rest."""
+
+    def move(self, phase: Phase, reference: Reference) -> PhaseResult:
+        """Follow the targets with the joints' response and wait until the end is reached."""
+        deviation = self._deviation(reference.positions_rad)
+        held = np.vstack([reference.positions_rad, np.repeat(reference.positions_rad[-1:], len(deviation), axis=0)])
+        actual = held[: len(deviation)] + deviation
+        tool_m = np.asarray(self._tool.tool_position(actual))
+        wanted_m = np.vstack(
+            [reference.tool_m, np.repeat(reference.tool_m[-1:], max(0, len(deviation) - len(reference.tool_m)), axis=0)]
+        )
+        velocity = np.diff(tool_m, axis=0) / self._step_s
+        acceleration = np.diff(velocity, axis=0) / self._step_s
+        metrics: dict[str, Metric] = {
+            "tracking_error_m": float(np.linalg.norm(tool_m - wanted_m, axis=1).max()),
+            "peak_tool_speed_m_s": float(np.linalg.norm(velocity, axis=1).max()),
+            "peak_tool_acceleration_m_s2": float(np.linalg.norm(acceleration, axis=1).max()),
+        }
+        return self._result(phase, (len(deviation) - 1) * self._step_s, metrics)
+
+    def grasp(self) -> PhaseResult:
+        """Close: the travel at the finger velocity, then the time for which a grasp must be firm."""
+        return self._result(Phase.GRASP, self._finger_time_s() + self._control.firm_grasp_s, {})
+
+    def place(self) -> PhaseResult:
+        """Open: the same travel back."""
+        opening_s = self._finger_time_s()
+        return self._result(Phase.PLACE, opening_s, {"opening_s": opening_s})
+
+    def _finger_time_s(self) -> float:
+        geometry = self._gripper.geometry
+        travel_m = min(geometry.stroke_m, geometry.largest_opening_m - self._workpiece.shape.radius_m)
+        return travel_m / self._gripper.finger_velocity_m_s
+
+    def _deviation(self, positions_rad: Array) -> Array:
+        """Deviation (m, 6) of the joints from their targets at each step, until the end is reached.
+
+        Exact for an acceleration that is constant over each step.
+        """
+        step, response = self._step_s, self._response
+        omega, zeta = response.natural_frequency_rad_s, response.damping_ratio
+        transition, drive = _oscillator(omega, zeta, step)
+        velocity = np.vstack([np.zeros((1, 6)), np.diff(positions_rad, axis=0) / step])
+        velocity = np.vstack([velocity, np.zeros((1, 6))])
+        acceleration = np.diff(velocity, axis=0) / step
+        settling = math.ceil(20.0 / (omega * zeta * step))
+        last = len(positions_rad) - 1
+        wanted = np.zeros((last + 1 + settling, positions_rad.shape[1]))
+        wanted[: len(acceleration)] = acceleration
+        rows = _response(transition, drive, wanted)
+        reached = np.max(np.abs(rows[last:]), axis=1) <= response.reached_rad
+        end = int(np.argmax(reached)) if reached.any() else len(reached) - 1
+        return rows[: last + end + 1]
+
+    def _result(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
+        return PhaseResult(phase=phase, failure=None, detail="", duration_s=duration_s, metrics=metrics)
+
+
+@lru_cache(maxsize=16)
+def _oscillator(omega: float, zeta: float, step_s: float) -> tuple[Array, Array]:
+    """State transition (2, 2) and drive (2,) of ë + 2 ζ ω ė + ω² e = u over one step of constant u."""
+    from scipy.linalg import expm
+
+    system = np.array([[0.0, 1.0, 0.0], [-(omega**2), -2.0 * zeta * omega, 1.0], [0.0, 0.0, 0.0]])
+    exact = expm(system * step_s)
+    return exact[:2, :2], exact[:2, 2]
+
+
+def _response(transition: Array, drive: Array, acceleration: Array) -> Array:
+    """Deviations (n + 1, joints) of an oscillator from rest under accelerations (n, joints) of its target.
+
+    The state's recurrence x' = A x - b u is one of the second order in the deviation alone, by Cayley and
+    Hamilton: e'' = tr A e' - det A e - b₀ u' - (A₀₁ b₁ - A₁₁ b₀) u, a triangular system of three bands.
+    """
+    from scipy.linalg.lapack import dtbtrs
+
+    count = len(acceleration) + 1
+    trace, determinant = transition[0, 0] + transition[1, 1], np.linalg.det(transition)
+    driven = np.zeros((count, acceleration.shape[1]))
+    driven[1:] = -drive[0] * acceleration
+    driven[2:] -= (transition[0, 1] * drive[1] - transition[1, 1] * drive[0]) * acceleration[:-1]
+    bands = np.ones((3, count))
+    bands[1], bands[2] = -trace, determinant
+    deviations, _ = dtbtrs(bands, driven, uplo="L", diag="U")
+    rows: Array = deviations
+    return rows
