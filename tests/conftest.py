@@ -26,6 +26,8 @@ from .processor_time import ProcessorTimes, file_of, name_of, slow_tests
 
 PROJECT = Path(__file__).parents[1]
 
+pytest_plugins = ["tests.fixtures.shipped_project"]
+
 settings.register_profile("repeatable", derandomize=True, database=None, deadline=None)
 settings.load_profile("repeatable")
 

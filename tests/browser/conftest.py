@@ -36,10 +36,11 @@ from rgss.reports.study.document import report_document
 from rgss.reports.study_page import TrialPictures, study_report_to_html
 from rgss.reports.trace.report import trace_report
 from rgss.studies.expansion import trial_specs
-from rgss.studies.project import FOLDERS, load_project
+from rgss.studies.project import load_project
 from rgss.sweep.running import key_of
 from rgss.trace.model.model import build_trace_model
 from rgss.trials.metrics import METRICS
+from tests.fixtures.shipped_project import copy_project
 
 REPOSITORY = Path(__file__).parents[2]
 PIXEL = bytes.fromhex(
@@ -119,9 +120,7 @@ def made_record(spec) -> TrialRecord:
 @pytest.fixture(scope="session")
 def study(tmp_path_factory) -> Study:
     """The shipped study with a made record for each of its trials."""
-    folder = tmp_path_factory.mktemp("report") / "project"
-    for name in FOLDERS:
-        shutil.copytree(REPOSITORY / name, folder / name)
+    folder = copy_project(tmp_path_factory.mktemp("report") / "project")
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
         for spec in trial_specs(project):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -25,11 +24,10 @@ from rgss.evidence import (
     TrialRecord,
 )
 from rgss.studies.expansion import trial_specs
-from rgss.studies.project import FOLDERS, load_project
+from rgss.studies.project import load_project
 from rgss.sweep.running import key_of
 from rgss.trials.metrics import METRICS
-
-REPOSITORY = Path(__file__).parents[2]
+from tests.fixtures.shipped_project import copy_project
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,28 +76,16 @@ def rgss_process():
     return run
 
 
-def copied(to: Path) -> Path:
-    for name in FOLDERS:
-        shutil.copytree(REPOSITORY / name, to / name)
-    return to
-
-
-@pytest.fixture
-def folder(tmp_path) -> Path:
-    """A copy of the shipped project that the test may change."""
-    return copied(tmp_path / "project")
-
-
 @pytest.fixture(scope="session")
 def untouched(tmp_path_factory) -> Path:
     """A copy of the shipped project that no test changes."""
-    return copied(tmp_path_factory.mktemp("untouched"))
+    return copy_project(tmp_path_factory.mktemp("untouched"))
 
 
 @pytest.fixture(scope="session")
 def with_evidence(tmp_path_factory) -> Path:
     """A copy of the shipped project with a made record for each of its trials; no test changes it."""
-    folder = copied(tmp_path_factory.mktemp("with-evidence"))
+    folder = copy_project(tmp_path_factory.mktemp("with-evidence"))
     project = load_project(folder)
     with EvidenceStore.open(project.evidence) as store:
         for spec in trial_specs(project):

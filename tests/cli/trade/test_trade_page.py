@@ -1,0 +1,391 @@
+"""The trade-off's page, its document and its section."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from rgss.assessment.measuring import measure_variants
+from rgss.cli.trade.effects import print_effects
+from rgss.cli.trade.markdown import BEGIN, END, decision_section
+from rgss.cli.trade.robustness import print_robustness
+from rgss.cli.trade.words import amount, ids_text, moved_limit, moves_text, percent, variants_text
+from rgss.decision.choosing import choose
+from rgss.decision.robustness import robustness
+from rgss.decision.robustness.effects import MeasureEffects, StudyEffects
+from rgss.decision.robustness.parts import NotComputed, Part
+from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.errors import TradeoffError
+from rgss.evidence import EvidenceStore
+from rgss.studies.project import load_project
+from rgss.tradeoff.robustness.pareto import ParetoFront
+from rgss.tradeoff.robustness.sampled_effects import SampledIndex
+
+REPOSITORY = Path(__file__).parents[3]
+
+
+@pytest.fixture(scope="module")
+def page(request, with_evidence):
+    """The whole page of the shipped study with made evidence, effects included, and its document."""
+    from rgss.cli.main import main
+
+    capture = request.getfixturevalue("capsys_module")
+    assert main(["trade", "--effects", "--project", str(with_evidence)]) == 0
+    text = capture()
+    assert main(["trade", "--json", "--project", str(with_evidence)]) == 0
+    return text, json.loads(capture())
+
+
+@pytest.fixture(scope="module")
+def capsys_module():
+    """Standard output since the last call, for fixtures that outlive a test."""
+    import io
+    from contextlib import redirect_stdout
+
+    stream = io.StringIO()
+
+    def read() -> str:
+        text = stream.getvalue()
+        stream.seek(0)
+        stream.truncate()
+        return text
+
+    with redirect_stdout(stream):
+        yield read
+
+
+def test_the_page_has_its_parts_in_order(page):
+    text, document = page
+    parts = [
+        "Study pick_place: 72 variants, 216 trials",
+        "\nWhy\n",
+        "\nWhat nearly won\n",
+        "\nWhat would change it\n",
+        "\nWhat drives the measures",
+        "\nCaution: ",
+        "\nCertificate: optimal",
+        "\nEvidence: ",
+    ]
+    places = [text.index(part) for part in parts]
+
+    assert places == sorted(places)
+    assert f"Variant {document['chosen']} has the highest value" in text
+    assert re.search(r"^Closest limits: SYS-\d+ \(.+\) at .+ inside; SYS-\d+ ", text, re.MULTILINE)
+    assert "All assumed costs together may be off by ±" in text
+    assert "Rank reversal: none, whichever variant is taken away." in text
+
+
+def test_the_page_says_what_the_document_says(page):
+    text, document = page
+    changes = document["robustness"]["weight_changes"]
+    nearest = min((one for one in changes["nearest"] if one["distance"] > 0), key=lambda one: one["moved"])
+    interval = next(one for one in changes["ranges"] if one["measure"] == "C_total")
+
+    assert f"moving {nearest['moved']:.3f} of weight lets {variants_text(nearest['variants'])} win" in text
+    assert re.search(rf"^C_total +0\.25 +{interval['low']:.3f} +{interval['high']:.3f} ", text, re.MULTILINE)
+    assert f"may be off by ±{100 * document['robustness']['costs']['factor']:.2f} %" in text
+    assert f"{changes['acceptability']['iterations']:,} draws of all weights and all 10 resamples" in text
+
+
+def test_the_document_is_the_decision_with_more(page):
+    _, document = page
+
+    assert document["schema"] == 2
+    assert (document["study"], document["what_if"], document["fleet"]) == ("pick_place", None, None)
+    assert document["certificate"]["enumeration_agrees"] == "agreed"
+    assert document["robustness"]["refused"] == {}
+
+
+def keys_of(value, path=""):
+    """The paths of all keys of a document; entries of a list share theirs."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield f"{path}{key}"
+            yield from keys_of(inner, f"{path}{key}.")
+    elif isinstance(value, list):
+        for inner in value:
+            yield from keys_of(inner, f"{path.rstrip('.')}[].")
+
+
+def holds_nothing(value, path):
+    """Whether a path ends early in a document, at a list without entries or at null."""
+    for step in path.replace("[]", ".[]").split("."):
+        if value is None or value == []:
+            return True
+        values = [inner for inner in value if inner] if step == "[]" else None
+        value = value.get(step) if values is None else (values[0] if values else None)
+    return False
+
+
+def test_the_document_is_described(page, rgss, with_evidence):
+    """Every key of the document stands in docs/robustness.md, and no key that is not in one."""
+    _, document = page
+    supposed = rgss("trade", "--brief", "--json", "--what-if", "weight.t_e=0.4", "--project", with_evidence).document
+    document = {**document, "what_if": {**supposed["what_if"], "decision_before": None}}
+    text = (REPOSITORY / "docs" / "robustness.md").read_text(encoding="utf-8").split("## The document", 1)[1]
+    named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
+    # Below these, keys are ids of measures, factors, requirements or components.
+    by_id = re.compile(
+        r"^robustness\.(weights|refused|costs\.(worst_corner|assumed)"
+        r"|.*\.(centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
+    )
+    own = re.compile(r"^(robustness|what_if|fleet)\b")
+    found = {key for key in keys_of(document) if (own.match(key) or "." not in key) and not by_id.match(key)}
+
+    assert found - named == set()
+    assert {key for key in named - found if not holds_nothing(document, key)} == set()
+
+
+def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
+    """Every key of a decision and of one that is infeasible stands in docs/trade_off.md, and no other."""
+    words = ["--what-if", "SYS-005.threshold=5 s", "--what-if", "SYS-012.threshold=0.9 kg"]
+    nothing = rgss("trade", "--brief", "--json", *words, "--project", with_evidence)
+    # Something is worth more than what is chosen, but excluded.
+    excluded = rgss(
+        "trade", "--brief", "--json", "--what-if", "SYS-004.threshold=39000 USD", "--project", with_evidence
+    )
+    documents = [page[1], nothing.document, excluded.document]
+    found = set().union(*(keys_of({**one, "demands": None}) for one in documents))
+    text = (
+        (REPOSITORY / "docs" / "trade_off.md").read_text(encoding="utf-8").split("## The decision as a document", 1)[1]
+    )
+    named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
+    whole = {"schema", "study", "double_counting", "shared_parts", "robustness", "fleet", "what_if"}
+    whole |= {"evidence", "screening"}
+
+    assert nothing.status == 1
+    assert {key for key in found if key.split(".")[0].rstrip("[]") not in whole} == named
+    for one in documents:
+        assert {key.split(".")[0].split("[")[0] for key in named} <= set(one)
+
+
+def test_brief_is_the_decision_alone(rgss, with_evidence):
+    told = rgss("trade", "--brief", "--project", with_evidence)
+
+    assert told.status == 0
+    assert "Certificate: optimal" in told.output
+    assert "What nearly won" not in told.output
+    assert rgss("trade", "--brief", "--json", "--project", with_evidence).document["robustness"] is None
+
+
+def test_effects_are_tables_of_levels(page):
+    text, document = page
+    effects = {one["measure"]: one for one in document["robustness"]["effects"]["measures"]}
+    fingers = next(one for one in effects["P_max"]["effects"] if one["factors"] == ["fingers"])
+
+    assert "Effects on P_max [kg]: mean 1.06 of 72 designs" in text
+    assert re.search(rf"^fingers +100 % +three +\{fingers['levels'][0]:+.4g}", text, re.MULTILINE)
+    assert "without planner=stride" in text
+
+
+def test_one_replicate_is_said(rgss, with_evidence):
+    told = rgss("trade", "--replicates", 1, "--project", with_evidence)
+
+    assert (told.status, told.errors) == (0, "")
+    assert "Not analysed: noise: 1 replicate of each variant tell nothing of noise" in told.output
+    assert "draws of all weights alone, for the replicates tell nothing of noise" in told.output
+
+
+def test_a_section_goes_between_the_markers_of_a_file(rgss, with_evidence, page, tmp_path):
+    _, document = page
+    file = tmp_path / "README.md"
+    file.write_text(f"# Title\n\n{BEGIN}\nold\n{END}\n\nend\n", encoding="utf-8")
+    told = rgss("trade", "--section", "--into", file, "--project", with_evidence)
+    text = file.read_text(encoding="utf-8")
+
+    assert (told.status, told.output) == (0, f"Wrote the decision into {file}.\n")
+    assert text.startswith(f"# Title\n\n{BEGIN}\n\n**Variant {document['chosen']}** is chosen")
+    assert text.endswith(f"{END}\n\nend\n")
+    assert "old" not in text
+    assert "*What decides it.*" in text
+    assert "*The assumed costs matter.*" in text
+    for one in document["robustness"]["assumptions"]:
+        decisive = one["low"] is not None or one["high"] is not None
+        if one["id"].endswith(".cost"):
+            assert (f"- `{one['id'].split('.')[1]}` costs" in text) == decisive
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("nothing here", "has no place for the decision"),
+        (f"{END}\n{BEGIN}\n", "has no place for the decision"),
+        (f"{BEGIN}{BEGIN}{END}", "has no place for the decision"),
+        (None, "cannot be read (name a Markdown file)"),
+    ],
+)
+def test_a_file_without_a_place_for_the_section(rgss, with_evidence, tmp_path, content, message):
+    file = tmp_path / "README.md"
+    if content is not None:
+        file.write_text(content, encoding="utf-8")
+    told = rgss("trade", "--section", "--into", file, "--project", with_evidence)
+
+    assert (told.status, told.output) == (2, "")
+    assert message in told.complaint
+    assert content is None or file.read_text(encoding="utf-8") == content
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--into", "README.md"], "rgss: --into needs --section (the section is what goes into the file)"),
+        (["--section", "--json"], "rgss: --section is of the study as it is (leave --what-if and --json away)"),
+    ],
+)
+def test_options_that_do_not_go_together(rgss, with_evidence, words, message):
+    told = rgss("trade", *words, "--project", with_evidence)
+
+    assert (told.status, told.output, told.complaint) == (2, "", message)
+
+
+def test_words():
+    assert ids_text([64, 28, 30, 29, 33, 34]) == "28–30, 33, 34, 64"
+    assert ids_text(range(1, 99, 2)).endswith(" …")
+    assert variants_text([]) == "nothing"
+    assert (variants_text([3]), variants_text([3, 4])) == ("variant 3", "variants 3, 4")
+    assert [percent(share) for share in (0.0, 0.0004, 0.034, 0.456, 1.0)] == [
+        "0 %",
+        "< 0.1 %",
+        "3.4 %",
+        "46 %",
+        "100 %",
+    ]
+    assert [percent(share) for share in (0.994, 0.996, 0.9996, 1.0)] == ["99 %", "99.6 %", "> 99.9 %", "100 %"]
+    assert (amount(1234.5, "USD"), amount(0.5, "1"), amount(0.5, "kg")) == ("1,234 USD", "0.5", "0.5 kg")
+    # Rounded away from the limit, so that what is written is enough.
+    assert [moved_limit(9.0, 9.1983, "s"), moved_limit(0.9, 0.84776, "kg")] == ["9.199 s", "0.8477 kg"]
+    assert [moved_limit(40500, 41749.2, "USD"), moved_limit(50, 45.7, "USD")] == ["41,750 USD", "45 USD"]
+    assert [moved_limit(1, 9.2 + 1e-15, "s"), moved_limit(1, 0.0, "s"), moved_limit(1, -0.33338, "m")] == [
+        "9.2 s",
+        "0 s",
+        "-0.3334 m",
+    ]
+    assert moves_text({"a": 0.2, "b": 0.8}, {"a": 0.3, "b": 0.7}) == "a 0.2 → 0.3, b 0.8 → 0.7"
+    assert moves_text({"a": 0.2}, {"a": 0.2}) == "no weight moves"
+
+
+def test_a_fleet_of_one_gripper_for_two_studies(rgss, with_evidence, tmp_path):
+    """The second study weighs nothing but payload; one gripper serves both, each by its best variant."""
+    folder = Path(shutil.copytree(with_evidence, tmp_path / "fleet"))
+    text = (folder / "studies/pick_place.yaml").read_text(encoding="utf-8")
+    head, rest = text.split("trade_off:\n", 1)
+    payload = "trade_off:\n  values:\n    - {measure: P_max, weight: 1.0, worst: 0.8 kg, best: 1.4 kg}\n"
+    (folder / "studies/payload.yaml").write_text(head + payload, encoding="utf-8")
+    fleet = (
+        "trade_off:\n  fleet:\n    at_most: 1\n    aim: mean\n    member: component.gripper\n    studies:\n"
+        "      - {study: studies/pick_place.yaml, weight: 0.5}\n      - {study: studies/payload.yaml, weight: 0.5}\n"
+    )
+    (folder / "studies/both.yaml").write_text(head + fleet + rest, encoding="utf-8")
+    told = rgss("trade", "--brief", "studies/both.yaml", "--project", folder)
+    found = rgss("trade", "--brief", "--json", "studies/both.yaml", "--project", folder).document["fleet"]
+
+    assert told.status == 0
+    assert f"\nFleet\n{found['members'][0]} together serve every study; value " in told.output
+    assert [one["study"] for one in found["assignments"]] == ["studies/pick_place.yaml", "studies/payload.yaml"]
+    assert found["value"] == pytest.approx(sum(one["value"] for one in found["assignments"]) / 2)
+    assert found["enumeration_agrees"] == "agreed"
+    assert (found["status"], found["gap"], found["cut"]) == ("optimal", pytest.approx(0.0, abs=1e-9), None)
+    assert "Value with at most so many members: 1: " in told.output
+
+
+def test_effects_of_sampled_designs(capsys):
+    """Shares below 0 come from chance and are shown as 0."""
+    effects = MeasureEffects(
+        measure="P_max",
+        unit="kg",
+        factors=(),
+        left_out=(),
+        designs=64,
+        analysis=None,
+        sampled={
+            "fingers": SampledIndex(share=0.9, low=0.8, high=0.95),
+            "d7": SampledIndex(share=-0.1, low=-0.2, high=0),
+        },
+    )
+    nothing = MeasureEffects(measure="S", unit="1", factors=(), left_out=(), designs=0, analysis=None)
+    print_effects(load_project(REPOSITORY), StudyEffects(factors=(), constants=(), measures=(effects, nothing)))
+    text = capsys.readouterr().out
+
+    assert "Effects on P_max [kg]: 64 designs of a sample" in text
+    assert re.search(r"^fingers +90 % +80 % – 95 %$", text, re.MULTILINE)
+    assert re.search(r"^d7 +0 % +0 % – 0 %$", text, re.MULTILINE)
+    assert "Effects on S: too few designs have estimates" in text
+
+
+EMPTY = {
+    Part.PARETO: ("Pareto front: not computed.", {"front": ParetoFront(points=())}),
+    Part.REGIONS: ("Not computed: regions of weights", {"regions": None}),
+    Part.NEAREST: ("Weights: the nearest that change the choice were not computed.", {"shifts": None}),
+    Part.RANGES: ("Range of each weight: not computed.", {"ranges": None}),
+    Part.ACCEPTABILITY: ("Acceptability and confidence: not computed.", {"acceptability": None}),
+    Part.ASSUMPTIONS: ("Assumptions: not computed.", {"assumptions": ()}),
+    Part.COSTS: ("All assumed costs together: not computed.", {"costs": None}),
+    Part.PRICES: ("Price of each requirement: not computed.", {"prices": ()}),
+    Part.REVERSALS: ("Rank reversal: not computed.", {"reversals": ()}),
+    Part.STRETCHED: ("Of values stretched over the sample it was not computed.", {"stretched": ()}),
+    Part.EFFECTS: (
+        "Not computed: effects of the factors",
+        {"effects": StudyEffects(factors=(), constants=(), measures=())},
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def analysed(with_evidence):
+    project = load_project(with_evidence)
+    with EvidenceStore.open(project.evidence, create=False, label="evidence") as store:
+        measured = measure_variants(project, store)
+    decision = choose(project, measured)
+    return project, measured, decision, analyse_robustness(project, measured, decision)
+
+
+@pytest.mark.parametrize("part", EMPTY, ids=lambda part: part.name)
+def test_a_part_that_is_not_computed(capsys, analysed, part):
+    """Its place says so, reason and remedy are given once, and the rest of the page and section is the same."""
+    project, measured, decision, found = analysed
+    said, fields = EMPTY[part]
+    inner = {name: value for name, value in fields.items() if not hasattr(found, name)}
+    less = replace(
+        found,
+        weighting=replace(found.weighting, **inner),
+        not_computed={part: NotComputed(reason="the solver gave no answer", remedy="ask for less")},
+        **{name: value for name, value in fields.items() if name not in inner},
+    )
+    print_robustness(project, decision, found)
+    whole = capsys.readouterr().out.splitlines()
+    print_robustness(project, decision, less)
+    told = capsys.readouterr().out.splitlines()
+    section = decision_section(project, measured, decision, less).splitlines()
+
+    assert any(said in line for line in told)
+    (line,) = [one for one in told if one.startswith("Not computed: ")]
+    assert line == f"Not computed: {part.words}: the solver gave no answer. To mend it: ask for less."
+    assert line in section
+    assert section[-1] == END
+    assert len(set(whole) & set(told)) > 0.5 * len(set(whole))
+
+
+def test_what_is_not_computed_is_a_finding(monkeypatch, rgss, with_evidence, tmp_path):
+    def fail(*_, **__):
+        raise TradeoffError("the solver gave no answer", hint="ask for less")
+
+    for name in ("smaa2", "winning_regions", "study_effects"):
+        monkeypatch.setattr(robustness, name, fail)
+    told = rgss("trade", "--effects", "--project", with_evidence)
+    report = rgss("report", "--no-film", "--out", tmp_path / "report.html", "--project", with_evidence)
+    line = (
+        "Not computed: regions of weights, acceptability and confidence, effects of the factors: the solver gave no "
+        "answer. To mend it: ask for less."
+    )
+
+    assert (told.status, told.errors) == (1, "")
+    assert (report.status, report.errors) == (1, "")
+    assert line in told.output
+    assert line in report.output
+    assert line in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "Certificate: optimal" in told.output

@@ -1,0 +1,280 @@
+"""Portfolios by hand; tests/tradeoff/test_agreement.py compares random ones with trying each."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+import rgss.tradeoff.portfolio.checks
+import rgss.tradeoff.portfolio.mean
+import rgss.tradeoff.portfolio.portfolio
+from rgss.errors import TradeoffError
+from rgss.tradeoff import (
+    AdditiveValue,
+    Agreement,
+    CheckKind,
+    Cut,
+    DecisionStatus,
+    PortfolioAim,
+    PortfolioProblem,
+    PortfolioTask,
+    Tchebycheff,
+    decide_portfolio,
+    portfolio_to_json,
+)
+
+
+@pytest.fixture
+def fleet(build_problem):
+    """A fleet problem from the values of each design in each task; what is below 0 is infeasible."""
+
+    def build(table, *, weights=None, program=None, **more):
+        count = len(next(iter(table.values())))
+        weights = weights or [1.0 / count] * count
+        tasks = tuple(
+            PortfolioTask(
+                name=f"t{task}",
+                weight=weights[task],
+                problem=build_problem(
+                    {variant: {"a": row[task]} for variant, row in table.items()},
+                    thresholds=[("R", "a", ">=", 0.0)],
+                    program=program or AdditiveValue(),
+                ),
+            )
+            for task in range(count)
+        )
+        return PortfolioProblem(tasks=tasks, **({"at_most": 1} | more))
+
+    return build
+
+
+TABLE = {1: (0.6, 0.6, 0.6), 2: (1.0, 0.1, 0.0), 3: (0.2, 1.0, 0.9), 4: (0.1, 0.9, 0.2)}
+
+
+@pytest.mark.parametrize(
+    ("at_most", "aim", "members", "objective"),
+    [
+        (1, PortfolioAim.MEAN, ("3",), 0.7),
+        (2, PortfolioAim.MEAN, ("2", "3"), 2.9 / 3),
+        (3, PortfolioAim.MEAN, ("2", "3"), 2.9 / 3),
+        (1, PortfolioAim.WORST, ("1",), 0.6),
+        (2, PortfolioAim.WORST, ("2", "3"), 0.9),
+    ],
+)
+def test_by_hand(fleet, at_most, aim, members, objective):
+    decision = decide_portfolio(fleet(TABLE, at_most=at_most, aim=aim))
+    assert decision.status is DecisionStatus.OPTIMAL
+    assert decision.members == members
+    assert decision.objective == pytest.approx(objective)
+    assert decision.objective_recomputed == pytest.approx(objective)
+    assert decision.gap == pytest.approx(0.0, abs=1e-9)
+    assert decision.enumeration_agrees is Agreement.AGREED
+    # The fourth is nowhere better than the third.
+    assert decision.considered == 3
+
+
+def test_what_another_member_would_add(fleet):
+    decision = decide_portfolio(fleet(TABLE, at_most=4))
+    assert decision.by_size == pytest.approx((0.7, 2.9 / 3, 2.9 / 3, 2.9 / 3))
+
+
+def test_who_serves_what(fleet):
+    decision = decide_portfolio(fleet(TABLE, at_most=2))
+    assert [(one.task, one.variant, one.value) for one in decision.assignments] == [
+        ("t0", 2, 1.0),
+        ("t1", 3, 1.0),
+        ("t2", 3, 0.9),
+    ]
+
+
+def test_weights_of_the_tasks(fleet):
+    assert decide_portfolio(fleet(TABLE, weights=[0.8, 0.1, 0.1])).members == ("2",)
+
+
+def test_one_gripper_for_many_objects(fleet):
+    """A member is a gripper; for each object its best variant serves."""
+    table = {1: (0.9, -1.0), 2: (-1.0, 0.8), 3: (0.7, 0.7), 4: (0.6, 0.95)}
+    grippers = {1: "wide", 2: "wide", 3: "narrow", 4: "narrow"}
+    decision = decide_portfolio(fleet(table, groups=grippers))
+    assert decision.members == ("wide",)
+    assert [one.variant for one in decision.assignments] == [1, 2]
+    assert decision.objective == pytest.approx(0.85)
+    assert decide_portfolio(fleet(table)).members == ("4",)
+
+
+def test_too_few_members_to_serve_every_task(fleet):
+    table = {1: (0.9, -1.0), 2: (-1.0, 0.8)}
+    decision = decide_portfolio(fleet(table))
+    assert (decision.status, decision.members, decision.objective) == (DecisionStatus.INFEASIBLE, (), None)
+    assert (decision.by_size, decision.unserved, decision.enumeration_agrees) == ((None,), (), Agreement.AGREED)
+    assert decide_portfolio(fleet(table, at_most=2)).by_size == (None, pytest.approx(0.85))
+
+
+def test_a_task_that_no_design_serves(fleet):
+    decision = decide_portfolio(fleet({1: (0.9, -1.0), 2: (0.5, -0.1)}, at_most=2))
+    assert (decision.status, decision.unserved) == (DecisionStatus.INFEASIBLE, ("t1",))
+
+
+def test_more_portfolios_than_are_enumerated(fleet, monkeypatch):
+    monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 2)
+    decision = decide_portfolio(fleet(TABLE, at_most=3))
+    assert (set(decision.members), decision.enumeration_agrees) == ({"2", "3"}, Agreement.NOT_ENUMERATED)
+    assert decision.objective == pytest.approx(2.9 / 3)
+
+
+@pytest.mark.parametrize("aim", list(PortfolioAim))
+@pytest.mark.parametrize("answer", [None, (1,)], ids=["false infeasible", "not optimal"])
+def test_a_wrong_answer_of_the_solver_is_not_used(fleet, monkeypatch, answer, aim):
+    right = decide_portfolio(fleet(TABLE, at_most=2, aim=aim))
+    monkeypatch.setattr(rgss.tradeoff.portfolio.portfolio, "solved_portfolio", lambda *arguments: answer)
+    for most in (20_000_000, 0):
+        monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", most)
+        decision = decide_portfolio(fleet(TABLE, at_most=2, aim=aim))
+        assert (decision.status, decision.members) == (DecisionStatus.OPTIMAL, right.members)
+        assert decision.objective == pytest.approx(right.objective)
+        assert [check.agrees for check in decision.checks if check.kind is CheckKind.SECOND_RUN] == [False]
+
+
+def test_a_wrong_bound_is_seen_by_the_solver(fleet, monkeypatch):
+    """The proof is made to end at once with a poor portfolio: the solver's better one contradicts it."""
+
+    def wrong(profits, size, start, tolerance, work):
+        return rgss.tradeoff.portfolio.mean.SizeAnswer(rows=(0,), objective=0.6, bound=0.6)
+
+    monkeypatch.setattr(rgss.tradeoff.portfolio.mean, "best_mean", wrong)
+    monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 0)
+    decision = decide_portfolio(fleet(TABLE, at_most=2))
+    assert (decision.status, set(decision.members)) == (DecisionStatus.BEST_FOUND, {"2", "3"})
+    assert not decision.checks[0].agrees
+    monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 20_000_000)
+    enumerated = decide_portfolio(fleet(TABLE, at_most=2))
+    assert (enumerated.status, enumerated.enumeration_agrees) == (DecisionStatus.OPTIMAL, Agreement.DISAGREED)
+    assert set(enumerated.members) == {"2", "3"}
+
+
+@pytest.fixture
+def by_proofs_alone(monkeypatch):
+    """Neither the solver nor enumeration of all portfolios."""
+    monkeypatch.setattr(rgss.tradeoff.portfolio.portfolio, "LARGEST_SOLVED", 0)
+    monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 0)
+
+
+def random_table(seed, members, tasks):
+    values = np.random.default_rng(seed).random((members, tasks))
+    return {row + 1: tuple(values[row].tolist()) for row in range(members)}
+
+
+@pytest.mark.parametrize("aim", list(PortfolioAim))
+def test_a_thousand_designs_for_twenty_tasks_by_twenty_members(fleet, aim):
+    decision = decide_portfolio(fleet(random_table(0, 1000, 20), at_most=20, aim=aim))
+    assert decision.status is DecisionStatus.OPTIMAL
+    assert (decision.gap, decision.cut) == (pytest.approx(0.0, abs=1e-9), None)
+    assert list(decision.by_size) == sorted(decision.by_size)
+    values = np.array(list(random_table(0, 1000, 20).values()))
+    ideal = values.max(axis=0).mean() if aim is PortfolioAim.MEAN else values.max(axis=0).min()
+    assert decision.objective == pytest.approx(ideal)
+
+
+@pytest.mark.parametrize("aim", list(PortfolioAim))
+@pytest.mark.usefixtures("by_proofs_alone")
+def test_an_answer_that_the_work_limit_cuts_has_a_gap_that_holds(fleet, aim):
+    """Every size has a portfolio and a bound, and more work changes neither for the worse."""
+    problem = fleet(random_table(3, 40, 20), at_most=4, aim=aim)
+    cut, whole = decide_portfolio(problem, most_work=60_000), decide_portfolio(problem)
+    assert (cut.status, cut.cut) == (DecisionStatus.BEST_FOUND, Cut.WORK)
+    assert whole.status is DecisionStatus.OPTIMAL
+    assert list(cut.by_size) == sorted(cut.by_size)
+    assert cut.gap > 0.0
+    for found, gap, best in zip(cut.by_size, cut.by_size_gap, whole.by_size, strict=True):
+        assert found <= best + 1e-12
+        assert best <= found + gap + 1e-9
+    assert cut == decide_portfolio(problem, most_work=60_000)
+
+
+@pytest.mark.parametrize("aim", list(PortfolioAim))
+@pytest.mark.usefixtures("by_proofs_alone")
+def test_an_answer_that_the_time_limit_cuts_says_so(fleet, aim):
+    decision = decide_portfolio(fleet(random_table(3, 40, 20), at_most=4, aim=aim), time_limit=1e-9)
+    assert (decision.status, decision.cut) == (DecisionStatus.BEST_FOUND, Cut.TIME)
+    assert decision.gap > 0.0
+    with pytest.raises(TradeoffError, match="the time limit must be positive, got -1 s"):
+        decide_portfolio(fleet(TABLE), time_limit=-1.0)
+
+
+@pytest.mark.parametrize("aim", list(PortfolioAim))
+@pytest.mark.usefixtures("by_proofs_alone")
+def test_a_search_that_a_limit_ends_before_it_finds_anything_is_undecided(fleet, aim):
+    values = np.random.default_rng(1).random((40, 24))
+    # No three members serve all tasks, which takes some work to prove.
+    values[np.random.default_rng(2).random((40, 24)) < 0.8] = -1.0
+    table = {row + 1: tuple(values[row].tolist()) for row in range(40)}
+    decision = decide_portfolio(fleet(table, at_most=3, aim=aim), most_work=30)
+    assert (decision.status, decision.members, decision.objective) == (DecisionStatus.UNDECIDED, (), None)
+    assert decide_portfolio(fleet(table, at_most=3, aim=aim)).status is DecisionStatus.INFEASIBLE
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_random_fleets_against_all_portfolios(guard_cases, guard, seed, monkeypatch):
+    """Once with the enumeration of the product, and once by its proofs alone."""
+    case = guard_cases.fleet_case(seed)
+    assert guard.fleet_outcome(case) in ("right", "infeasible, right")
+    monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 0)
+    monkeypatch.setattr(rgss.tradeoff.portfolio.portfolio, "LARGEST_SOLVED", 0)
+    assert guard.fleet_outcome(case) in ("right", "infeasible, right")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"tasks": ()}, "a fleet without tasks has nothing to do"),
+        ({"at_most": 0}, "a fleet of at most 0 designs serves no task"),
+        ({"groups": {1: "x"}}, "variant 2 belongs to no group"),
+    ],
+)
+def test_ill_posed(fleet, change, message):
+    with pytest.raises(TradeoffError) as error:
+        dataclasses.replace(fleet(TABLE), **change)
+    assert error.value.message == message
+    assert error.value.hint
+
+
+def test_tasks_that_do_not_fit(fleet):
+    whole = fleet(TABLE)
+    fewer = fleet({1: (0.5,)}, weights=[1.0]).tasks[0]
+    for tasks, message in (
+        ((whole.tasks[0], whole.tasks[0]), "task 't0' is given twice"),
+        ((dataclasses.replace(whole.tasks[0], weight=0.4),), "the weights sum to 0.4, not to 1"),
+        (
+            (dataclasses.replace(whole.tasks[0], weight=0.5), dataclasses.replace(fewer, name="t1", weight=0.5)),
+            "variant 2 is not among the alternatives of every task",
+        ),
+    ):
+        with pytest.raises(TradeoffError) as error:
+            PortfolioProblem(tasks=tasks, at_most=1)
+        assert error.value.message == message
+    with pytest.raises(TradeoffError, match="task 't0' is decided by the tchebycheff program"):
+        fleet(TABLE, program=Tchebycheff())
+
+
+def test_an_answer_that_selects_half_a_member_is_not_used(fleet, monkeypatch):
+    def half(problem, run):
+        for variable in problem.variables():
+            variable.save_value(np.full(variable.shape, 0.5))
+        return True
+
+    monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "solve_program", half)
+    decision = decide_portfolio(fleet(TABLE))
+    assert decision.members == ("3",)
+    assert "the solver's answer selects no fleet (off by 0.5)" in decision.checks[0].detail
+
+
+def test_as_plain_values(fleet):
+    document = json.loads(json.dumps(portfolio_to_json(decide_portfolio(fleet(TABLE, at_most=2))), allow_nan=False))
+    assert document["members"] == ["2", "3"]
+    assert document["assignments"][0] == {"task": "t0", "member": "2", "variant": 2, "value": 1.0}
+    assert document["certificate"]["enumeration_agrees"] == "agreed"
+    nothing = portfolio_to_json(decide_portfolio(fleet({1: (-1.0,)})))
+    assert (nothing["status"], nothing["objective"], nothing["unserved"]) == ("infeasible", None, ["t0"])
