@@ -12,7 +12,7 @@ import pytest
 def shared(with_evidence, tmp_path, monkeypatch):
     """A copy of the project with evidence that is said to be unwritable, as it would be for an ordinary user."""
     for user in ("store", "verification"):
-        monkeypatch.setattr(f"rgss.evidence.{user}.is_writable", lambda path: False)
+        monkeypatch.setattr(f"rgss.evidence.store.{user}.is_writable", lambda path: False)
     return Path(shutil.copytree(with_evidence, tmp_path / "shared"))
 
 

@@ -18,16 +18,19 @@ CONTROL = ControlSettings()
 
 
 class Shaking(World):
-    """The cup is seen here and there by turns for a while, then at rest."""
+    """The cup is seen here and there, step by step, for a while, then at rest."""
 
     shift_m = (0.0, 0.0, 0.0)
     turn_rad = 0.0
     shaking_s = 0.3
     _seen = 0
 
+    def step(self):
+        super().step()
+        self._seen += 1
+
     def workpiece_pose(self):
         pose = super().workpiece_pose()
-        self._seen += 1
         if self._seen > self.shaking_s * self.settings.rate_hz or self._seen % 2:
             return pose
         turn = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (self.turn_rad, 0.0, 0.0))

@@ -35,8 +35,8 @@ def no_trial(monkeypatch):
     def run(*arguments, **options):
         raise AssertionError("a trial was run")
 
-    monkeypatch.setattr("rgss.trials.pieces.run.run_trial", run)
-    monkeypatch.setattr("rgss.trials.tracing.run_traced_trial", run)
+    monkeypatch.setattr("rgss.trials.pieces.run_trial", run)
+    monkeypatch.setattr("rgss.trials.run_traced_trial", run)
 
 
 @pytest.mark.engine
@@ -71,7 +71,7 @@ def test_what_was_made_is_told_after_the_trial(capsys, tmp_path, monkeypatch):
 def test_a_file_that_cannot_be_written_after_all(capsys, tmp_path, monkeypatch):
     folder = tmp_path / "folder"
     folder.mkdir()
-    monkeypatch.setattr("rgss.documents.output_files.why_not_writable", lambda path: folder.rmdir() or "")
+    monkeypatch.setattr("rgss.documents.why_not_writable", lambda path: folder.rmdir() or "")
     status = main([*RUN, "--plots", str(folder / "plots.png")])
     captured = capsys.readouterr()
 

@@ -101,7 +101,7 @@ def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypat
 def test_trials_that_cannot_be_run_are_a_failure_of_the_run(rgss, folder, monkeypatch):
     failure = RunFailure(key="a" * 64, what="plan", kind=RunFailureKind.CRASHED, detail="killed", attempts=2)
     result = SweepResult(made={}, reused={}, lost=(LostTrials(failure=failure, trials=((1, 1),)),))
-    monkeypatch.setattr("rgss.sweep.running.sweep", lambda *_, **__: result)
+    monkeypatch.setattr("rgss.sweep.sweep", lambda *_, **__: result)
 
     told = rgss("sweep", "--until", "decided", "--project", folder)
 

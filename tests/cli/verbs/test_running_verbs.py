@@ -71,7 +71,7 @@ def test_an_engine_that_gives_up_is_one_line(rgss, untouched, monkeypatch, error
     def give_up(*_, **__):
         raise error("the engine gave up", hint="try again")
 
-    monkeypatch.setattr("rgss.trials.pieces.run.run_trial", give_up)
+    monkeypatch.setattr("rgss.trials.pieces.run_trial", give_up)
     told = rgss("run", 65, "--project", untouched)
 
     assert (told.status, told.output) == (3, "")

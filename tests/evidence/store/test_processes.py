@@ -45,7 +45,9 @@ def go(writer):
 
 
 def end(writer):
-    output, problems = writer.communicate(timeout=60)
+    # Read from the stream that lines were read from: `communicate` passes by what it has buffered.
+    output = writer.stdout.read()
+    _, problems = writer.communicate(timeout=60)
     return writer.returncode, [int(line) for line in output.split()], problems
 
 

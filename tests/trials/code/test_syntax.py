@@ -193,10 +193,10 @@ SPEED = "tool_speed_m_s=spec.tool_speed_m_s"
     ("file", "old", "new", "pieces"),
     [
         ("trials/timing.py", SPEED, f"{SPEED} / 2", {"timing", "execution", "record"}),
-        ("trials/making.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {*ENTRIES}),
-        ("trials/run.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {"record"}),
-        ("trials/numeric_environment.py", 'KERNEL = "Nehalem"', 'KERNEL = "Haswell"', {*ENTRIES}),
-        ("trials/run.py", "Begin with no pieces.", "Begin with nothing at all.", set()),
+        ("trials/pieces/pieces.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {*ENTRIES}),
+        ("trials/pieces/run.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {"record"}),
+        ("trials/code/kernel_environment.py", 'KERNEL = "Nehalem"', 'KERNEL = "Haswell"', {*ENTRIES}),
+        ("trials/pieces/run.py", "Begin with no pieces.", "Begin with nothing at all.", set()),
         ("trials/plan.py", "# The task is done as far as", "# It is done as far as", set()),
     ],
 )
