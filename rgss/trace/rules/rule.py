@@ -132,12 +132,19 @@ class SentenceRule(Rule):
         find: Finds what is wrong with the sentence of an element, given the rule's terms.
         terms: Words and phrases that the rule looks for, or that it takes for an excuse; a project
             may add to them and take from them.
-        meaning: What the terms are; empty if there are none.
+        meaning: Description of the terms; empty if there are none.
+        widened_by: Terms of its own that a project may add all the same: they count only in some places, and
+            everywhere once they are added.
+        breaking: Sentences that break the rule; the first breaks no other rule.
+        passing: Sentences close to those that break no rule of wording, but perhaps `wording.ears-keyword`.
     """
 
     find: Callable[[Sentence, TermList, Worded], Iterator[Flaw]]
     terms: tuple[str, ...] = ()
     meaning: str = ""
+    widened_by: tuple[str, ...] = ()
+    breaking: tuple[str, ...]
+    passing: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -114,8 +114,7 @@ def _idle_terms(setting: RuleSetting, rule: Rule) -> Iterator[tuple[str, tuple[s
     takes_terms = isinstance(rule, SentenceRule) and bool(rule.meaning)
     own = {words_of(term) for term in rule.terms} if isinstance(rule, SentenceRule) else set()
     for index, term in enumerate(setting.terms_added):
-        # 'and' and 'or' may be added to what they are in already: then they count wherever they stand.
-        is_widened = rule.id == "wording.R19" and term in ("and", "or")
+        is_widened = isinstance(rule, SentenceRule) and term in rule.widened_by
         if not takes_terms or not words_of(term):
             yield f"rule {rule.id!r} looks for no such terms", ("terms_added", index)
         elif words_of(term) in own and not is_widened:
