@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -56,8 +55,3 @@ def shown(value: object) -> str:
         return repr(value if len(value) <= _LONGEST_SHOWN else value[: _LONGEST_SHOWN - 1] + "…")
     text = repr(value)
     return text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 1] + "…"
-
-
-def has_errors(findings: Iterable[Finding]) -> bool:
-    """Tell whether any of the findings is an error."""
-    return any(finding.severity is Severity.ERROR for finding in findings)
