@@ -20,7 +20,7 @@ from rgss.evidence import (
 )
 from rgss.evidence.records import piece_row
 from rgss.findings import shown
-from rgss.sweep.workers import Ended, TaskError
+from rgss.sweep.task_end import Ended, TaskError
 from rgss.trials import TrialSpec
 from rgss.trials.pieces import PieceTask, Task, bench_from_json, execution_from_json, plan_from_json, timing_from_json
 

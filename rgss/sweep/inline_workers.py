@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rgss.sweep.task_end import Ended, ended_by
 from rgss.sweep.worker_process import answer_to
-from rgss.sweep.workers import Ended, ended_by
 
 
 class InlineWorkers:

@@ -11,8 +11,8 @@ from typing import Any
 from rgss.evidence import EvidenceStore, PieceKind, StoredTrial
 from rgss.studies import CODE, named_inputs
 from rgss.sweep.input_changes import ABSENT, changes_between
-from rgss.sweep.running import trials_of
 from rgss.sweep.task_queue import Trial
+from rgss.sweep.trial_keys import trials_of
 from rgss.trials.code import versions
 from rgss.trials.pieces import TrialSpec
 

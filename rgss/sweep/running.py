@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 from rgss.errors import EvidenceError
 from rgss.evidence import (
@@ -16,124 +15,23 @@ from rgss.evidence import (
     RunFailureKind,
     StoredTrial,
     TrialRecord,
-    trial_key,
 )
 from rgss.evidence.records import Numerics, detail_line, numerics_text, require_alike
 from rgss.sweep.answers import checked, record_problem
 from rgss.sweep.evidence_writer import Origin, TrialWriter
 from rgss.sweep.inline_workers import InlineWorkers
+from rgss.sweep.results import FinishedTrial, LostTrials, SweepResult, SweepState, WorkerLimits
+from rgss.sweep.task_end import Ended, TaskError, Workers
 from rgss.sweep.task_queue import TaskQueue, Trial
-from rgss.sweep.workers import Ended, TaskError, WorkerPool, Workers
-from rgss.trials.code import fixed_numerics, numerics, versions
-from rgss.trials.pieces import Task, TrialSpec, TrialTask, digests_of, make, record_of, require_search
+from rgss.sweep.trial_keys import trials_of
+from rgss.sweep.workers import WorkerPool
+from rgss.trials.code import fixed_numerics, numerics
+from rgss.trials.pieces import Task, TrialSpec, TrialTask, make, record_of
 
 Maker = Callable[[Task, Mapping[str, Piece]], Piece | TrialRecord]
 
 MOST_ATTEMPTS = 2
 """How often a task is tried whose worker crashed, hung or ran out of memory."""
-
-_MIB = 1024 * 1024
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkerLimits:
-    """What a worker may use for one task.
-
-    Attributes:
-        time_s: Greatest time by the wall clock: a hundred times what the longest search needs.
-        memory_bytes: Greatest size of a worker's data; 0 for no limit.
-    """
-
-    time_s: float = 300.0
-    memory_bytes: int = 2048 * _MIB
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FinishedTrial:
-    """A trial that was run or read.
-
-    Attributes:
-        key: What the store knows it by.
-        record: What came out of it.
-        fresh: Whether it was put together now; the store had it otherwise.
-    """
-
-    key: str
-    record: TrialRecord
-    fresh: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LostTrials:
-    """A failure of the run, and the trials that have no record for it.
-
-    Attributes:
-        failure: What could not be made, and why.
-        trials: Variant and seed of each trial that needed it.
-    """
-
-    failure: RunFailure
-    trials: tuple[tuple[int, int], ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SweepState:
-    """How far a sweep is.
-
-    Attributes:
-        elapsed_s: Time since it began.
-        remaining_s: Time that what is left is expected to take; None before anything is known.
-        tasks_left: How many pieces (or trials, if nothing is shared) are still to be made.
-        made: How many pieces of each kind were made.
-        reused: How many pieces of each kind came from the store.
-        saved: How many pieces more the trials that are done would have needed without sharing.
-    """
-
-    elapsed_s: float
-    remaining_s: float | None
-    tasks_left: int
-    made: Mapping[str, int]
-    reused: Mapping[str, int]
-    saved: int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SweepResult:
-    """What a sweep did.
-
-    Attributes:
-        made: How many pieces of each kind were made; ``trial`` where nothing was shared.
-        reused: How many pieces of each kind came from the store.
-        lost: What could not be made; empty if all trials have records.
-        elapsed_s: Time from the first task to the last, workers' start included.
-        busy_s: Time that the workers spent on tasks, summed over them.
-    """
-
-    made: Mapping[str, int]
-    reused: Mapping[str, int]
-    lost: tuple[LostTrials, ...]
-    elapsed_s: float = 0.0
-    busy_s: float = 0.0
-
-
-def key_of(spec: TrialSpec) -> str:
-    """What the store knows a trial by: the digest of its inputs, the versions, and its variant."""
-    return _trial(spec, versions()).key
-
-
-def trials_of(specs: Sequence[TrialSpec]) -> tuple[Trial, ...]:
-    """The trials with their keys and digests, each once.
-
-    Args:
-        specs: The trials.
-
-    Raises:
-        DefinitionError: A planning limit is longer than the search.
-    """
-    found = versions()
-    for spec in specs:
-        require_search(spec)
-    return tuple({trial.key: trial for trial in (_trial(spec, found) for spec in specs)}.values())
 
 
 def sweep(
@@ -380,9 +278,3 @@ def _require_alike(stored: StoredTrial, here: Numerics) -> None:
     record = stored.record
     what = f"the stored trial {stored.key[:12]} (variant {record.variant}, seed {record.seed})"
     require_alike(what, stored.provenance.numerics, here)
-
-
-def _trial(spec: TrialSpec, found: Mapping[str, str]) -> Trial:
-    digests = digests_of(spec, found)
-    key = trial_key({"trial": digests.trial, "variant": spec.variant})
-    return Trial(key=key, spec=spec, digests=digests)

@@ -16,7 +16,7 @@ from rgss.measures import StaleCause, Verdict
 from rgss.studies.expansion import trial_specs
 from rgss.studies.input_names import CODE, named_inputs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.piece_versions import versions
 from tests.fixtures.stored_inputs import put_inputs
 

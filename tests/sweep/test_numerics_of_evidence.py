@@ -12,7 +12,8 @@ from rgss.evidence import EvidenceStore, Piece, PieceKind, Provenance
 from rgss.evidence.records.provenance import provenance_from_json, provenance_to_json
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.evidence_writer import Origin, TrialWriter
-from rgss.sweep.running import key_of, sweep
+from rgss.sweep.running import sweep
+from rgss.sweep.trial_keys import key_of
 from rgss.sweep.workers import WorkerPool
 from rgss.trials.code.numeric_probe import numerics
 from tests.fixtures.stored_inputs import put_inputs

@@ -1,5 +1,7 @@
 """The evidence store: one SQLite file with trials, the pieces that they share, and what could not be made."""
 
+# long file: one class with a short method for each question to a store; half of its lines are their docstrings.
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping

@@ -8,6 +8,8 @@ threads a Dask worker has. The processes end with their order, with their Dask w
 nobody has asked them for anything in a while.
 """
 
+# long file: Dask workers load these functions by the name of this module, with what they share.
+
 from __future__ import annotations
 
 import multiprocessing
@@ -23,7 +25,8 @@ from typing import Any
 
 from rgss.evidence import RunFailureKind
 from rgss.evidence.records import results_of
-from rgss.sweep.workers import Ended, TaskError, WorkerPool
+from rgss.sweep.task_end import Ended, TaskError
+from rgss.sweep.workers import WorkerPool
 
 NUMERICS = "numerics of "
 """What the names of an environment begin with that tell what the mathematics computes."""

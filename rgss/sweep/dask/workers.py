@@ -21,7 +21,7 @@ from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.sweep.answers import is_end_of, wrong_answer
 from rgss.sweep.dask.tasks import Differs, Order, carry_out, stop
-from rgss.sweep.workers import Ended, TaskError
+from rgss.sweep.task_end import Ended, TaskError
 
 IN_FLIGHT = 2
 """How many tasks each thread of the cluster has: one that is carried out, and the next."""
