@@ -12,7 +12,7 @@ _MIB = 1024 * 1024
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkerLimits:
-    """What a worker may use for one task.
+    """Limits of a worker for one task.
 
     Attributes:
         time_s: Greatest time by the wall clock: a hundred times what the longest search needs.
@@ -53,7 +53,7 @@ class LostTrials:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepState:
-    """How far a sweep is.
+    """Progress of a sweep.
 
     Attributes:
         elapsed_s: Time since it began.
@@ -74,7 +74,7 @@ class SweepState:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SweepResult:
-    """What a sweep did.
+    """Result of a sweep.
 
     Attributes:
         made: How many pieces of each kind were made; ``trial`` where nothing was shared.

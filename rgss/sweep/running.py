@@ -91,7 +91,7 @@ def sweep(
         _require_alike(known, computed_with())
     if share and missing:
         stored = store.has_pieces({digest for trial in missing for digest in trial.pieces.values()})
-    keeper = TrialWriter(
+    writer = TrialWriter(
         store,
         origin,
         on_kept=lambda key, record: on_finished(FinishedTrial(key=key, record=record, fresh=True)),
@@ -104,7 +104,7 @@ def sweep(
         workers = workers_for(maker)
     elif jobs > 0:
         workers = WorkerPool(maker, size=jobs, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes)
-    return _Sweep(work, store, keeper, workers, on_state=on_state).run()
+    return _Sweep(work, store, writer, workers, on_state=on_state).run()
 
 
 class _Sweep:
@@ -114,14 +114,14 @@ class _Sweep:
         self,
         work: TaskQueue,
         store: EvidenceStore,
-        keeper: TrialWriter,
+        writer: TrialWriter,
         workers: Workers,
         *,
         on_state: Callable[[SweepState], None] | None,
     ) -> None:
         self._work = work
         self._store = store
-        self._keeper = keeper
+        self._writer = writer
         self._workers = workers
         self._on_state = on_state
         self._begun = time.monotonic()
@@ -141,12 +141,12 @@ class _Sweep:
             while self._work.left:
                 self._workers.want(self._work.ready + len(self._running))
                 self._begin_tasks()
-                for ended in self._workers.wait(self._keeper.due_s()):
+                for ended in self._workers.wait(self._writer.due_s()):
                     # Others can begin what this one makes ready before it is written down.
                     self._take_in(ended)
                     self._begin_tasks()
                 self._put_together()
-                self._keeper.flush_if_due()
+                self._writer.flush_if_due()
                 self._tell()
         except BaseException:
             self._workers.close()
@@ -165,7 +165,7 @@ class _Sweep:
 
     def _write_down(self) -> None:
         """Put what is finished, and make sure that it is in the store; if it is not, that is the error to report."""
-        self._keeper.flush()
+        self._writer.flush()
         self._store.confirm()
 
     def _begin_tasks(self) -> None:
@@ -187,7 +187,7 @@ class _Sweep:
         if isinstance(ended.result, Piece):
             self._made[ended.result.kind.value] += 1
             self._held[task.digest] = ended.result
-            self._keeper.keep_piece(ended.result)
+            self._writer.keep_piece(ended.result)
         else:
             self._made["trial"] += 1
         self._work.done(task.digest, took_s=ended.took_s)
@@ -195,7 +195,7 @@ class _Sweep:
             self._release(digest)
         if isinstance(task, TrialTask):
             for trial in self._work.complete():
-                self._keeper.keep_trial(trial, ended.result)
+                self._writer.keep_trial(trial, ended.result)
 
     def _put_together(self) -> None:
         """Put the records together whose pieces are all there."""
@@ -203,11 +203,11 @@ class _Sweep:
             pieces = {kind: self._piece(digest) for kind, digest in trial.pieces.items()}
             record = self._assembled(trial, pieces)
             if record is not None:
-                self._keeper.keep_trial(trial, record)
+                self._writer.keep_trial(trial, record)
                 self._used += len(pieces)
             for digest in trial.pieces.values():
                 self._release(digest)
-            self._keeper.flush_if_due()
+            self._writer.flush_if_due()
 
     def _assembled(self, trial: Trial, pieces: Mapping[PieceKind, Piece]) -> TrialRecord | None:
         """The record of a trial; None, and a failure of the run, if its pieces do not fit each other."""

@@ -18,7 +18,7 @@ _ENDING_LOOK_S = 0.01
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaskError:
-    """Why a task has no result.
+    """Failure of a task.
 
     Attributes:
         kind: What happened to it.
@@ -49,15 +49,15 @@ class Ended:
 
 
 class Workers(Protocol):
-    """What carries out tasks: processes here, or machines elsewhere."""
+    """Execution backend of tasks: processes here, or machines elsewhere."""
 
     @property
     def size(self) -> int:
-        """How many tasks it carries out at once."""
+        """Number of tasks that it carries out at once."""
 
     @property
     def free(self) -> int:
-        """How many tasks can be begun now."""
+        """Number of tasks that can be begun now."""
 
     def want(self, tasks: int) -> None:
         """Be ready for this many tasks, as far as that is possible."""
@@ -105,7 +105,7 @@ def is_answer(message: object, task: int) -> bool:
 
 
 def process_ending(process: BaseProcess) -> str:
-    """How a process has ended whose end of the pipe is closed, in words that follow 'the worker'."""
+    """End of a process whose end of the pipe is closed, in words that follow 'the worker'."""
     latest = time.monotonic() + _ENDING_S
     while process.exitcode is None and time.monotonic() < latest:
         time.sleep(_ENDING_LOOK_S)

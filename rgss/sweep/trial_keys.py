@@ -11,7 +11,7 @@ from rgss.trials.pieces import TrialSpec, digests_of, require_search
 
 
 def key_of(spec: TrialSpec) -> str:
-    """What the store knows a trial by: the digest of its inputs, the versions, and its variant."""
+    """Key of a trial in the store: the digest of its inputs, the versions, and its variant."""
     return _trial(spec, versions()).key
 
 

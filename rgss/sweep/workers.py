@@ -94,12 +94,12 @@ class WorkerPool:
 
     @property
     def size(self) -> int:
-        """How many tasks it carries out at once."""
+        """Number of tasks that it carries out at once."""
         return self._size
 
     @property
     def free(self) -> int:
-        """How many tasks can be begun now."""
+        """Number of tasks that can be begun now."""
         return sum(worker.ready and worker.key is None for worker in self._workers)
 
     def want(self, tasks: int) -> None:
@@ -198,7 +198,7 @@ class WorkerPool:
             selector.select(patience_s)
 
     def _looked_at(self, worker: _Worker) -> Ended | None:
-        """What has become of a worker since it was looked at before."""
+        """End of a worker's task since the last look; None if there is none."""
         worker.channel.flush()
         # Asked before its last words are read, which then are all that there will be.
         has_ended = worker.process.exitcode is not None

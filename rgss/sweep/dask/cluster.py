@@ -1,4 +1,4 @@
-"""A Dask cluster on which sweeps may run: found, and held against this machine, before the first task."""
+"""Dask cluster on which sweeps may run: found and compared with this machine before the first task."""
 
 from __future__ import annotations
 

@@ -72,12 +72,12 @@ class DaskWorkers:
 
     @property
     def size(self) -> int:
-        """How many tasks the cluster carries out at once; 1 while it has no worker."""
+        """Number of tasks that the cluster carries out at once; 1 while it has no worker."""
         return max(1, self._threads)
 
     @property
     def free(self) -> int:
-        """How many tasks can be begun now."""
+        """Number of tasks that can be begun now."""
         return max(0, IN_FLIGHT * self._threads - len(self._running))
 
     def want(self, tasks: int) -> None:

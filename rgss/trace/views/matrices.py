@@ -37,7 +37,7 @@ class TraceMatrix:
 
     @property
     def link_count(self) -> int:
-        """How many links the matrix has."""
+        """Number of links."""
         return sum(map(len, self.linked))
 
     @property
