@@ -161,8 +161,8 @@ def measure(seeds: int, *, fidelity: str = "contact", project: Path = REPOSITORY
     settle()
     from rgss.studies.expansion import trial_specs
     from rgss.studies.project import load_project
-    from rgss.sweep.running import trials_of
     from rgss.sweep.task_queue import TaskQueue
+    from rgss.sweep.trial_keys import trials_of
     from rgss.trials.pieces.pieces import make
 
     loaded = load_project(project).with_replicates(seeds).with_fidelity(fidelity)

@@ -34,7 +34,7 @@ from rgss.evidence import (
 )
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, Project, load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.metrics import METRICS
 from rgss.trials.pieces.input_digests import TrialSpec
 

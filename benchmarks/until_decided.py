@@ -244,7 +244,8 @@ def pool(file: Path, seeds: int) -> int:
     """Run one variant of each class, at the higher speed, and write success, planning time and length."""
     from rgss.evidence import EvidenceStore
     from rgss.studies.expansion import trial_specs
-    from rgss.sweep.running import FinishedTrial, sweep
+    from rgss.sweep.results import FinishedTrial
+    from rgss.sweep.running import sweep
 
     project = load_project(Path()).with_fidelity("kinematic")
     specs = trial_specs(project, seeds=range(1, seeds + 1))

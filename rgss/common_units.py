@@ -79,7 +79,7 @@ class CommonUnit:
 
 @lru_cache(maxsize=512)
 def common_unit(text: str) -> CommonUnit | None:
-    """The unit that a text stands for, if it is a plain product or quotient of common units.
+    """Unit that a text denotes, if it is a plain product or quotient of common units.
 
     Args:
         text: Such as ``"mm"``, ``"m/s**2"``, ``"N·m"`` or ``"kg·m·s^-2"``.

@@ -72,7 +72,7 @@ class EvidenceError(RgssError):
 
 
 class StorageError(EvidenceError):
-    """The disk is full or fails, or another process keeps the store locked; what was put in and asked for is sound."""
+    """The disk is full or fails, or another process keeps the store locked; what was written and read is sound."""
 
 
 class TradeoffError(RgssError):

@@ -1,8 +1,7 @@
-"""What is wrong in a user's files, and where."""
+"""Findings: problems in a user's files, with their places."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -10,7 +9,7 @@ _LONGEST_SHOWN = 60
 
 
 class Severity(str, Enum):
-    """How much a finding matters: an error makes the project unusable, a warning does not."""
+    """Severity of a finding: an error makes the project unusable, a warning does not."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -26,7 +25,7 @@ class Finding:
         line: Line, from 1.
         column: Column, from 1.
         rule: The id of the rule that is broken, such as ``document.unknown-key``.
-        severity: How much it matters.
+        severity: Its severity.
         message: What is wrong, in one line.
         hint: How to mend it, in one line; may be empty.
     """
@@ -51,13 +50,8 @@ def printable(text: str) -> str:
 
 
 def shown(value: object) -> str:
-    """What a user wrote, as a message shows it: on one line and cut where it is long."""
+    """User's value as a message shows it: on one line and cut where it is long."""
     if isinstance(value, str):
         return repr(value if len(value) <= _LONGEST_SHOWN else value[: _LONGEST_SHOWN - 1] + "…")
     text = repr(value)
     return text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 1] + "…"
-
-
-def has_errors(findings: Iterable[Finding]) -> bool:
-    """Tell whether any of the findings is an error."""
-    return any(finding.severity is Severity.ERROR for finding in findings)

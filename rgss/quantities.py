@@ -37,7 +37,7 @@ _UNIT = re.compile(rf"1|(?:1\s*/\s*)?(?:{_FACTOR}|{_GROUP})(?:{_BETWEEN}(?:{_FAC
 def parse_quantity(text: str, unit: str) -> float:
     """Read a quantity and express it in a unit.
 
-    Angles are told from pure numbers here, so that ``"1 Hz"`` is not taken for 1 rad/s.
+    Angles are distinguished from pure numbers here, so that ``"1 Hz"`` is not taken for 1 rad/s.
 
     Args:
         text: A number and a unit, such as ``"120 mm"``.
@@ -142,7 +142,7 @@ def _measure_the_same(unit: str, other: str) -> bool:
 
 @lru_cache(maxsize=512)
 def _measure(unit: str) -> str:
-    """What a unit measures, angles included, as the product of its root units."""
+    """Dimension of a unit, angles included, as the product of its root units."""
     return str(_registry().get_root_units(_unit(unit))[1])
 
 

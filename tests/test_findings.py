@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from rgss.findings import Finding, Severity, has_errors, shown
+from rgss.findings import Finding, Severity, shown
 
 
 def finding(file="a.yaml", line=1, column=1, rule="a.b", severity=Severity.ERROR, message="bad", hint=""):
@@ -44,14 +44,6 @@ def test_every_pair_can_be_compared():
 
 def test_equal_findings_are_one_in_a_set():
     assert len({finding(), finding(), finding(line=2)}) == 2
-
-
-@pytest.mark.parametrize(
-    ("severities", "expected"),
-    [([], False), ([Severity.WARNING, Severity.INFO], False), ([Severity.INFO, Severity.ERROR], True)],
-)
-def test_has_errors(severities, expected):
-    assert has_errors(finding(severity=severity) for severity in severities) is expected
 
 
 @pytest.mark.parametrize(

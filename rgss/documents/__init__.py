@@ -4,7 +4,6 @@ from rgss.documents.digests import canonical_json, digest
 from rgss.documents.editing import AppendEntry, Edit, RemoveEntry, RemoveKey, SetKey, edited
 from rgss.documents.fields import (
     Dimensionless,
-    Dollars,
     Hertz,
     Identifier,
     Kilograms,
@@ -35,7 +34,7 @@ from rgss.documents.project_files import FilePlace, content_digest, place_of
 from rgss.documents.reader import LARGEST_FILE_BYTES, Document, read_document
 from rgss.documents.refusals import MOST_PROBLEMS, cut_short
 from rgss.documents.regular_file import chunks_of, open_regular
-from rgss.documents.schemas import described_keys, json_schema
+from rgss.documents.schemas import json_schema
 from rgss.documents.spreadsheet_cells import neutralised, printable, restored, starts_like_a_formula
 from rgss.documents.steering import escaped_for_json, escaped_for_xml, steers
 from rgss.documents.validation import LoadedDocument, load_document, validated
@@ -48,7 +47,6 @@ __all__ = [
     "Dimensionless",
     "Document",
     "DocumentModel",
-    "Dollars",
     "Edit",
     "FilePlace",
     "Hertz",
@@ -74,7 +72,6 @@ __all__ = [
     "chunks_of",
     "content_digest",
     "cut_short",
-    "described_keys",
     "digest",
     "edited",
     "escaped_for_json",

@@ -83,7 +83,7 @@ class Composer:
         """Read the whole text.
 
         Returns:
-            Its data, and where each part of it stands.
+            Its data, and the position of each part.
 
         Raises:
             DocumentError: It is not YAML, empty, or uses a part of YAML that is refused; with

@@ -72,7 +72,7 @@ def _plain(value: Any, depth: int) -> Any:
 
 
 def _plain_other(value: Any, depth: int) -> Any:
-    """What is of none of the types that JSON gives, but of one that is derived from them or stands for them."""
+    """Value of a type that is derived from the types of JSON or represents one of them."""
     if isinstance(value, Enum):
         value = value.value
     if value is None or isinstance(value, (bool, str)):

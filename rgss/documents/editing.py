@@ -23,7 +23,7 @@ class SetKey:
         location: The mapping.
         key: The key.
         value: Its value.
-        before: Keys that a new key stands behind, where the mapping has them.
+        before: Keys that a new key follows, where the mapping has them.
     """
 
     location: Location
@@ -161,7 +161,7 @@ class _Editor:
         return node
 
     def _end(self, node: Node) -> int:
-        """Where the last character of a node ends; a parser's own mark may be behind comments."""
+        """End of the last character of a node; a parser's own mark may be behind comments."""
         if isinstance(node, ScalarNode):
             start, end = node.start_mark.index, node.end_mark.index
             return start + len(self._text[start:end].rstrip()) if node.style in ("|", ">") else end

@@ -78,7 +78,6 @@ RadiansPerSecondSquared = Annotated[float, BeforeValidator(_reader_of("rad/s**2"
 MetresPerSecond = Annotated[float, BeforeValidator(_reader_of("m/s")), _schema("m/s")]
 MetresPerSecondSquared = Annotated[float, BeforeValidator(_reader_of("m/s**2")), _schema("m/s**2")]
 Hertz = Annotated[float, BeforeValidator(_reader_of("Hz")), _schema("Hz")]
-Dollars = Annotated[float, BeforeValidator(_reader_of("USD")), _schema("USD")]
 Dimensionless = Annotated[
     float,
     BeforeValidator(_reader_of("1")),

@@ -37,7 +37,7 @@ class SourceOverwriteError(DefinitionError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Target:
-    """Where an output goes.
+    """Destination of an output.
 
     Attributes:
         path: The file behind all symbolic links, or the path as given if it is written to in place.
@@ -119,7 +119,7 @@ def require_no_source(path: Path) -> None:
 
 
 def why_not_writable(path: Path) -> str:
-    """Why a file cannot be written, in a few words; empty if it can be. The file itself is left alone.
+    """Reason for which a file cannot be written; empty if it can be. The file itself is not changed.
 
     Raises:
         SourceOverwriteError: The file is a source of a project.
@@ -183,7 +183,7 @@ def _refuse_source(path: Path, target: _Target) -> None:
 
 
 def _target(path: Path) -> _Target:
-    """Where an output goes, behind all symbolic links.
+    """Destination of an output, behind all symbolic links.
 
     Raises:
         OSError: There is a circle of links, or a name is too long.

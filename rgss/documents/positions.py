@@ -1,4 +1,4 @@
-"""Where each key and value of a file stands, looked up by its location."""
+"""Positions of the keys and values of a file, looked up by location."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ def position_of(mark: Mark) -> Position:
 
 @dataclass(frozen=True, slots=True)
 class ListPlaces:
-    """Where a list and its entries stand.
+    """Positions of a list and its entries.
 
     Attributes:
         mark: Where it starts.
-        inner: Where its entries stand.
+        inner: Positions of its entries.
     """
 
     mark: Mark
@@ -43,12 +43,12 @@ class ListPlaces:
 
 @dataclass(frozen=True, slots=True)
 class MappingPlaces:
-    """Where a mapping, its keys and their values stand.
+    """Positions of a mapping, its keys and their values.
 
     Attributes:
         mark: Where it starts.
-        keys: Where each key stands.
-        inner: Where the value of each key stands.
+        keys: Position of each key.
+        inner: Position of the value of each key.
     """
 
     mark: Mark
@@ -57,7 +57,7 @@ class MappingPlaces:
 
 
 Places = ListPlaces | MappingPlaces | Mark
-"""Where a value and everything in it stands, in the shape of the value itself."""
+"""Positions of a value and everything in it, in the shape of the value itself."""
 
 
 class ValuePositions(Mapping[Location, Position]):

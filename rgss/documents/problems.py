@@ -35,7 +35,7 @@ def first_problems(document: Document, model: type[BaseModel], error: Validation
 
 
 def _with_fewer(data: Any, model: type[BaseModel], error: ValidationError) -> ValidationError:
-    """What is wrong with a beginning of a file that has more problems than are shown, but not many more."""
+    """Problems in the beginning of a file that has more of them than are shown, but not many more."""
     few, entries = 0, 1
     found = _problems_of_beginning(data, model, entries)
     while not _are_enough(found) and entries < MOST_VALUES:

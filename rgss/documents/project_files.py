@@ -11,7 +11,7 @@ _BLOCK_BYTES = 1024 * 1024
 
 
 class FilePlace(Enum):
-    """Where the file of a name is."""
+    """Path of a named file."""
 
     INSIDE = "inside"
     OUTSIDE = "outside"

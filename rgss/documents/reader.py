@@ -25,7 +25,7 @@ LARGEST_FILE_BYTES = 8 * 1024 * 1024
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Document:
-    """A YAML file as plain data, with where each part of it stands.
+    """YAML file as plain data, with the position of each part.
 
     Attributes:
         label: The file's name in messages, relative to the project.
@@ -65,7 +65,7 @@ class Document:
             location: Keys and indices from the top, such as ``("bodies", 2, "mass")``; parts
                 that the document does not have are passed over.
             hint: How to mend it.
-            severity: How much it matters.
+            severity: Its severity.
             at_key: Point at the key instead of its value.
         """
         found = self.nearest(location)

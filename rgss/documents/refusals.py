@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from rgss.findings import Finding, Severity
 
 MOST_PROBLEMS = 1_000
-"""So many problems of one file are reported; nobody reads on, and a hostile file has millions."""
+"""Number of problems that are reported of one file; a hostile file may have millions."""
 
 # What YAML counts as one line break.
 _LINE_BREAK = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")

@@ -52,13 +52,6 @@ def json_schema(model: type[DocumentModel], *, title: str, texts: KeyTexts) -> d
     return {**head, **schema, **({"definitions": definitions} if definitions else {})}
 
 
-def described_keys(model: type[DocumentModel]) -> Mapping[str, frozenset[str]]:
-    """Every model that is a part of a document, by name, with its keys."""
-    schema = model.model_json_schema(mode="validation")
-    parts = {model.__name__: schema, **{key.rpartition("__")[2]: one for key, one in schema.get("$defs", {}).items()}}
-    return {name: frozenset(part["properties"]) for name, part in parts.items() if "properties" in part}
-
-
 def _describe(definition: _Schema, texts: Mapping[str, str]) -> None:
     for key, inner in definition.get("properties", {}).items():
         said = [inner["description"]] if "description" in inner else []

@@ -1,4 +1,4 @@
-"""What trials leave behind: records, their digests, and the store that keeps them."""
+"""Evidence of trials: records, their digests, and the store that keeps them."""
 
 from rgss.evidence.records import (
     PLANNED_PHASES,

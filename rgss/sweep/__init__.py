@@ -14,18 +14,10 @@ if TYPE_CHECKING:
     from rgss.sweep.planning_history import planning_runs
     from rgss.sweep.preview import Cause, DryRun, DueTrials, Reason, dry_run
     from rgss.sweep.replaying import find_trial, replay
-    from rgss.sweep.running import (
-        FinishedTrial,
-        LostTrials,
-        Maker,
-        SweepResult,
-        SweepState,
-        WorkerLimits,
-        key_of,
-        sweep,
-        trials_of,
-    )
-    from rgss.sweep.workers import Workers
+    from rgss.sweep.results import FinishedTrial, LostTrials, SweepResult, SweepState, WorkerLimits
+    from rgss.sweep.running import Maker, sweep
+    from rgss.sweep.task_end import Workers
+    from rgss.sweep.trial_keys import key_of, trials_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 

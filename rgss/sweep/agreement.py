@@ -1,4 +1,4 @@
-"""How far two records of one trial agree that were computed with other numerics."""
+"""Agreement of two records of one trial that were computed with different numerics."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _INDEX = re.compile(r"\[[^\]]*\]$")
 
 
 class Agreement(str, Enum):
-    """How far a trial that was run again agrees with the stored one."""
+    """Agreement of a repeated trial with the stored one."""
 
     BIT_FOR_BIT = "bit for bit"
     WITHIN_TOLERANCE = "within tolerance"

@@ -20,7 +20,7 @@ from rgss.evidence import (
 )
 from rgss.evidence.records import piece_row
 from rgss.findings import shown
-from rgss.sweep.workers import Ended, TaskError
+from rgss.sweep.task_end import Ended, TaskError
 from rgss.trials import TrialSpec
 from rgss.trials.pieces import PieceTask, Task, bench_from_json, execution_from_json, plan_from_json, timing_from_json
 
@@ -62,7 +62,7 @@ def wrong_answer(key: str, problem: str) -> Ended:
 
 
 def answer_problem(task: Task, result: object) -> str:
-    """What is wrong with the result of a task; empty if it can be kept.
+    """Problem of the result of a task; empty if it can be kept.
 
     Args:
         task: The task.
@@ -78,7 +78,7 @@ def answer_problem(task: Task, result: object) -> str:
 
 
 def record_problem(spec: TrialSpec, record: object) -> str:
-    """What is wrong with the record of a trial; empty if it can be kept.
+    """Problem of the record of a trial; empty if it can be kept.
 
     Args:
         spec: The trial.

@@ -1,4 +1,4 @@
-"""How long tasks take: guessed at first, then learnt from those that have ended.
+"""Durations of tasks: guessed at first, then learnt from those that have ended.
 
 The guesses decide the order of the work and the remaining time that is shown, never a result.
 """
@@ -30,7 +30,7 @@ class Durations:
         self._sums: dict[TaskClass, tuple[float, float]] = {}
 
     def class_of(self, task: Task) -> TaskClass:
-        """What decides how long a task takes.
+        """Features of a task that decide its duration.
 
         Args:
             task: The task.

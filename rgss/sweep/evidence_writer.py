@@ -25,7 +25,7 @@ LONGEST_S = 1.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Origin:
-    """Where a sweep's trials come from, beyond the digests.
+    """Origin of a sweep's trials, beyond the digests.
 
     Attributes:
         files: SHA-256 of each input file by its name in the project.
@@ -39,7 +39,7 @@ class Origin:
 
 
 def origin_of(folder: Path) -> Origin:
-    """Where trials come from that are run here and now.
+    """Origin of trials that are run here and now.
 
     Args:
         folder: The project's folder.
@@ -113,7 +113,7 @@ class TrialWriter:
         self._begin()
 
     def due_s(self) -> float:
-        """How long what is collected may still wait; the longest time if there is nothing."""
+        """Time that what is collected may still wait; the longest time if there is nothing."""
         return LONGEST_S if self._since is None else max(0.0, self._since + LONGEST_S - time.monotonic())
 
     def flush_if_due(self) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rgss.sweep.task_end import Ended, ended_by
 from rgss.sweep.worker_process import answer_to
-from rgss.sweep.workers import Ended, ended_by
 
 
 class InlineWorkers:
@@ -25,7 +25,7 @@ class InlineWorkers:
 
     @property
     def free(self) -> int:
-        """How many tasks can be begun now."""
+        """Number of tasks that can be begun now."""
         return 1 - len(self._ended)
 
     def want(self, tasks: int) -> None:
@@ -41,7 +41,7 @@ class InlineWorkers:
         self._ended.append(ended_by(answer_to(self._function, arguments), key))
 
     def wait(self, timeout_s: float) -> list[Ended]:  # noqa: ARG002 - there is nothing to wait for
-        """What has ended."""
+        """Tasks that have ended."""
         ended, self._ended = self._ended, []
         return ended
 

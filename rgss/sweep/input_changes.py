@@ -1,4 +1,4 @@
-"""What differs between two values, named by where it stands."""
+"""Differences between two values, named by their places."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Change:
 
 
 def changes_between(then: Any, now: Any) -> tuple[Change, ...]:
-    """Every value that differs, by its dotted name, in the order in which they stand.
+    """Every value that differs, by its dotted name, in the order of the values.
 
     Args:
         then: Plain data: mappings, lists, texts, numbers.

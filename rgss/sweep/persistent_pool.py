@@ -6,7 +6,8 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Any
 
-from rgss.sweep.workers import Ended, WorkerPool, Workers
+from rgss.sweep.task_end import Ended, Workers
+from rgss.sweep.workers import WorkerPool
 
 
 class PersistentWorkerPool:

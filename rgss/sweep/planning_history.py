@@ -5,7 +5,7 @@ from __future__ import annotations
 from rgss.evidence import EvidenceStore, PlanOutcome
 from rgss.evidence.records import PlanningRun
 from rgss.studies import Project, trial_specs
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.code import versions
 from rgss.trials.pieces import TrialSpec, digests_of
 

@@ -1,4 +1,4 @@
-"""What a sweep would make, and why: new, a changed input, changed code or engine, failed before."""
+"""Dry run: what a sweep would make, and why (new, a changed input, changed code or engine, failed before)."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from typing import Any
 from rgss.evidence import EvidenceStore, PieceKind, StoredTrial
 from rgss.studies import CODE, named_inputs
 from rgss.sweep.input_changes import ABSENT, changes_between
-from rgss.sweep.running import trials_of
 from rgss.sweep.task_queue import Trial
+from rgss.sweep.trial_keys import trials_of
 from rgss.trials.code import versions
 from rgss.trials.pieces import TrialSpec
 
@@ -20,7 +20,7 @@ _SOURCE = "rgss-"
 
 
 class Reason(str, Enum):
-    """Why a trial would be run."""
+    """Reason for which a trial would be run."""
 
     NEW = "new"
     INPUT = "changed input"
@@ -79,7 +79,7 @@ class PieceCount:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DryRun:
-    """What a sweep would do.
+    """Plan of a sweep.
 
     Attributes:
         trials: How many trials the study has.
@@ -95,7 +95,7 @@ class DryRun:
 
     @property
     def run(self) -> int:
-        """How many trials would get a record."""
+        """Number of trials that would get a record."""
         return self.trials - self.kept
 
 

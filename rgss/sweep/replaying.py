@@ -45,7 +45,7 @@ class Replay:
 
     @property
     def agreement(self) -> Agreement:
-        """How far the new record agrees with the stored one.
+        """Agreement of the new record with the stored one.
 
         Numbers may deviate only where the stored trial was computed with other numerics, and by no more than
         kernels of another processor have been seen to let contact deviate.

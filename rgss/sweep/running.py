@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 from rgss.errors import EvidenceError
 from rgss.evidence import (
@@ -16,124 +15,23 @@ from rgss.evidence import (
     RunFailureKind,
     StoredTrial,
     TrialRecord,
-    trial_key,
 )
 from rgss.evidence.records import Numerics, detail_line, numerics_text, require_alike
 from rgss.sweep.answers import checked, record_problem
 from rgss.sweep.evidence_writer import Origin, TrialWriter
 from rgss.sweep.inline_workers import InlineWorkers
+from rgss.sweep.results import FinishedTrial, LostTrials, SweepResult, SweepState, WorkerLimits
+from rgss.sweep.task_end import Ended, TaskError, Workers
 from rgss.sweep.task_queue import TaskQueue, Trial
-from rgss.sweep.workers import Ended, TaskError, WorkerPool, Workers
-from rgss.trials.code import fixed_numerics, numerics, versions
-from rgss.trials.pieces import Task, TrialSpec, TrialTask, digests_of, make, record_of, require_search
+from rgss.sweep.trial_keys import trials_of
+from rgss.sweep.workers import WorkerPool
+from rgss.trials.code import fixed_numerics, numerics
+from rgss.trials.pieces import Task, TrialSpec, TrialTask, make, record_of
 
 Maker = Callable[[Task, Mapping[str, Piece]], Piece | TrialRecord]
 
 MOST_ATTEMPTS = 2
 """How often a task is tried whose worker crashed, hung or ran out of memory."""
-
-_MIB = 1024 * 1024
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkerLimits:
-    """What a worker may use for one task.
-
-    Attributes:
-        time_s: Greatest time by the wall clock: a hundred times what the longest search needs.
-        memory_bytes: Greatest size of a worker's data; 0 for no limit.
-    """
-
-    time_s: float = 300.0
-    memory_bytes: int = 2048 * _MIB
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FinishedTrial:
-    """A trial that was run or read.
-
-    Attributes:
-        key: What the store knows it by.
-        record: What came out of it.
-        fresh: Whether it was put together now; the store had it otherwise.
-    """
-
-    key: str
-    record: TrialRecord
-    fresh: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LostTrials:
-    """A failure of the run, and the trials that have no record for it.
-
-    Attributes:
-        failure: What could not be made, and why.
-        trials: Variant and seed of each trial that needed it.
-    """
-
-    failure: RunFailure
-    trials: tuple[tuple[int, int], ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SweepState:
-    """How far a sweep is.
-
-    Attributes:
-        elapsed_s: Time since it began.
-        remaining_s: Time that what is left is expected to take; None before anything is known.
-        tasks_left: How many pieces (or trials, if nothing is shared) are still to be made.
-        made: How many pieces of each kind were made.
-        reused: How many pieces of each kind came from the store.
-        saved: How many pieces more the trials that are done would have needed without sharing.
-    """
-
-    elapsed_s: float
-    remaining_s: float | None
-    tasks_left: int
-    made: Mapping[str, int]
-    reused: Mapping[str, int]
-    saved: int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SweepResult:
-    """What a sweep did.
-
-    Attributes:
-        made: How many pieces of each kind were made; ``trial`` where nothing was shared.
-        reused: How many pieces of each kind came from the store.
-        lost: What could not be made; empty if all trials have records.
-        elapsed_s: Time from the first task to the last, workers' start included.
-        busy_s: Time that the workers spent on tasks, summed over them.
-    """
-
-    made: Mapping[str, int]
-    reused: Mapping[str, int]
-    lost: tuple[LostTrials, ...]
-    elapsed_s: float = 0.0
-    busy_s: float = 0.0
-
-
-def key_of(spec: TrialSpec) -> str:
-    """What the store knows a trial by: the digest of its inputs, the versions, and its variant."""
-    return _trial(spec, versions()).key
-
-
-def trials_of(specs: Sequence[TrialSpec]) -> tuple[Trial, ...]:
-    """The trials with their keys and digests, each once.
-
-    Args:
-        specs: The trials.
-
-    Raises:
-        DefinitionError: A planning limit is longer than the search.
-    """
-    found = versions()
-    for spec in specs:
-        require_search(spec)
-    return tuple({trial.key: trial for trial in (_trial(spec, found) for spec in specs)}.values())
 
 
 def sweep(
@@ -193,7 +91,7 @@ def sweep(
         _require_alike(known, computed_with())
     if share and missing:
         stored = store.has_pieces({digest for trial in missing for digest in trial.pieces.values()})
-    keeper = TrialWriter(
+    writer = TrialWriter(
         store,
         origin,
         on_kept=lambda key, record: on_finished(FinishedTrial(key=key, record=record, fresh=True)),
@@ -206,7 +104,7 @@ def sweep(
         workers = workers_for(maker)
     elif jobs > 0:
         workers = WorkerPool(maker, size=jobs, time_limit_s=limits.time_s, memory_limit_bytes=limits.memory_bytes)
-    return _Sweep(work, store, keeper, workers, on_state=on_state).run()
+    return _Sweep(work, store, writer, workers, on_state=on_state).run()
 
 
 class _Sweep:
@@ -216,14 +114,14 @@ class _Sweep:
         self,
         work: TaskQueue,
         store: EvidenceStore,
-        keeper: TrialWriter,
+        writer: TrialWriter,
         workers: Workers,
         *,
         on_state: Callable[[SweepState], None] | None,
     ) -> None:
         self._work = work
         self._store = store
-        self._keeper = keeper
+        self._writer = writer
         self._workers = workers
         self._on_state = on_state
         self._begun = time.monotonic()
@@ -243,12 +141,12 @@ class _Sweep:
             while self._work.left:
                 self._workers.want(self._work.ready + len(self._running))
                 self._begin_tasks()
-                for ended in self._workers.wait(self._keeper.due_s()):
+                for ended in self._workers.wait(self._writer.due_s()):
                     # Others can begin what this one makes ready before it is written down.
                     self._take_in(ended)
                     self._begin_tasks()
                 self._put_together()
-                self._keeper.flush_if_due()
+                self._writer.flush_if_due()
                 self._tell()
         except BaseException:
             self._workers.close()
@@ -267,7 +165,7 @@ class _Sweep:
 
     def _write_down(self) -> None:
         """Put what is finished, and make sure that it is in the store; if it is not, that is the error to report."""
-        self._keeper.flush()
+        self._writer.flush()
         self._store.confirm()
 
     def _begin_tasks(self) -> None:
@@ -289,7 +187,7 @@ class _Sweep:
         if isinstance(ended.result, Piece):
             self._made[ended.result.kind.value] += 1
             self._held[task.digest] = ended.result
-            self._keeper.keep_piece(ended.result)
+            self._writer.keep_piece(ended.result)
         else:
             self._made["trial"] += 1
         self._work.done(task.digest, took_s=ended.took_s)
@@ -297,7 +195,7 @@ class _Sweep:
             self._release(digest)
         if isinstance(task, TrialTask):
             for trial in self._work.complete():
-                self._keeper.keep_trial(trial, ended.result)
+                self._writer.keep_trial(trial, ended.result)
 
     def _put_together(self) -> None:
         """Put the records together whose pieces are all there."""
@@ -305,11 +203,11 @@ class _Sweep:
             pieces = {kind: self._piece(digest) for kind, digest in trial.pieces.items()}
             record = self._assembled(trial, pieces)
             if record is not None:
-                self._keeper.keep_trial(trial, record)
+                self._writer.keep_trial(trial, record)
                 self._used += len(pieces)
             for digest in trial.pieces.values():
                 self._release(digest)
-            self._keeper.flush_if_due()
+            self._writer.flush_if_due()
 
     def _assembled(self, trial: Trial, pieces: Mapping[PieceKind, Piece]) -> TrialRecord | None:
         """The record of a trial; None, and a failure of the run, if its pieces do not fit each other."""
@@ -380,9 +278,3 @@ def _require_alike(stored: StoredTrial, here: Numerics) -> None:
     record = stored.record
     what = f"the stored trial {stored.key[:12]} (variant {record.variant}, seed {record.seed})"
     require_alike(what, stored.provenance.numerics, here)
-
-
-def _trial(spec: TrialSpec, found: Mapping[str, str]) -> Trial:
-    digests = digests_of(spec, found)
-    key = trial_key({"trial": digests.trial, "variant": spec.variant})
-    return Trial(key=key, spec=spec, digests=digests)

@@ -1,4 +1,4 @@
-"""What a sweep has to make: tasks, what they wait for, and which of them comes next."""
+"""Task queue of a sweep: tasks, their dependencies, and the order in which they come."""
 
 from __future__ import annotations
 
@@ -71,12 +71,12 @@ class TaskQueue:
 
     @property
     def left(self) -> int:
-        """How many tasks are not yet done."""
+        """Number of tasks that are not yet done."""
         return len(self._tasks)
 
     @property
     def ready(self) -> int:
-        """How many tasks could be begun now."""
+        """Number of tasks that could be begun now."""
         return sum(map(len, self._ready.values()))
 
     def remaining_s(self) -> float:

@@ -1,4 +1,4 @@
-"""Where a worker's plotting library keeps its settings and fonts: never in a folder of the worker's own.
+"""Folders for the settings and fonts of a worker's plotting library: never in a folder of the worker's own.
 
 An engine imports matplotlib, which makes a temporary folder where the home folder cannot be written, as
 in many containers, and removes it when the process ends by itself. Workers do not: they are killed.

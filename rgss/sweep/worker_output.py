@@ -1,4 +1,4 @@
-"""What a worker prints: in a file without a name, so that nothing is left of it however the processes end."""
+"""Output of a worker, in a file without a name, so that nothing is left of it however the processes end."""
 
 from __future__ import annotations
 

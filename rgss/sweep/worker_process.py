@@ -1,4 +1,4 @@
-"""What runs in a worker process: it answers one task at a time until nobody asks any more.
+"""Main loop of a worker process: it answers one task at a time until the parent closes the pipe.
 
 This module imports nothing heavy, so that the process can set its limits before engines are loaded.
 """
@@ -41,7 +41,7 @@ class Ready:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
-    """What came of a task.
+    """Answer to a task.
 
     Attributes:
         task: The number that the task was given.
@@ -71,15 +71,15 @@ def settle() -> None:
 
 
 def serve(
-    function: bytes, asked: connection.Connection, memory_limit_bytes: int, output: connection.Connection
+    function: bytes, requests: connection.Connection, memory_limit_bytes: int, output: connection.Connection
 ) -> None:
     """Answer tasks until the other end is closed.
 
     Args:
         function: What makes a result from a task's arguments, pickled by its name.
-        asked: Numbered arguments come in here, answers go out.
+        requests: Numbered arguments come in here, answers go out.
         memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
-        output: File for what engines print, which nobody may want but who asks why one has crashed.
+        output: File for what engines print, which is read to find why one has crashed.
     """
     settle()
     _leave_the_tracker()
@@ -88,7 +88,7 @@ def serve(
     _limit_memory(memory_limit_bytes)
     _limit_output()
     _end_with_parent()
-    channel = BlockingChannel(asked)
+    channel = BlockingChannel(requests)
     problem = problem_here()
     if problem:
         channel.send(pickle.dumps(Ready(error=f"it would compute with other kernels: {problem}")))

@@ -24,7 +24,7 @@ _AT_ONCE = 256 * 1024
 
 
 class WireError(Exception):
-    """What has arrived is no message."""
+    """Error: the received bytes are not a message."""
 
 
 def frame(content: bytes) -> bytes:

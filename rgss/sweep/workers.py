@@ -22,77 +22,21 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.process import BaseProcess
 from types import TracebackType
-from typing import Any, Protocol
+from typing import Any
 
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.evidence.records import detail_line
+from rgss.sweep.task_end import Ended, ended_by, failed_task, is_answer, process_ending
 from rgss.sweep.worker_output import WorkerOutput
-from rgss.sweep.worker_process import Answer, Ready, serve
+from rgss.sweep.worker_process import Ready, serve
 from rgss.sweep.worker_wire import Channel, WireError
 from rgss.trials.code import numeric_environment_of_children
 
-_ENDING_S = 5.0
-_ENDING_LOOK_S = 0.01
+_KILLED_S = 5.0
 _STARTING_S = 120.0
 _FAILED_STARTS = 2
 """How many processes more than the pool has may end one after another before one of them has done a task."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TaskError:
-    """Why a task has no result.
-
-    Attributes:
-        kind: What happened to it.
-        detail: One line: the signal, the limit, the exception.
-        may_pass: Whether another attempt could have another end.
-    """
-
-    kind: RunFailureKind
-    detail: str
-    may_pass: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Ended:
-    """A task that has come to its end.
-
-    Attributes:
-        key: The name that it was given.
-        result: What it made; None if it failed.
-        trouble: Why it failed; None if it did not.
-        took_s: Its time by the wall clock; 0 if it failed.
-    """
-
-    key: str
-    result: Any
-    trouble: TaskError | None
-    took_s: float
-
-
-class Workers(Protocol):
-    """What carries out tasks: processes here, or machines elsewhere."""
-
-    @property
-    def size(self) -> int:
-        """How many tasks it carries out at once."""
-
-    @property
-    def free(self) -> int:
-        """How many tasks can be begun now."""
-
-    def want(self, tasks: int) -> None:
-        """Be ready for this many tasks, as far as that is possible."""
-
-    def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
-        """Begin a task; only while one is free."""
-
-    def wait(self, timeout_s: float) -> list[Ended]:
-        """Wait until tasks end, workers become free, or the time is over; returns what has ended."""
-
-    def close(self) -> None:
-        """Stop at once, whatever is being done."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -150,12 +94,12 @@ class WorkerPool:
 
     @property
     def size(self) -> int:
-        """How many tasks it carries out at once."""
+        """Number of tasks that it carries out at once."""
         return self._size
 
     @property
     def free(self) -> int:
-        """How many tasks can be begun now."""
+        """Number of tasks that can be begun now."""
         return sum(worker.ready and worker.key is None for worker in self._workers)
 
     def want(self, tasks: int) -> None:
@@ -254,7 +198,7 @@ class WorkerPool:
             selector.select(patience_s)
 
     def _looked_at(self, worker: _Worker) -> Ended | None:
-        """What has become of a worker since it was looked at before."""
+        """End of a worker's task since the last look; None if there is none."""
         worker.channel.flush()
         # Asked before its last words are read, which then are all that there will be.
         has_ended = worker.process.exitcode is not None
@@ -279,7 +223,7 @@ class WorkerPool:
                 raise _not_started(message.error)
             worker.ready, worker.ends_at = True, math.inf
             return None
-        if worker.key is None or len(messages) > 1 or not _is_answer(message, worker.task):
+        if worker.key is None or len(messages) > 1 or not is_answer(message, worker.task):
             return self._wrong(worker, "it answered something else than it was asked")
         key, worker.key, worker.ends_at, worker.proved = worker.key, None, math.inf, True
         self._failed_starts = 0
@@ -294,7 +238,7 @@ class WorkerPool:
         return self._failed(worker, RunFailureKind.WRONG_ANSWER, f"the worker was ended: {problem}")
 
     def _died(self, worker: _Worker) -> Ended | None:
-        how = _ending(worker.process)
+        how = process_ending(worker.process)
         words = worker.output.tail()
         self._dismiss(worker)
         return self._failed(worker, RunFailureKind.CRASHED, f"the worker {how}" + (f": {words}" if words else ""))
@@ -312,7 +256,7 @@ class WorkerPool:
             SimulationError: Too many in a row have ended before they had done anything.
         """
         if worker.key is not None:
-            return _failed(worker.key, kind, detail)
+            return failed_task(worker.key, kind, detail)
         if not worker.proved:
             self._failed_starts += 1
             if self._failed_starts > self._size + _FAILED_STARTS:
@@ -321,61 +265,14 @@ class WorkerPool:
 
     def _dismiss(self, worker: _Worker) -> None:
         worker.process.kill()
-        worker.process.join(_ENDING_S)
+        worker.process.join(_KILLED_S)
         worker.channel.close()
         worker.output.close()
         self._workers.remove(worker)
 
 
-def _is_answer(message: object, task: int) -> bool:
-    """Whether a message is the answer to a task, and each part of it of its type."""
-    return (
-        type(message) is Answer
-        and type(message.task) is int
-        and message.task == task
-        and type(message.error) is str
-        and type(message.ours) is bool
-        and type(message.out_of_memory) is bool
-        and type(message.took_s) is float
-        and 0.0 <= message.took_s < math.inf
-    )
-
-
-def ended_by(answer: Answer, key: str) -> Ended:
-    """The end of a task that a worker has answered.
-
-    Args:
-        answer: What the worker said.
-        key: The task's name.
-    """
-    if not answer.error:
-        return Ended(key=key, result=answer.result, trouble=None, took_s=answer.took_s)
-    kind = RunFailureKind.OUT_OF_MEMORY if answer.out_of_memory else RunFailureKind.RAISED
-    return _failed(key, kind, answer.error, may_pass=not answer.ours)
-
-
-def _failed(key: str, kind: RunFailureKind, detail: str, *, may_pass: bool = True) -> Ended:
-    return Ended(key=key, result=None, trouble=TaskError(kind=kind, detail=detail, may_pass=may_pass), took_s=0.0)
-
-
 def _not_started(how: str) -> SimulationError:
     return SimulationError(f"a worker process cannot start: {detail_line(how)}", hint="is its memory limit too low?")
-
-
-def _ending(process: BaseProcess) -> str:
-    """How a process has ended whose end of the pipe is closed."""
-    latest = time.monotonic() + _ENDING_S
-    while process.exitcode is None and time.monotonic() < latest:
-        time.sleep(_ENDING_LOOK_S)
-    status = process.exitcode
-    if status is None:
-        return "closed its pipe and did not end"
-    if status < 0:
-        try:
-            return f"was killed by {signal.Signals(-status).name}"
-        except ValueError:
-            return f"was killed by signal {-status}"
-    return f"ended with status {status}"
 
 
 @contextmanager

@@ -15,7 +15,7 @@ from rgss.api.columns import FRAMES
 from rgss.assessment.recorded_verdicts import read_record, study_key
 from rgss.errors import DefinitionError, DocumentError, EvidenceError, SimulationError
 from rgss.evidence import EvidenceStore, RunFailure, RunFailureKind
-from rgss.sweep.running import LostTrials, SweepResult
+from rgss.sweep.results import LostTrials, SweepResult
 from rgss.trials.code.piece_versions import ENTRIES, source_of
 
 from .conftest import ASKED

@@ -11,7 +11,7 @@ from rgss.assessment.measuring import measure_variants, require_complete, requir
 from rgss.errors import EvidenceError
 from rgss.measures import Verdict
 from rgss.studies.expansion import trial_specs
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 
 Z_95 = 1.959963984540054
 

@@ -16,8 +16,9 @@ from rgss.measures import StaleCause, Verdict
 from rgss.studies.expansion import trial_specs
 from rgss.studies.input_names import CODE, named_inputs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.piece_versions import versions
+from tests.fixtures.stored_inputs import put_inputs
 
 REQUIREMENT, MEASURE, MODEL = StaleCause.REQUIREMENT, StaleCause.MEASURE, StaleCause.MODEL
 CODE_CHANGED, ENGINES = StaleCause.CODE, StaleCause.ENGINES
@@ -40,7 +41,7 @@ def fill(store, project, record_for, *, key=key_of, found=None, code=None):
         if code is not None:
             inputs[CODE] = code
         provenance = Provenance(
-            inputs={}, versions=found if found is not None else versions(), inputs_digest=store.put_inputs(inputs)
+            inputs={}, versions=found if found is not None else versions(), inputs_digest=put_inputs(store, inputs)
         )
         store.put(key(spec), record_for(spec), provenance)
 

@@ -37,7 +37,7 @@ from rgss.reports.study_page import TrialPictures, study_report_to_html
 from rgss.reports.trace.report import trace_report
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trace.model.model import build_trace_model
 from rgss.trials.metrics import METRICS
 from tests.fixtures.shipped_project import copy_project

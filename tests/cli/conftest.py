@@ -25,7 +25,7 @@ from rgss.evidence import (
 )
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.metrics import METRICS
 from tests.fixtures.shipped_project import copy_project
 

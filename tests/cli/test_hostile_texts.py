@@ -15,7 +15,7 @@ from rgss.invisible_characters import invisible_places, visible
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.scaffolding import write_scaffold
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 
 from .conftest import made_record
 

@@ -6,7 +6,7 @@ from rgss.decision.named_trials import naming_studies
 from rgss.errors import DefinitionError, DocumentError
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of
 

@@ -24,7 +24,7 @@ from rgss.measures import Verdict, judge
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.promotion import Promotion, Screening
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.pieces.run import Pieces

@@ -8,7 +8,7 @@ from rgss.decision.until_decided import replicate_until_decided, summary
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.studies.expansion import trial_specs
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.tradeoff.sequential.sequential import Reason, SequentialRule
 
 RULE = SequentialRule(pilot=4, batch=4, cap=12, verdict_cap=4)

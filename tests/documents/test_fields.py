@@ -22,7 +22,6 @@ QUANTITIES = {
     "MetresPerSecond": ("500 mm/s", 0.5),
     "MetresPerSecondSquared": ("9.81 m/s²", 9.81),
     "Hertz": ("0.24 kHz", 240.0),
-    "Dollars": ("2.5 kUSD", 2500.0),
     "Dimensionless": ("95 %", 0.95),
 }
 

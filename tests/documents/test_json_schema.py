@@ -8,7 +8,7 @@ from typing import Annotated
 from jsonschema import Draft7Validator
 from pydantic import Field
 
-from rgss.documents import Dimensionless, DocumentModel, Identifier, Metres, Text, described_keys, json_schema
+from rgss.documents import Dimensionless, DocumentModel, Identifier, Metres, Text, json_schema
 
 
 class Colour(str, Enum):
@@ -120,10 +120,3 @@ def test_names_lose_their_ending_where_that_is_clear():
     assert set(schema["definitions"]) == {"Leaf", "LeafEntry", "Lone", "Colour"}
     assert Draft7Validator(schema).is_valid({"lone": {"leaf": {"leaf": LEAF}}, "leaf": LEAF})
     assert not Draft7Validator(schema).is_valid({"lone": {"leaf": LEAF}, "leaf": LEAF})
-
-
-def test_the_keys_of_every_part():
-    assert described_keys(Tree) == {
-        "Tree": {"leaves", "by_name", "best", "first"},
-        "Leaf": {"at", "pair", "share", "width", "colour", "title"},
-    }

@@ -18,7 +18,8 @@ from rgss.regression.comparing import Outcome
 from rgss.regression.input_changes import InputKind, origin_changes
 from rgss.regression.report import FailureCause
 from rgss.studies.project import load_project
-from rgss.sweep.running import sweep, trials_of
+from rgss.sweep.running import sweep
+from rgss.sweep.trial_keys import trials_of
 from rgss.trials import execution
 from tests.fixtures.shipped_project import STUDY
 

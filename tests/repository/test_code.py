@@ -6,6 +6,7 @@ import ast
 import re
 
 LONGEST_FILE = 400
+"""Of tests too; test_rooms.py bounds the files of the package more tightly."""
 # Without a browser, its tests are skipped, but on a build machine; test_browser_tests.py holds both.
 MAY_SKIP = {"tests/browser/conftest.py"}
 

@@ -7,7 +7,7 @@ import time
 import pytest
 
 from rgss.evidence import RunFailureKind
-from rgss.sweep.workers import TaskError
+from rgss.sweep.task_end import TaskError
 
 
 @pytest.fixture(scope="session")

@@ -13,8 +13,9 @@ from rgss.evidence import EvidenceStore, Phase, RunFailureKind
 from rgss.evidence.store.verification import verify
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.answers import answer_problem, is_end_of, wrong_answer
-from rgss.sweep.running import key_of, sweep, trials_of
-from rgss.sweep.workers import Ended, TaskError
+from rgss.sweep.running import sweep
+from rgss.sweep.task_end import Ended, TaskError
+from rgss.sweep.trial_keys import key_of, trials_of
 from rgss.trials.pieces.pieces import TrialTask, tasks_of
 
 DOUBLES = Path(__file__).parent / "doubles"

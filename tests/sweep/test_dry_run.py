@@ -13,7 +13,8 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.input_names import named_inputs
 from rgss.studies.project import load_project
 from rgss.sweep.preview import Cause, PieceCount, Reason, dry_run
-from rgss.sweep.running import sweep, trials_of
+from rgss.sweep.running import sweep
+from rgss.sweep.trial_keys import trials_of
 from rgss.trials.code.piece_versions import versions
 
 DOUBLES = Path(__file__).parent / "doubles"
@@ -241,7 +242,7 @@ def with_versions(monkeypatch):
 
     def use(found, code=None):
         monkeypatch.setattr("rgss.sweep.preview.versions", lambda: found)
-        monkeypatch.setattr("rgss.sweep.running.versions", lambda: found)
+        monkeypatch.setattr("rgss.sweep.trial_keys.versions", lambda: found)
         naming._inputs_of.cache_clear()
         if code is not None:
             monkeypatch.setattr(naming, "code_of_trials", lambda: code)

@@ -12,9 +12,11 @@ from rgss.evidence import EvidenceStore, Piece, PieceKind, Provenance
 from rgss.evidence.records.provenance import provenance_from_json, provenance_to_json
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.evidence_writer import Origin, TrialWriter
-from rgss.sweep.running import key_of, sweep
+from rgss.sweep.running import sweep
+from rgss.sweep.trial_keys import key_of
 from rgss.sweep.workers import WorkerPool
 from rgss.trials.code.numeric_probe import numerics
+from tests.fixtures.stored_inputs import put_inputs
 
 OTHERS = {**numerics(), "libm": "another library 0123456789ab"}
 
@@ -60,7 +62,7 @@ def test_a_piece_that_another_sweep_has_put_with_other_numerics_is_told_as_such(
 ):
     digest = "a" * 64
     store.put(key_of(specs[0]), record_of(specs[0]), Provenance(inputs={"plan": digest}, versions={}, numerics=there))
-    store.put_piece(Piece(digest=digest, kind=PieceKind.PLAN, text="{}"))
+    store.put_many(pieces=[Piece(digest=digest, kind=PieceKind.PLAN, text="{}")])
     keeper = TrialWriter(store, Origin, on_kept=lambda *_: None, numerics=numerics)
     keeper.keep_piece(Piece(digest=digest, kind=PieceKind.PLAN, text="[]"))
     with pytest.raises(EvidenceError, match=expected) as caught:
@@ -79,7 +81,7 @@ def test_a_sweep_says_with_what_it_computed_and_goes_on_only_with_the_same(store
     run(specs)
     assert len(store) == 2
     with EvidenceStore.open(tmp_path / "other.sqlite") as other:
-        other.put_inputs(store.inputs(stored.provenance.inputs_digest))
+        put_inputs(other, store.inputs(stored.provenance.inputs_digest))
         other.put(stored.key, stored.record, replace(stored.provenance, numerics=OTHERS))
         # With nothing to make there is nothing that could be mixed.
         run(specs[:1], other)

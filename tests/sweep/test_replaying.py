@@ -13,7 +13,7 @@ from rgss.studies.input_names import named_inputs
 from rgss.studies.project import load_project
 from rgss.sweep.input_changes import Change
 from rgss.sweep.replaying import find_trial, replay
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.pieces.run import run_trial

@@ -16,7 +16,9 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep import evidence_writer as keeping
 from rgss.sweep.evidence_writer import Origin, origin_of
-from rgss.sweep.running import LostTrials, key_of, sweep, trials_of
+from rgss.sweep.results import LostTrials
+from rgss.sweep.running import sweep
+from rgss.sweep.trial_keys import key_of, trials_of
 from rgss.sweep.workers import WorkerPool
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of

@@ -12,7 +12,8 @@ from rgss.evidence import EvidenceStore
 from rgss.evidence.store.verification import verify
 from rgss.studies.expansion import trial_specs
 from rgss.sweep import evidence_writer as keeping
-from rgss.sweep.running import sweep, trials_of
+from rgss.sweep.running import sweep
+from rgss.sweep.trial_keys import trials_of
 
 DOUBLES = Path(__file__).parent / "doubles"
 

@@ -10,8 +10,8 @@ import pytest
 from rgss.evidence import PieceKind
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.durations import Durations
-from rgss.sweep.running import trials_of
 from rgss.sweep.task_queue import TaskQueue
+from rgss.sweep.trial_keys import trials_of
 from rgss.trials.pieces.pieces import TrialTask
 
 

@@ -15,7 +15,8 @@ import pytest
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.sweep.inline_workers import InlineWorkers
-from rgss.sweep.workers import Ended, TaskError, WorkerPool
+from rgss.sweep.task_end import Ended, TaskError
+from rgss.sweep.workers import WorkerPool
 
 DOUBLES = Path(__file__).parent / "doubles"
 GIB = 1024**3

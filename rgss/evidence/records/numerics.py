@@ -15,7 +15,7 @@ Numerics = Mapping[str, str]
 
 
 def results_of(numerics: Numerics) -> dict[str, str]:
-    """What a comparison looks at: the digest of each part's results.
+    """Compared values: the digest of each part's results.
 
     Args:
         numerics: The numerics.

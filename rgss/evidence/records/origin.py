@@ -1,4 +1,4 @@
-"""What a provenance says beyond the digests: revision of the code, machine, input files."""
+"""Provenance beyond the digests: revision of the code, machine, input files."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _files(path: Path) -> list[Path]:
 
 
 def _git(package: Path, *words: str) -> str | None:
-    """What git says in a folder; None if it does not know the folder or is not there."""
+    """Output of git in a folder; None if it does not know the folder or is not there."""
     program = shutil.which("git")
     if program is None:
         return None

@@ -29,7 +29,7 @@ PLANNED_PHASES: tuple[Phase, ...] = (
 
 
 class PhaseOutcome(str, Enum):
-    """How a phase ended."""
+    """Outcome of a phase."""
 
     COMPLETED = "completed"
     FAILED = "failed"
@@ -37,7 +37,7 @@ class PhaseOutcome(str, Enum):
 
 
 class PlanOutcome(str, Enum):
-    """How the planning of one sub-task ended."""
+    """Outcome of the planning of one sub-task."""
 
     SOLVED = "solved"
     BUDGET_SPENT = "budget_spent"
@@ -47,7 +47,7 @@ class PlanOutcome(str, Enum):
 
 
 class Failure(str, Enum):
-    """What ended a trial before its last phase was complete."""
+    """Failure that ended a trial before its last phase was complete."""
 
     PLANNING_LIMIT = "planning_limit"
     INVALID_START = "invalid_start"
@@ -68,7 +68,7 @@ class Failure(str, Enum):
 
 
 class Fidelity(str, Enum):
-    """How much of the physics a trial has."""
+    """Fidelity of a trial's physics."""
 
     KINEMATIC = "kinematic"
     DYNAMIC = "dynamic"

@@ -13,7 +13,7 @@ from rgss.findings import shown
 
 
 class PieceKind(str, Enum):
-    """What a trial is cut into."""
+    """Kinds of pieces that trials share."""
 
     PLAN = "plan"
     TIMING = "timing"

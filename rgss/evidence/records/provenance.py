@@ -1,4 +1,4 @@
-"""Where a record comes from."""
+"""Provenance of a record."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rgss.evidence.records.numerics import Numerics
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Provenance:
-    """What went into a trial, and what made it.
+    """Inputs of a trial, and the software that made it.
 
     None of this but the digests of the pieces enters a trial's key or the digest of its record.
 

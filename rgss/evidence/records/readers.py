@@ -32,7 +32,7 @@ class MismatchError(Exception):
         return self
 
     def as_error(self, name: str) -> EvidenceError:
-        """What to tell, with the name of the whole."""
+        """Problem as a message, with the name of the whole."""
         return EvidenceError(f"{name}{self._where} {self._problem}{self._data}")
 
 

@@ -1,4 +1,4 @@
-"""What one trial leaves behind: plain, frozen values that survive a round trip through JSON."""
+"""Record of one trial: plain, frozen values that survive a round trip through JSON."""
 
 from __future__ import annotations
 

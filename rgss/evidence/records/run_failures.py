@@ -15,7 +15,7 @@ LONGEST_DETAIL = 500
 
 
 class RunFailureKind(str, Enum):
-    """How a run failed."""
+    """Kind of failure of a run."""
 
     CRASHED = "crashed"
     TIMED_OUT = "timed_out"

@@ -27,7 +27,7 @@ class TrialInputs:
 
 
 def inputs_digest(inputs: Mapping[str, Any]) -> str:
-    """What the store knows named inputs by: the SHA-256 of their canonical JSON.
+    """Key of named inputs in the store: the SHA-256 of their canonical JSON.
 
     Raises:
         EvidenceError: They are not plain data.

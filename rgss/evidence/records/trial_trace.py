@@ -14,7 +14,7 @@ Series = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhaseSpan:
-    """When a phase ran.
+    """Time span of a phase.
 
     Attributes:
         phase: Which of the eight states.

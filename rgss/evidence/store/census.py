@@ -1,4 +1,4 @@
-"""How many trials of a store were computed with which numerics."""
+"""Number of trials of a store by the numerics that computed them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Garbage of a store: what nobody names any more, found and removed."""
+"""Garbage collection of a store: unreferenced trials, pieces, inputs and failures."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ _PATIENCE_MS = 2000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Garbage:
-    """What nobody names.
+    """Unreferenced entries of a store.
 
     Attributes:
         trials: The trials.
         pieces: Digests of the pieces that neither a kept trial nor a named one has.
         inputs: Digests of the named inputs that no kept trial refers to.
-        failures: Keys of the failures of what nobody names.
+        failures: Keys of the failures of unreferenced trials and pieces.
         size_bytes: Bytes of all of that, without what the file needs to keep it.
     """
 
@@ -44,7 +44,7 @@ class Garbage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Collection:
-    """What a collection removed.
+    """Result of a collection.
 
     Attributes:
         garbage: What was removed.
@@ -60,7 +60,7 @@ class Collection:
 
 
 def find_garbage(database: Database, *, trials: AbstractSet[str], pieces: AbstractSet[str]) -> Garbage:
-    """Find what nobody names: all trials but the named ones, and what no kept trial refers to.
+    """Find unreferenced entries: all trials but the named ones, and what no kept trial refers to.
 
     Args:
         database: The store's file.
@@ -87,7 +87,7 @@ def find_garbage(database: Database, *, trials: AbstractSet[str], pieces: Abstra
 
 
 def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet[str], label: str) -> Collection:
-    """Remove what nobody names, in one transaction, and give its space back.
+    """Remove unreferenced entries in one transaction, and give their space back.
 
     Nothing else may have the store open: a running sweep has pieces in it that no trial refers to yet.
 

@@ -167,7 +167,7 @@ def _read_only_name(path: Path) -> str:
 
 
 def problem_of(error: Exception) -> str:
-    """What one of the `PROBLEMS` says, in one line."""
+    """Message for one of the `PROBLEMS`, in one line."""
     if isinstance(error, UnicodeError):
         return "a text of its schema is not Unicode"
     text = "".join(character if character.isprintable() else " " for character in str(error))
@@ -203,7 +203,7 @@ def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path |
 
 
 def _obstacle(folder: Path) -> int | None:
-    """Why the system has no room for another file in a folder, as its error number; None if it has."""
+    """Error number for which the system has no room for another file in a folder; None if it has room."""
     try:
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:

@@ -1,4 +1,4 @@
-"""What a store holds, without reading the records."""
+"""Contents of a store, without reading the records."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.evidence.store.tables import FAILURES
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialName:
-    """What a trial is filed under; its record is not looked at.
+    """Index entry of a trial; its record is not read.
 
     Attributes:
         key: SHA-256 of what went into it.
@@ -32,7 +32,7 @@ class TrialName:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contents:
-    """How much a store holds.
+    """Size of a store's contents.
 
     Attributes:
         trials: The trials in the order of their keys.
@@ -68,7 +68,7 @@ def contents_of(database: Database) -> Contents:
 
 
 def trial_names(database: Database) -> Iterator[TrialName]:
-    """What each trial is filed under, in the order of the keys.
+    """Index entry of each trial, in the order of the keys.
 
     Raises:
         EvidenceError: A row is not what the store puts there, or the file cannot be read.

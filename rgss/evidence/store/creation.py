@@ -104,7 +104,7 @@ def _link(part: Path, path: Path) -> None:
 
 
 def _left_behind(path: Path) -> Iterator[Path]:
-    """What processes have left that died while they made this store."""
+    """Leftovers of processes that died while they made this store."""
     for file in path.parent.glob(f".{path.name}.*.{_ENDING}"):
         process = file.name.removeprefix(f".{path.name}.").partition("-")[0]
         with contextlib.suppress(OSError):

@@ -31,7 +31,7 @@ class Custody:
         self._note_logs()
 
     def problem(self) -> str:
-        """What has happened to the files, in words that follow the store's name; empty if nothing has."""
+        """Change of the files, in words that follow the store's name; empty if there is none."""
         try:
             identity, size = _looked_up(self.path)
         except OSError as error:

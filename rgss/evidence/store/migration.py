@@ -47,7 +47,7 @@ def migrate_from_first(connection: sqlite3.Connection, make_tables: Callable[[sq
 
 
 def _names(record: bytes) -> tuple[int, int, str]:
-    """What a trial is looked up by; a record that does not say is damaged, which its seal will tell."""
+    """Columns by which a trial is looked up; a record without them is damaged, which its seal shows."""
     try:
         data = plain_json(record.decode("utf-8"), "record")
         variant, seed, fidelity = data["variant"], data["seed"], Fidelity(data["fidelity"]).value

@@ -19,7 +19,7 @@ _MOST_FILES = 100
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rescue:
-    """What was saved, in words.
+    """Summary of what was saved.
 
     Attributes:
         text: How much, and where.

@@ -1,5 +1,7 @@
 """The evidence store: one SQLite file with trials, the pieces that they share, and what could not be made."""
 
+# long file: one class with a short method for each question to a store; half of its lines are their docstrings.
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -105,26 +107,6 @@ class EvidenceStore:
         """
         return self.put_many(trials=[(key, record, provenance)]) == 1
 
-    def put_piece(self, piece: Piece) -> bool:
-        """Keep a piece, on disk when this returns; see `put_many`.
-
-        Returns:
-            Whether it is new; False if the same piece with the same content was there.
-        """
-        return self.put_many(pieces=[piece]) == 1
-
-    def put_inputs(self, inputs: Mapping[str, Any]) -> str:
-        """Keep the named inputs of trials, once by content; returns the digest that they are known by.
-
-        Raises:
-            EvidenceError: They are not plain data, or the file cannot be written.
-        """
-        row = inputs_row(inputs)
-        if not self._is_there(INPUTS, row[0]):
-            with self._writer.transaction([(INPUTS, row)]) as changes:
-                changes.put(INPUTS, row)
-        return row[0]
-
     def put_many(
         self,
         *,
@@ -185,18 +167,6 @@ class EvidenceStore:
                 changes.remove(FAILURES, row[0])
                 changes.put(FAILURES, row)
         return not made
-
-    def clear_failures(self, keys: Iterable[str]) -> int:
-        """Forget the failures of trials and pieces, so that they are tried again; returns their number.
-
-        Raises:
-            EvidenceError: A key is malformed, or the file cannot be written.
-        """
-        wanted = list(keys)
-        for key in wanted:
-            require_key(key)
-        with self._writer.transaction() as changes:
-            return sum(changes.remove(FAILURES, key) for key in wanted)
 
     def confirm(self) -> None:
         """Read back what was put since the last time, and check the file that has the store's name.

@@ -48,7 +48,7 @@ class Damage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
-    """What a check of a store found.
+    """Result of the check of a store.
 
     Attributes:
         damages: What is wrong: pages first, then row by row.

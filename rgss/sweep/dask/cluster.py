@@ -1,4 +1,4 @@
-"""A Dask cluster on which sweeps may run: found, and held against this machine, before the first task."""
+"""Dask cluster on which sweeps may run: found and compared with this machine before the first task."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rgss.evidence import RunFailureKind
 from rgss.evidence.records import machine
 from rgss.sweep.dask.tasks import Differs, Order, are_alike, environment, inspect
 from rgss.sweep.dask.workers import WITHOUT_WORKERS_S, DaskWorkers, stop_all
-from rgss.sweep.workers import Ended
+from rgss.sweep.task_end import Ended
 
 _PATIENCE_S = 10.0
 _ALIKE = "every worker needs the same engines and the same rgss"

@@ -1,12 +1,14 @@
-"""What a Dask worker does for a sweep: it hands each task to an engine process of its own.
+"""Tasks in a Dask worker, which hands each of them to an engine process of its own.
 
 A task is not carried out in the Dask worker itself. A planner's random numbers are one sequence for
 a whole process, a crash of an engine would take the Dask worker along, and a thread that hangs
 cannot be ended. So each thread of a Dask worker has a supervised process beside it, the same as a
 sweep on one machine has; limits, crashes and threads are the same there and here, however many
 threads a Dask worker has. The processes end with their order, with their Dask worker, and when
-nobody has asked them for anything in a while.
+they have been idle for a while.
 """
+
+# long file: Dask workers load these functions by the name of this module, with what they share.
 
 from __future__ import annotations
 
@@ -23,7 +25,8 @@ from typing import Any
 
 from rgss.evidence import RunFailureKind
 from rgss.evidence.records import results_of
-from rgss.sweep.workers import Ended, TaskError, WorkerPool
+from rgss.sweep.task_end import Ended, TaskError
+from rgss.sweep.workers import WorkerPool
 
 NUMERICS = "numerics of "
 """What the names of an environment begin with that tell what the mathematics computes."""
@@ -37,7 +40,7 @@ _IDLE_S = 60.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Order:
-    """What holds for all tasks that one process asks for.
+    """Settings of all tasks that one process submits.
 
     Attributes:
         name: Its name, which no other has.
@@ -57,8 +60,8 @@ class Differs:
     """In place of a result: the process that was to make it would have made another.
 
     Attributes:
-        found: What it runs; empty if that cannot be told.
-        why: Why it cannot be told, in one line; empty if it can.
+        found: Its environment; empty if that is unknown.
+        why: Why it is unknown, in one line; empty if it is known.
         where: Address of the Dask worker that the process belongs to.
     """
 
@@ -68,7 +71,7 @@ class Differs:
 
 
 def environment() -> dict[str, str]:
-    """What this process runs, as far as results or the way here and back depend on it.
+    """Environment of this process, as far as results or the transfer of tasks depend on it.
 
     Beside the engines and the code these are Python (its `sum` of floats is another one from 3.12 on),
     the kind of processor, what the mathematics computes, and Dask. It is looked up once: a process keeps what it
@@ -228,7 +231,7 @@ class Engines:
 
     @property
     def idle(self) -> int:
-        """How many processes wait for a task."""
+        """Number of idle processes."""
         return len(self._idle)
 
     def _taken(self, order: Order) -> WorkerPool:
@@ -242,7 +245,7 @@ class Engines:
         )
 
     def _ended(self, pool: WorkerPool, order: Order, key: str, work: bytes) -> Ended | None:
-        """How the task ends; None if it is stopped before."""
+        """End of the task; None if it is stopped before."""
         begun = False
         while not self._is_over(order):
             if not begun:

@@ -21,7 +21,7 @@ from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.sweep.answers import is_end_of, wrong_answer
 from rgss.sweep.dask.tasks import Differs, Order, carry_out, stop
-from rgss.sweep.workers import Ended, TaskError
+from rgss.sweep.task_end import Ended, TaskError
 
 IN_FLIGHT = 2
 """How many tasks each thread of the cluster has: one that is carried out, and the next."""
@@ -72,12 +72,12 @@ class DaskWorkers:
 
     @property
     def size(self) -> int:
-        """How many tasks the cluster carries out at once; 1 while it has no worker."""
+        """Number of tasks that the cluster carries out at once; 1 while it has no worker."""
         return max(1, self._threads)
 
     @property
     def free(self) -> int:
-        """How many tasks can be begun now."""
+        """Number of tasks that can be begun now."""
         return max(0, IN_FLIGHT * self._threads - len(self._running))
 
     def want(self, tasks: int) -> None:

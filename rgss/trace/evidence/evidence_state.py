@@ -1,4 +1,4 @@
-"""What is known of the evidence for each requirement, as the rules of evidence see it."""
+"""State of the evidence for each requirement, as the rules of evidence see it."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class TrialVerdicts:
 
     @property
     def all_causes(self) -> tuple[StaleCause, ...]:
-        """What changed for any variant, in the order of `StaleCause`."""
+        """Causes of staleness over all variants, in the order of `StaleCause`."""
         there = {cause for causes in self.causes.values() for cause in causes}
         return tuple(cause for cause in StaleCause if cause in there)
 

@@ -31,7 +31,7 @@ _HINT = "write it with 'pytest --junitxml=FILE'"
 
 
 class TestEnd(str, Enum):
-    """How a test ended."""
+    """Outcome of a test."""
 
     __test__ = False  # pytest collects what is called Test
 

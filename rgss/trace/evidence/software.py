@@ -1,4 +1,4 @@
-"""What a project's own tests say of the requirements that are verified by test."""
+"""Evidence of a project's own tests for the requirements that are verified by test."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class TestEvidence:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SoftwareEvidence:
-    """What the tests say of one requirement.
+    """Evidence of the tests for one requirement.
 
     Attributes:
         requirement: Its id.
@@ -128,7 +128,7 @@ def software_evidence(
 
 
 def run_properties(project: Path, requirements: Iterable[Requirement]) -> Mapping[str, str]:
-    """What a test run notes about itself, so that a later reader can tell whether it still holds.
+    """Digests that a test run records, by which a later reader finds whether it still holds.
 
     Args:
         project: The project's folder.
@@ -194,7 +194,7 @@ def _is_tested(requirement: Requirement, marks: Mapping[str, object]) -> bool:
 
 
 def _causes(requirement: Requirement, report: JUnitReport, software: str) -> Iterable[StaleCause]:
-    """What changed since the run; a run that noted nothing about itself is taken as it is."""
+    """Changes since the run; a run without recorded digests counts as current."""
     noted = report.properties.get(f"{REQUIREMENT_PREFIX}{requirement.id}")
     if noted is not None and noted != verification_digest(requirement):
         yield StaleCause.REQUIREMENT

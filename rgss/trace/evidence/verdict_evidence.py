@@ -1,4 +1,4 @@
-"""What the evidence says of the requirements, as matrices, chains and reports show it."""
+"""Verdicts and their evidence, as matrices, chains and reports show them."""
 
 from __future__ import annotations
 
@@ -53,14 +53,14 @@ class TrialEvidence:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VariantEvidence:
-    """What is known of one variant.
+    """Evidence of one variant.
 
     Attributes:
         variant: Its id.
         trials: Its trials, in the order of their seeds.
         missing: How many of its trials have no evidence.
         estimates: The estimate of each measure by its id.
-        deciding: For each measure, the keys of the trials that its estimate stands on; none for
+        deciding: For each measure, the keys of the trials that its estimate depends on; none for
             a measure that follows from the design alone.
     """
 
@@ -71,7 +71,7 @@ class VariantEvidence:
     deciding: Mapping[str, tuple[str, ...]]
 
     def deciding_trials(self, measure: str) -> tuple[TrialEvidence, ...]:
-        """The trials that the estimate of a measure stands on."""
+        """The trials that the estimate of a measure depends on."""
         keys = frozenset(self.deciding.get(measure, ()))
         return tuple(trial for trial in self.trials if trial.key in keys)
 
@@ -103,7 +103,7 @@ class TraceEvidence:
         return {test.test: test for one in software.values() for test in one.tests}
 
     def verdict(self, requirement: Requirement) -> Verdict | None:
-        """What the evidence says of a requirement.
+        """Verdict of the evidence on a requirement.
 
         A criterion is judged on the shown variant; without one the tests decide.
 
@@ -120,7 +120,7 @@ class TraceEvidence:
         return found.pop() if len(found) == 1 else None
 
     def causes(self, requirement: Requirement) -> tuple[StaleCause, ...]:
-        """What changed since the evidence for a requirement, where its verdict is stale."""
+        """Changes since the evidence for a requirement, where its verdict is stale."""
         if self.verdict(requirement) is not Verdict.STALE:
             return ()
         software, trials = self._software(requirement.id), self.state.trials.get(requirement.id)
@@ -131,7 +131,7 @@ class TraceEvidence:
         return trials.all_causes if self.shown is None else trials.causes.get(self.shown.variant, ())
 
     def tally(self, requirement_id: str) -> tuple[tuple[Verdict, int], ...]:
-        """How many variants have which verdict on a requirement; empty if no criterion decides."""
+        """Number of variants by their verdict on a requirement; empty if no criterion decides."""
         counts = Counter(self._verdicts(requirement_id).values())
         return tuple((verdict, counts[verdict]) for verdict in Verdict if counts[verdict])
 

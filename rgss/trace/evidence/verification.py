@@ -13,7 +13,7 @@ from rgss.trace.model import TraceModel
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerificationRow:
-    """How one system requirement is verified, and what came of it.
+    """Verification of one system requirement, and its result.
 
     Attributes:
         requirement: The requirement.
@@ -56,7 +56,7 @@ def verification_matrix(model: TraceModel, evidence: TraceEvidence) -> tuple[Ver
 
 
 def success_criterion(requirement: Requirement) -> str:
-    """What decides whether a requirement is met, in words; empty while that is open."""
+    """Criterion or success condition of a requirement, in words; empty while that is open."""
     if requirement.criterion is not None:
         return str(requirement.criterion)
     return requirement.success or requirement.criterion_exemption

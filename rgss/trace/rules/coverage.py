@@ -1,4 +1,4 @@
-"""Rules of coverage: nothing is asked for in vain, and nothing is built or measured unasked."""
+"""Rules of coverage: each need has a requirement, a measure and an element, and each of these has a need."""
 
 from __future__ import annotations
 

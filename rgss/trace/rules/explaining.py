@@ -39,7 +39,7 @@ def rule_lines(rule: Rule) -> Iterator[str]:
 
 
 def when_checked(rule: Rule) -> str:
-    """When a rule is checked, in words that follow 'checked'."""
+    """Occasion on which a rule is checked, in words that follow 'checked'."""
     if isinstance(rule, LoadingRule):
         return "whenever the files are read"
     if isinstance(rule, MarkRule):

@@ -11,8 +11,7 @@ from rgss.findings import Finding, Severity
 from rgss.requirements import RequirementSet, nearest
 from rgss.trace.evidence import EvidenceState, MarkedTest
 from rgss.trace.model import MeasureTrace, TraceModel, build_trace_model
-from rgss.trace.rules import coverage, criteria, links, marks, reviews, verification_evidence
-from rgss.trace.rules import rule_configuration as upkeep
+from rgss.trace.rules import coverage, criteria, links, marks, reviews, rule_configuration, verification_evidence
 from rgss.trace.rules import rule_loading as loading_rules
 from rgss.trace.rules.rule import EvidenceRule, MarkRule, ModelRule, Rule, SentenceRule, Violation
 from rgss.trace.rules.wording import WORDING_RULES
@@ -25,7 +24,7 @@ class RuleFamily:
 
     Attributes:
         title: What they are about.
-        rules: The rules, in the order in which they are told.
+        rules: The rules, in the order of the listing.
     """
 
     title: str
@@ -42,7 +41,7 @@ FAMILIES: tuple[RuleFamily, ...] = (
         rules=WORDING_RULES,
     ),
     RuleFamily(title="Reviews", rules=reviews.RULES),
-    RuleFamily(title="Settings and exemptions", rules=upkeep.RULES),
+    RuleFamily(title="Settings and exemptions", rules=rule_configuration.RULES),
 )
 """Every rule, family by family."""
 
@@ -79,7 +78,7 @@ def check_trace(
     marked: Sequence[MarkedTest] | None = None,
     evidence: EvidenceState | None = None,
 ) -> tuple[Finding, ...]:
-    """Check that everything asked for is answered, measured, allocated, verifiable, and well said.
+    """Check that each need is answered, measured, allocated, verifiable, and well worded.
 
     The project's settings and exemptions are applied; what is wrong with them is found too.
 
@@ -109,27 +108,27 @@ class _Check:
         self._evidence = evidence
         self._rules: Mapping[str, Rule] = MappingProxyType({rule.id: rule for rule in RULES})
         self._exempt = {
-            upkeep.Exempted(element.id, exemption.rule)
+            rule_configuration.Exempted(element.id, exemption.rule)
             for element in requirements.elements
             for exemption in element.exemptions
         }
-        self._used: set[upkeep.Exempted] = set()
+        self._used: set[rule_configuration.Exempted] = set()
 
     def findings(self) -> Iterator[Finding]:
-        """All of them; the upkeep comes last, when it is known which exemptions were used."""
+        """All of them; settings and exemptions come last, when it is known which exemptions were used."""
         requirements = self._model.requirements
         checked = [rule for rule in RULES if self._is_checked(rule)]
         for rule in checked:
-            yield from self._reported(rule, self._breaches(rule))
+            yield from self._reported(rule, self._violations(rule))
         sentence_rules = [rule for rule in checked if isinstance(rule, SentenceRule)]
-        for rule, breach in _sentence_breaches(self._model, sentence_rules):
-            yield from self._reported(rule, iter((breach,)))
-        of_settings = upkeep.setting_breaches(requirements, self._rules)
+        for rule, violation in _sentence_violations(self._model, sentence_rules):
+            yield from self._reported(rule, iter((violation,)))
+        of_settings = rule_configuration.setting_violations(requirements, self._rules)
         ids = frozenset(rule.id for rule in checked)
-        of_exemptions = upkeep.exemption_breaches(requirements, self._rules, ids, frozenset(self._used))
-        for upkeep_rule, breach in (*of_settings, *of_exemptions):
-            if self._is_enabled(upkeep_rule):
-                yield from self._reported(upkeep_rule, iter((breach,)))
+        of_exemptions = rule_configuration.exemption_violations(requirements, self._rules, ids, frozenset(self._used))
+        for configuration_rule, violation in (*of_settings, *of_exemptions):
+            if self._is_enabled(configuration_rule):
+                yield from self._reported(configuration_rule, iter((violation,)))
 
     def _is_checked(self, rule: Rule) -> bool:
         if isinstance(rule, EvidenceRule):
@@ -142,7 +141,7 @@ class _Check:
         setting = self._model.requirements.settings.get(rule.id)
         return rule.fixed or setting is None or setting.enabled
 
-    def _breaches(self, rule: Rule) -> Iterator[Violation]:
+    def _violations(self, rule: Rule) -> Iterator[Violation]:
         if isinstance(rule, ModelRule):
             yield from rule.check(self._model)
         elif isinstance(rule, MarkRule) and self._marked is not None:
@@ -150,19 +149,19 @@ class _Check:
         elif isinstance(rule, EvidenceRule) and self._evidence is not None:
             yield from rule.check(self._model, self._evidence)
 
-    def _reported(self, rule: Rule, breaches: Iterator[Violation]) -> Iterator[Finding]:
+    def _reported(self, rule: Rule, violations: Iterator[Violation]) -> Iterator[Finding]:
         severity = severity_of(rule, self._model.requirements)
-        for breach in breaches:
-            if rule.allows_exemption and isinstance(breach.subject, str):
-                exempted = upkeep.Exempted(breach.subject, rule.id)
+        for violation in violations:
+            if rule.allows_exemption and isinstance(violation.subject, str):
+                exempted = rule_configuration.Exempted(violation.subject, rule.id)
                 if exempted in self._exempt:
                     self._used.add(exempted)
                     continue
-            yield breach.finding(self._model, rule.id, severity)
+            yield violation.finding(self._model, rule.id, severity)
 
 
 def severity_of(rule: Rule, requirements: RequirementSet) -> Severity:
-    """How much a breach of a rule matters in a project."""
+    """Severity of a violation of a rule in a project."""
     setting = requirements.settings.get(rule.id)
     return rule.severity if rule.fixed or setting is None or setting.severity is None else setting.severity
 
@@ -176,7 +175,7 @@ def terms_of(rule: SentenceRule, requirements: RequirementSet) -> TermList:
     return TermList((term for term in rule.terms if words_of(term) not in removed), added=setting.terms_added)
 
 
-def _sentence_breaches(model: TraceModel, rules: Sequence[SentenceRule]) -> Iterator[tuple[SentenceRule, Violation]]:
+def _sentence_violations(model: TraceModel, rules: Sequence[SentenceRule]) -> Iterator[tuple[SentenceRule, Violation]]:
     """Element by element, so that each sentence is taken apart once."""
     requirements = model.requirements
     with_terms = [(rule, terms_of(rule, requirements)) for rule in rules]

@@ -1,4 +1,4 @@
-"""Stamping reviews: the only writing that a check can be asked for."""
+"""Stamping of reviews; no other option of the check writes."""
 
 from __future__ import annotations
 

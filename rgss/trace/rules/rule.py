@@ -1,4 +1,4 @@
-"""What a rule of traceability is: an id, a severity, an explanation and a check."""
+"""Rule of traceability: an id, a severity, an explanation and a check."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Violation:
     at_key: bool = False
 
     def finding(self, model: TraceModel, rule: str, severity: Severity) -> Finding:
-        """The breach as a finding in the user's files."""
+        """The violation as a finding in the user's files."""
         subject = model.requirements.places[self.subject] if isinstance(self.subject, str) else self.subject
         if isinstance(subject, Place):
             return subject.finding(
@@ -71,11 +71,11 @@ class Rule:
 
     Attributes:
         id: Its id, such as ``trace.orphan`` or ``wording.R7``.
-        severity: How much a breach matters, unless the project says otherwise.
+        severity: Severity of a violation, unless the project sets another.
         explanation: What must hold, and why.
         fixed: What breaks it makes the project undecidable, so that no project can configure it or be
             exempt from it.
-        of_elements: Its breaches are of elements of the requirements, which may be exempt from it, and
+        of_elements: Its violations are of elements of the requirements, which may be exempt from it, and
             not of measures, tests or settings.
     """
 
@@ -101,7 +101,7 @@ class ModelRule(Rule):
     """A rule of the requirements, the architecture, the measures, and the links between them.
 
     Attributes:
-        check: Finds the breaches in a model.
+        check: Finds the violations in a model.
     """
 
     check: Callable[[TraceModel], Iterator[Violation]]
@@ -109,7 +109,7 @@ class ModelRule(Rule):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Flaw:
-    """What is wrong with a sentence.
+    """Violation of a rule by a sentence.
 
     Attributes:
         message: It, in words that follow the id of the element.
@@ -121,7 +121,7 @@ class Flaw:
 
 
 Worded = StakeholderNeed | Requirement
-"""What is asked for in a sentence."""
+"""An element that is worded as a sentence."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,20 +132,27 @@ class SentenceRule(Rule):
         find: Finds what is wrong with the sentence of an element, given the rule's terms.
         terms: Words and phrases that the rule looks for, or that it takes for an excuse; a project
             may add to them and take from them.
-        meaning: What the terms are; empty if there are none.
+        meaning: Description of the terms; empty if there are none.
+        widened_by: Terms of its own that a project may add all the same: they count only in some places, and
+            everywhere once they are added.
+        breaking: Sentences that break the rule; the first breaks no other rule.
+        passing: Sentences close to those that break no rule of wording, but perhaps `wording.ears-keyword`.
     """
 
     find: Callable[[Sentence, TermList, Worded], Iterator[Flaw]]
     terms: tuple[str, ...] = ()
     meaning: str = ""
+    widened_by: tuple[str, ...] = ()
+    breaking: tuple[str, ...]
+    passing: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EvidenceRule(Rule):
-    """A rule of the evidence; it is checked where evidence is asked for.
+    """A rule of the evidence; it is checked with `rgss check --evidence`.
 
     Attributes:
-        check: Finds the breaches in a model and the state of its evidence.
+        check: Finds the violations in a model and the state of its evidence.
     """
 
     check: Callable[[TraceModel, EvidenceState], Iterator[Violation]]
@@ -156,12 +163,12 @@ class MarkRule(Rule):
     """A rule of the marks on a project's own tests; it is checked where there are tests.
 
     Attributes:
-        check: Finds the breaches in a model and the marked tests.
+        check: Finds the violations in a model and the marked tests.
     """
 
     check: Callable[[TraceModel, tuple[MarkedTest, ...]], Iterator[Violation]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class UpkeepRule(Rule):
+class ConfigurationRule(Rule):
     """A rule of the project's settings and exemptions themselves, checked behind all others."""

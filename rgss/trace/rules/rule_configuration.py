@@ -8,16 +8,16 @@ from typing import NamedTuple
 
 from rgss.findings import Severity
 from rgss.requirements import RequirementSet, RuleSetting, nearest
-from rgss.trace.rules.rule import Rule, SentenceRule, UpkeepRule, Violation
+from rgss.trace.rules.rule import ConfigurationRule, Rule, SentenceRule, Violation
 from rgss.trace.sentences import words_of
 
-UNKNOWN_EXEMPTION = UpkeepRule(
+UNKNOWN_EXEMPTION = ConfigurationRule(
     id="exempt.unknown-rule",
     of_elements=False,
     severity=Severity.ERROR,
     explanation="An element is exempt from rules that are there, and from which an exemption is possible.",
 )
-UNUSED_EXEMPTION = UpkeepRule(
+UNUSED_EXEMPTION = ConfigurationRule(
     id="exempt.unused",
     of_elements=False,
     severity=Severity.WARNING,
@@ -26,13 +26,13 @@ UNUSED_EXEMPTION = UpkeepRule(
         "more would hide the next breach."
     ),
 )
-UNKNOWN_SETTING = UpkeepRule(
+UNKNOWN_SETTING = ConfigurationRule(
     id="settings.unknown-rule",
     of_elements=False,
     severity=Severity.ERROR,
     explanation="rules.yaml sets rules that are there, and that can be set.",
 )
-UNUSED_SETTING = UpkeepRule(
+UNUSED_SETTING = ConfigurationRule(
     id="settings.unused",
     of_elements=False,
     severity=Severity.WARNING,
@@ -42,7 +42,7 @@ UNUSED_SETTING = UpkeepRule(
     ),
 )
 
-RULES: tuple[UpkeepRule, ...] = (UNKNOWN_EXEMPTION, UNUSED_EXEMPTION, UNKNOWN_SETTING, UNUSED_SETTING)
+RULES: tuple[ConfigurationRule, ...] = (UNKNOWN_EXEMPTION, UNUSED_EXEMPTION, UNKNOWN_SETTING, UNUSED_SETTING)
 
 
 _IDLE = RuleSetting(rule="", severity=None, enabled=True, terms_added=(), terms_removed=(), reason="")
@@ -55,8 +55,10 @@ class Exempted(NamedTuple):
     rule: str
 
 
-def setting_breaches(requirements: RequirementSet, rules: Mapping[str, Rule]) -> Iterator[tuple[UpkeepRule, Violation]]:
-    """What is wrong with the project's settings.
+def setting_violations(
+    requirements: RequirementSet, rules: Mapping[str, Rule]
+) -> Iterator[tuple[ConfigurationRule, Violation]]:
+    """Violations by the project's settings.
 
     Args:
         requirements: The requirements with the settings.
@@ -82,10 +84,10 @@ def setting_breaches(requirements: RequirementSet, rules: Mapping[str, Rule]) ->
             yield UNUSED_SETTING, Violation(subject=place, message=message, hint="remove it", at=at)
 
 
-def exemption_breaches(
+def exemption_violations(
     requirements: RequirementSet, rules: Mapping[str, Rule], checked: frozenset[str], used: frozenset[Exempted]
-) -> Iterator[tuple[UpkeepRule, Violation]]:
-    """What is wrong with the exemptions of the elements.
+) -> Iterator[tuple[ConfigurationRule, Violation]]:
+    """Violations by the exemptions of the elements.
 
     Args:
         requirements: The requirements with the exemptions.
@@ -114,8 +116,7 @@ def _idle_terms(setting: RuleSetting, rule: Rule) -> Iterator[tuple[str, tuple[s
     takes_terms = isinstance(rule, SentenceRule) and bool(rule.meaning)
     own = {words_of(term) for term in rule.terms} if isinstance(rule, SentenceRule) else set()
     for index, term in enumerate(setting.terms_added):
-        # 'and' and 'or' may be added to what they are in already: then they count wherever they stand.
-        is_widened = rule.id == "wording.R19" and term in ("and", "or")
+        is_widened = isinstance(rule, SentenceRule) and term in rule.widened_by
         if not takes_terms or not words_of(term):
             yield f"rule {rule.id!r} looks for no such terms", ("terms_added", index)
         elif words_of(term) in own and not is_widened:

@@ -1,4 +1,4 @@
-"""What each element rests on, and where its file says so."""
+"""Elements that each element depends on, and the places that state it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rules of evidence: what is to be shown is shown, of what stands in the files now."""
+"""Rules of evidence: each verification has evidence, and that of the present files."""
 
 from __future__ import annotations
 

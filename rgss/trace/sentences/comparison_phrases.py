@@ -42,7 +42,7 @@ LOWER_BEFORE = (
     "upwards of",
     "wider than",
 )
-"""What stands before a number that the quantity may exceed."""
+"""Phrases before a number that the quantity may exceed."""
 
 UPPER_BEFORE = (
     "at a maximum",
@@ -82,7 +82,7 @@ UPPER_BEFORE = (
     "up to and including",
     "within",
 )
-"""What stands before a number that the quantity must not exceed."""
+"""Phrases before a number that the quantity must not exceed."""
 
 LOWER_BEHIND = (
     "and above",
@@ -103,7 +103,7 @@ LOWER_BEHIND = (
     "or more",
     "or over",
 )
-"""What stands behind a number that the quantity may exceed."""
+"""Phrases behind a number that the quantity may exceed."""
 
 UPPER_BEHIND = (
     "and below",
@@ -124,7 +124,7 @@ UPPER_BEHIND = (
     "or smaller",
     "or under",
 )
-"""What stands behind a number that the quantity must not exceed."""
+"""Phrases behind a number that the quantity must not exceed."""
 
 SIGNS: Mapping[str, bool] = MappingProxyType(
     {">=": True, "=>": True, "≥": True, "≧": True, "⩾": True, ">": True}
@@ -151,4 +151,4 @@ BETWEEN = (
     "to",
     "weigh",
 )
-"""What may stand between a negator and its phrase: 'not fall below', 'not be allowed to exceed'."""
+"""Words that may come between a negator and its phrase: 'not fall below', 'not be allowed to exceed'."""

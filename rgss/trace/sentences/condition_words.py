@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 
 class ClauseKind(str, Enum):
-    """What a condition of a requirement is about, by the keyword of EARS for it."""
+    """Subject of a condition, by the keyword of EARS for it."""
 
     STATE = "while"
     EVENT = "when"

@@ -83,7 +83,7 @@ class Sentence:
         quantities: Its numbers.
         shalls: Where each ``shall`` ends.
         sentences: How many sentences it has.
-        conditions: What stands before the subject.
+        conditions: The conditions before the subject.
         subject: Who shall; empty if nobody is named.
         response: What follows the first ``shall``.
         pattern: The pattern of EARS that it has; None if it has none.
@@ -106,7 +106,7 @@ class Sentence:
 
     @property
     def response_start(self) -> int:
-        """Where the response starts; the whole text counts as one where nothing is asked for."""
+        """Start of the response; the whole text counts as one where there is no ``shall``."""
         return self.shalls[0] if self.shalls else 0
 
 
@@ -164,13 +164,13 @@ def _without_quotations(flat: str) -> str:
 
 
 def response_start(text: str) -> int:
-    """Where the response of a requirement starts in its text; 0 if it has no ``shall``."""
+    """Start of the response of a requirement in its text; 0 if it has no ``shall``."""
     match = _SHALL.search(text)
     return match.end() if match else 0
 
 
 def _parts(before: str) -> tuple[tuple[Clause, ...], str, str, str]:
-    """Conditions and subject of what stands before ``shall``, what is wrong with them, and what departs from EARS."""
+    """Conditions and subject before ``shall``, their flaw, and their departure from EARS."""
     *lead, last = [part.strip() for part in before.split(",")]
     divided = _THEN.fullmatch(last) if not lead else None
     if divided is not None:

@@ -90,6 +90,16 @@ class TermList:
         return None
 
 
+def phrases(text: str) -> tuple[str, ...]:
+    """Words and phrases of a list in which commas separate them; line breaks are spaces."""
+    return tuple(" ".join(phrase.split()) for phrase in text.split(","))
+
+
+def listed(matches: Iterable[Match]) -> str:
+    """The found terms as a message lists them, each once."""
+    return ", ".join(f"'{term}'" for term in dict.fromkeys(match.term for match in matches))
+
+
 def _spellings(term: str) -> Iterator[tuple[str, ...]]:
     """The words of a term, also with spaces for its hyphens and with hyphens for its spaces."""
     words = tuple(word for part in term.split() for word in ((part,) if part == _ANY_WORD else words_of(part)))

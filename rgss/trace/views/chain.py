@@ -18,13 +18,13 @@ class ChainStep:
     """One step of a chain.
 
     Attributes:
-        depth: How many steps it is away from the id that was asked for, from 1.
-        relation: How the element of the step before stands to this one.
+        depth: Number of steps from the id of the chain, from 1.
+        relation: Relation of the element of the step before to this one.
         id: Its id.
         kind: What it is.
         text: What it says, or what it is called.
         note: What the evidence says of it; may be empty.
-        repeated: Its own steps stand further up in the chain, and are not told again.
+        repeated: Its own steps are further up in the chain, and are not repeated.
     """
 
     depth: int

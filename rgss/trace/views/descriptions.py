@@ -1,4 +1,4 @@
-"""What reports say of an element: its text, and what the evidence says of it."""
+"""Description of an element in reports: its text and its evidence."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Descriptions:
         self._tests = evidence.all_tests()
 
     def text(self, name: str, kind: ThingKind) -> str:
-        """What an element says, or what it is called."""
+        """Text of an element, or its name."""
         if kind is ThingKind.TRIAL:
             trial = self._trials[name]
             return f"variant {trial.variant}, seed {trial.seed}, {trial.fidelity}: {trial.outcome}"
@@ -53,7 +53,7 @@ class Descriptions:
         return self._texts.get(name, "")
 
     def note(self, name: str, kind: ThingKind, *, measure: str = "") -> str:
-        """What the evidence says of an element.
+        """Evidence of an element, in words.
 
         Args:
             name: Its id.
@@ -94,7 +94,7 @@ class Descriptions:
         return f"{measure} = {told}; {trial.replay_command}{observed}"
 
     def _metrics(self, trial: TrialEvidence, measure: str) -> list[tuple[str, Metric]]:
-        """What was observed in a trial of all that a measure stands on."""
+        """Observations of a trial on which a measure depends."""
         if self._definitions is None or measure not in self._definitions.used:
             return []
         names = [source.partition(".") for source in self._definitions.sources(measure)]

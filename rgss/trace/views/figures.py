@@ -10,7 +10,7 @@ from rgss.measures import Estimate, StaleCause, Verdict
 from rgss.trace.evidence import TestEvidence
 
 UNKNOWN = "–"
-"""What stands for a value that is not known."""
+"""Placeholder of an unknown value."""
 
 _VERDICTS = {
     Verdict.MET: "met",
@@ -29,7 +29,7 @@ def verdict_in_words(verdict: Verdict | None, causes: Sequence[StaleCause] = ())
 
 
 def end_in_words(test: TestEvidence) -> str:
-    """How a test ended."""
+    """Outcome of a test, in words."""
     return "not run" if test.end is None else test.end.value
 
 
@@ -55,7 +55,7 @@ def share_in_words(share: float) -> str:
 
 
 def rounded_away(limit: float, needed: float, unit: str, digits: int = 4) -> float:
-    """What a limit has to become, rounded away from what it is, so that the number as written is enough.
+    """Limit that is needed, rounded away from the present one, so that the number as written is enough.
 
     Args:
         limit: The limit now.
@@ -76,7 +76,7 @@ def rounded_away(limit: float, needed: float, unit: str, digits: int = 4) -> flo
 
 
 def metric_in_words(metric: Metric) -> str:
-    """What a trial observed: a number, or each number of a row."""
+    """Observation of a trial: a number, or each number of a row."""
     if isinstance(metric, tuple):
         return " ".join(map(value_in_words, metric))
     return value_in_words(metric)

@@ -1,4 +1,4 @@
-"""What a change to an id would touch."""
+"""Impact of a change to an id."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ class Impact:
     Attributes:
         id: The id.
         kind: What it names.
-        needs: Ids of the stakeholder requirements that the change has to be held against.
+        needs: Ids of the stakeholder requirements that the change has to be compared with.
         requirements: Ids of system requirements whose text or fulfilment it touches.
         elements: Ids of the blocks and behaviours that it touches.
         measures: Ids of the measures that it touches, or that decide what it touches.
         verdicts: The verdicts to be reached anew.
-        trials: Keys of the shown variant's trials that those verdicts stand on.
+        trials: Keys of the shown variant's trials that those verdicts depend on.
         tests: Ids of the tests to be run again.
         reviews: Ids of the elements whose review has to be renewed.
     """

@@ -31,15 +31,13 @@ class TraceMatrix:
     columns: tuple[str, ...]
     linked: tuple[tuple[int, ...], ...]
     _row_index: Mapping[str, int] = field(init=False, repr=False, compare=False)
-    _column_index: Mapping[str, int] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_row_index", _positions(self.rows))
-        object.__setattr__(self, "_column_index", _positions(self.columns))
 
     @property
     def link_count(self) -> int:
-        """How many links the matrix has."""
+        """Number of links."""
         return sum(map(len, self.linked))
 
     @property
@@ -53,39 +51,16 @@ class TraceMatrix:
         reached = {index for indices in self.linked for index in indices}
         return tuple(column for index, column in enumerate(self.columns) if index not in reached)
 
-    def is_linked(self, row: str, column: str) -> bool:
-        """Whether a row and a column are linked.
-
-        Raises:
-            DefinitionError: There is no such row or column.
-        """
-        return self._position(self._column_index, column, "column") in self._indices(row)
-
     def linked_to_row(self, row: str) -> tuple[str, ...]:
         """Ids of the columns that a row is linked to, in the order of the columns.
 
         Raises:
             DefinitionError: There is no such row.
         """
-        return tuple(self.columns[index] for index in self._indices(row))
-
-    def linked_to_column(self, column: str) -> tuple[str, ...]:
-        """Ids of the rows that a column is linked to, in the order of the rows.
-
-        Raises:
-            DefinitionError: There is no such column.
-        """
-        wanted = self._position(self._column_index, column, "column")
-        return tuple(row for row, indices in zip(self.rows, self.linked, strict=True) if wanted in indices)
-
-    def _indices(self, row: str) -> tuple[int, ...]:
-        return self.linked[self._position(self._row_index, row, "row")]
-
-    def _position(self, index: Mapping[str, int], name: str, what: str) -> int:
-        position = index.get(name)
+        position = self._row_index.get(row)
         if position is None:
-            raise DefinitionError(f"the matrix has no {what} {name!r}", hint=nearest(name, index))
-        return position
+            raise DefinitionError(f"the matrix has no row {row!r}", hint=nearest(row, self._row_index))
+        return tuple(self.columns[index] for index in self.linked[position])
 
 
 def matrix_of(rows: Iterable[str], columns: Iterable[str], linked: Mapping[str, Iterable[str]]) -> TraceMatrix:

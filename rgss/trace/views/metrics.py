@@ -39,7 +39,7 @@ class CoverageMetric:
 
     @property
     def total(self) -> int:
-        """How many there are."""
+        """Number of them."""
         return self.covered + len(self.missing)
 
     @property
@@ -73,7 +73,7 @@ def trace_matrices(model: TraceModel) -> TraceMatrices:
 
 
 def coverage_metrics(model: TraceModel, matrices: TraceMatrices, evidence: TraceEvidence) -> tuple[CoverageMetric, ...]:
-    """How complete a project is: its links, its verification, its evidence.
+    """Completeness of a project: its links, its verification, its evidence.
 
     Args:
         model: The project's requirements, architecture and measures.

@@ -17,7 +17,7 @@ _SHORTEST_KEY = 6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Named:
-    """What a name names.
+    """Kind of a named thing.
 
     Attributes:
         id: Its id; of a trial, its whole key.
@@ -59,7 +59,7 @@ def named(model: TraceModel, evidence: TraceEvidence, name: str, *, definitions:
 
 
 def _symbols(definitions: MeasureSet) -> Iterator[tuple[str, Named]]:
-    """Constants, inputs and their sources, equations and assumptions; the first of a name stands."""
+    """Constants, inputs and their sources, equations and assumptions; the first of a name counts."""
     measures = definitions.measures
 
     def users(symbols: set[str]) -> tuple[str, ...]:

@@ -12,7 +12,7 @@ from rgss.trace.model import TraceModel
 
 
 class ThingKind(str, Enum):
-    """What an id names, in the words of reports."""
+    """Kind of the thing with an id, in the words of reports."""
 
     NEED = "stakeholder requirement"
     REQUIREMENT = "system requirement"
@@ -73,7 +73,7 @@ class Neighbour:
 
     Attributes:
         id: Its id.
-        relation: How the element stands to it.
+        relation: Relation of the element to it.
     """
 
     id: str
@@ -163,7 +163,7 @@ def _ends(
 
 
 def kinds_of(model: TraceModel, evidence: TraceEvidence) -> Mapping[str, ThingKind]:
-    """What each id of a project names; trials and symbols of the measures are not among them."""
+    """Kind of the thing with each id of a project, without trials and symbols of the measures."""
     architecture = model.requirements.architecture
     kinds = dict.fromkeys(evidence.all_tests(), ThingKind.TEST)
     kinds |= dict.fromkeys((measure.id for measure in model.measures), ThingKind.MEASURE)

@@ -9,7 +9,7 @@ import pytest
 from rgss.cli.sweep.output import lost_line, result_lines, shown_trials
 from rgss.cli.sweep.progress import SweepProgress, course_of
 from rgss.evidence import RunFailure, RunFailureKind
-from rgss.sweep.running import LostTrials, SweepResult, SweepState
+from rgss.sweep.results import LostTrials, SweepResult, SweepState
 
 SCENE = "scenes/restaurant.yaml"
 

@@ -8,7 +8,7 @@ import pytest
 
 from rgss.evidence import EvidenceStore
 from rgss.evidence.records.run_failures import LONGEST_DETAIL
-from rgss.sweep.workers import Ended, TaskError
+from rgss.sweep.task_end import Ended, TaskError
 
 WORDS = ("--fidelity", "kinematic", "--only", "57", "--jobs", "1", "--replicates", 2)
 

@@ -7,7 +7,7 @@ import pytest
 import rgss.decision.until_decided as until
 from rgss.evidence import RunFailure, RunFailureKind
 from rgss.measures import Verdict
-from rgss.sweep.running import LostTrials, SweepResult
+from rgss.sweep.results import LostTrials, SweepResult
 from rgss.tradeoff.sequential.sequential import Reason, SequentialRule
 
 

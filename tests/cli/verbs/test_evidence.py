@@ -15,7 +15,7 @@ import pytest
 from rgss.evidence import EvidenceStore, Provenance, RunFailure, RunFailureKind
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import EVIDENCE, load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 
 STUDY = "studies/pick_place.yaml"
 FAILED = RunFailure(key="e" * 64, what="execution", kind=RunFailureKind.TIMED_OUT, detail="60 s", attempts=2)
@@ -128,7 +128,7 @@ def test_a_sound_store(rgss, with_evidence):
 
 def test_what_no_trial_refers_to_is_told_but_no_damage(rgss, spoilt):
     with EvidenceStore.open(spoilt / EVIDENCE) as store:
-        store.put_inputs({"seed": 1})
+        store.put_many(inputs=[{"seed": 1}])
     told = rgss("evidence", "verify", "--project", spoilt)
 
     assert told.status == 0
@@ -306,7 +306,7 @@ def test_garbage_is_shown_and_removed_only_on_demand(rgss, spoilt):
         old = next(store.iterate())
         store.put(key_of(specs[0]), old.record, Provenance(inputs={}, versions={}))
         store.put_failure(FAILED)
-        store.put_inputs({"seed": 1})
+        store.put_many(inputs=[{"seed": 1}])
     for words in (["gc"], ["gc", "--dry-run"]):
         told = rgss("evidence", *words, "--project", spoilt)
         assert (told.status, told.errors) == (0, "")

@@ -10,7 +10,7 @@ import pytest
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from tests.cli.conftest import made_record
 
 

@@ -11,7 +11,7 @@ import pytest
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.guard.runs import guard_of, watched_trials
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from tests.cli.conftest import made_record
 
 STUDY = "studies/pick_place.yaml"

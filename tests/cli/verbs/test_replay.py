@@ -13,7 +13,7 @@ from rgss.errors import SimulationError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 from rgss.trials.code.numeric_probe import fixed_numerics
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of

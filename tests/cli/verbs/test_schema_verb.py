@@ -12,7 +12,7 @@ from rgss.documents import read_document
 from rgss.studies.document_kinds import DOCUMENT_KINDS
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.sweep.running import key_of
+from rgss.sweep.trial_keys import key_of
 
 
 def test_the_choices_are_the_kinds():

@@ -16,6 +16,7 @@ from rgss.evidence.records.packing import LARGEST_TEXT
 from rgss.evidence.store.connection import LARGEST_ROW
 from rgss.evidence.store.contents import contents_of
 from rgss.evidence.store.verification import verify
+from tests.fixtures.stored_inputs import put_inputs
 
 DAMAGED = (
     "evidence.sqlite: trial {} is damaged: {} "
@@ -182,7 +183,7 @@ def test_a_summary_of_what_is_no_sound_store_is_refused(filled, change, statemen
 )
 def test_a_tampered_piece_is_refused(path, change, statement, problem):
     with EvidenceStore.open(path) as store:
-        store.put_piece(Piece(digest="a" * 64, kind=PieceKind.PLAN, text="{}"))
+        store.put_many(pieces=[Piece(digest="a" * 64, kind=PieceKind.PLAN, text="{}")])
     change(path, statement)
     with EvidenceStore.open(path, label="evidence.sqlite") as store, pytest.raises(EvidenceError) as caught:
         store.piece("a" * 64)
@@ -199,7 +200,7 @@ def test_a_tampered_piece_is_refused(path, change, statement, problem):
 )
 def test_tampered_inputs_are_refused(path, change, content, problem):
     with EvidenceStore.open(path) as store:
-        name = store.put_inputs({"a": 1})
+        name = put_inputs(store, {"a": 1})
     if content is None:
         name = hashlib.sha256(b"[1]").hexdigest()
         change(path, "UPDATE inputs SET digest = ?, content = ?", name, packed("[1]"))

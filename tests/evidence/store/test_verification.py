@@ -8,6 +8,7 @@ import pytest
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Piece, PieceKind, RunFailure, RunFailureKind
 from rgss.evidence.store.verification import Damage, salvage, take_away, verify
+from tests.fixtures.stored_inputs import put_inputs
 
 
 @pytest.fixture
@@ -15,9 +16,9 @@ def whole(path, record, provenance, key):
     """The path of a store with something in each of its tables."""
     with EvidenceStore.open(path) as store:
         origin = replace(
-            provenance, inputs={"plan": "a" * 64, "trial": "f" * 64}, inputs_digest=store.put_inputs({"seed": 7})
+            provenance, inputs={"plan": "a" * 64, "trial": "f" * 64}, inputs_digest=put_inputs(store, {"seed": 7})
         )
-        store.put_inputs({"seed": 8})
+        put_inputs(store, {"seed": 8})
         store.put_many(
             trials=[(key(number), record(variant=number), origin) for number in range(20)],
             pieces=[Piece(digest=letter * 64, kind=PieceKind.PLAN, text="{}") for letter in "abc"],

@@ -7,7 +7,7 @@ import pytest
 from rgss.evidence import RunFailureKind
 from rgss.sweep.dask.tasks import Order
 from rgss.sweep.dask.workers import DaskWorkers
-from rgss.sweep.workers import Ended
+from rgss.sweep.task_end import Ended
 
 
 class AnsweringClient:

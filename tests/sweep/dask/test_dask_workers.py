@@ -19,8 +19,9 @@ from rgss.studies.expansion import trial_specs
 from rgss.sweep.dask import cluster as dask_cluster_module
 from rgss.sweep.dask.cluster import dask_cluster, difference
 from rgss.sweep.dask.tasks import Differs, Engines, Order, are_alike, environment
-from rgss.sweep.running import sweep, trials_of
-from rgss.sweep.workers import TaskError
+from rgss.sweep.running import sweep
+from rgss.sweep.task_end import TaskError
+from rgss.sweep.trial_keys import trials_of
 
 DOUBLES = Path(__file__).parents[1] / "doubles"
 GIB = 1024**3

@@ -14,7 +14,7 @@ def test_rules_have_ids_of_their_own_and_say_why():
     assert len({rule.id for rule in RULES}) == len(RULES)
     assert len({rule.explanation for rule in RULES}) == len(RULES)
     for rule in RULES:
-        assert re.fullmatch(r"[a-z]+\.([a-z]+(-[a-z]+)*|R[0-9]+|TBD)", rule.id)
+        assert re.fullmatch(r"[a-z]+\.[A-Za-z0-9]+(-[A-Za-z0-9]+)*", rule.id)
         assert rule.explanation.endswith(".")
 
 

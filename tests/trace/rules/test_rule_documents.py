@@ -17,6 +17,7 @@ from rgss.trace.evidence.junit_file import TestEnd
 from rgss.trace.evidence.software import SoftwareEvidence, TestEvidence
 from rgss.trace.evidence.test_marks import MarkedTest
 from rgss.trace.rules.review_stamps import stamped, write_reviews
+from rgss.trace.rules.rule import SentenceRule
 
 TEXT = "The gripper shall lift at least 0.8 kg."
 NEED_NO_HINT = {"trace.idle-element", "trace.unknown-mark", "requirements.wrong-kind", "exempt.unknown-rule"}
@@ -140,7 +141,8 @@ def _setting(entry: str) -> Callable[[Any], Any]:
 
 
 BREAKS: Mapping[str, Break] = MappingProxyType(
-    {
+    {rule.id: _text(rule.breaking[0]) for rule in RULES if isinstance(rule, SentenceRule)}
+    | {
         "requirements.duplicate-id": Break(
             make=lambda p: p.append("architecture.yaml", "  - {id: SYS-1 , name: A, level: context, text: T.}\n"),
             file="architecture.yaml",
@@ -236,25 +238,6 @@ BREAKS: Mapping[str, Break] = MappingProxyType(
             start_of="{measure",
         ),
         "evidence.failed-test": Break(make=_failed_test, file="system.yaml", start_of="test\n"),
-        "wording.R1": _text("When a move ends the gripper shall stay open."),
-        "wording.ears-keyword": _text("During a move, the gripper shall stay open."),
-        "wording.R2": _text("The cup shall be lifted by the gripper."),
-        "wording.R18": _text("The gripper shall open, while the arm shall stop."),
-        "wording.R7": _text("The gripper shall hold several cups."),
-        "wording.R8": _text("Where possible, the gripper shall hold the cup."),
-        "wording.R9": _text("The gripper shall hold cups, plates, etc."),
-        "wording.R10": _text("The gripper shall be able to hold the cup."),
-        "wording.R24": _text("When a cup stands upright, the gripper shall hold it."),
-        "wording.R26": _text("The gripper shall always hold the cup."),
-        "wording.R32": _text("The gripper shall hold all cups."),
-        "wording.R35": _text("The gripper shall eventually hold the cup."),
-        "wording.TBD": _text("The gripper shall hold TBD cups."),
-        "wording.R6": _text("The gripper shall weigh at most 3."),
-        "wording.R33": _text("The gripper shall have a length of 120 mm."),
-        "wording.R34": _text("The gripper shall close quickly."),
-        "wording.R16": _text("The gripper shall not drop the cup."),
-        "wording.R17": _text("The gripper shall hold the cup/plate."),
-        "wording.R19": _text("The gripper shall lift and place the cup."),
         "wording.duplicate": Break(
             make=lambda p: p.append("system.yaml", REQUIREMENT.replace("shall open.", "shall  lift at least 0.8 kg")),
             file="system.yaml",

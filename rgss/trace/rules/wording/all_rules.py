@@ -1,17 +1,27 @@
-"""Every rule of wording, in the order in which they are listed."""
+"""Registry of the rules of wording: those of every module of this package, by their ids."""
 
 from __future__ import annotations
 
-from rgss.trace.rules.wording import logic as wording_logic
-from rgss.trace.rules.wording import numbers as wording_numbers
-from rgss.trace.rules.wording import repetition as wording_repetition
-from rgss.trace.rules.wording import structure as wording_structure
-from rgss.trace.rules.wording import words as wording_words
+import importlib
+import pkgutil
+import re
+from pathlib import Path
 
-WORDING_RULES = (
-    *wording_structure.RULES,
-    *wording_words.RULES,
-    *wording_numbers.RULES,
-    *wording_logic.RULES,
-    *wording_repetition.RULES,
-)
+from rgss.trace.rules.rule import Rule
+
+
+def _found() -> tuple[Rule, ...]:
+    """Import the modules beside this one and collect their ``RULES``; a new module needs no entry elsewhere."""
+    package, _, own = __name__.rpartition(".")
+    names = sorted(module.name for module in pkgutil.iter_modules([str(Path(__file__).parent)]) if module.name != own)
+    rules = [rule for name in names for rule in importlib.import_module(f"{package}.{name}").RULES]
+    return tuple(sorted(rules, key=_by_number))
+
+
+def _by_number(rule: Rule) -> tuple[bool, int, str]:
+    """Order of the listing: the numbers of the INCOSE guide, then names."""
+    number = re.fullmatch(r"wording\.R(\d+)", rule.id)
+    return number is None, int(number[1]) if number else 0, rule.id
+
+
+WORDING_RULES: tuple[Rule, ...] = _found()

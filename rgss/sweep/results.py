@@ -1,0 +1,91 @@
+"""Limits of a sweep's workers, its state while it runs, and its result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rgss.evidence import RunFailure, TrialRecord
+
+_MIB = 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorkerLimits:
+    """Limits of a worker for one task.
+
+    Attributes:
+        time_s: Greatest time by the wall clock: a hundred times what the longest search needs.
+        memory_bytes: Greatest size of a worker's data; 0 for no limit.
+    """
+
+    time_s: float = 300.0
+    memory_bytes: int = 2048 * _MIB
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FinishedTrial:
+    """A trial that was run or read.
+
+    Attributes:
+        key: What the store knows it by.
+        record: What came out of it.
+        fresh: Whether it was put together now; the store had it otherwise.
+    """
+
+    key: str
+    record: TrialRecord
+    fresh: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LostTrials:
+    """A failure of the run, and the trials that have no record for it.
+
+    Attributes:
+        failure: What could not be made, and why.
+        trials: Variant and seed of each trial that needed it.
+    """
+
+    failure: RunFailure
+    trials: tuple[tuple[int, int], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepState:
+    """Progress of a sweep.
+
+    Attributes:
+        elapsed_s: Time since it began.
+        remaining_s: Time that what is left is expected to take; None before anything is known.
+        tasks_left: How many pieces (or trials, if nothing is shared) are still to be made.
+        made: How many pieces of each kind were made.
+        reused: How many pieces of each kind came from the store.
+        saved: How many pieces more the trials that are done would have needed without sharing.
+    """
+
+    elapsed_s: float
+    remaining_s: float | None
+    tasks_left: int
+    made: Mapping[str, int]
+    reused: Mapping[str, int]
+    saved: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepResult:
+    """Result of a sweep.
+
+    Attributes:
+        made: How many pieces of each kind were made; ``trial`` where nothing was shared.
+        reused: How many pieces of each kind came from the store.
+        lost: What could not be made; empty if all trials have records.
+        elapsed_s: Time from the first task to the last, workers' start included.
+        busy_s: Time that the workers spent on tasks, summed over them.
+    """
+
+    made: Mapping[str, int]
+    reused: Mapping[str, int]
+    lost: tuple[LostTrials, ...]
+    elapsed_s: float = 0.0
+    busy_s: float = 0.0

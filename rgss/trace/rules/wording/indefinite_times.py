@@ -1,0 +1,90 @@
+"""Times without a number (R35).
+
+The number is that of the INCOSE *Guide to Writing Requirements*, version 3.1.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from rgss.findings import Severity
+from rgss.trace.rules.rule import Flaw, SentenceRule, Worded
+from rgss.trace.sentences import Match, Sentence, TermList, listed, phrases
+
+# Definite where the response states a time: 'within 2 s after'.
+_SEQUENCE_WORDS = phrases("""
+    after, afterwards, before, once, subsequently, until
+""")
+INDEFINITE_TIMES = (
+    *_SEQUENCE_WORDS,
+    *phrases("""
+    a.s.a.p, as early as possible, as fast as possible, as late as possible, as promptly as possible, as quickly
+    as possible, as rapidly as possible, as soon as possible, asap, at last, at regular intervals, at the
+    earliest, at the latest, at times, eventually, finally, for a while, for some time, from time to time,
+    immediately, in a timely fashion, in a timely manner, in due course, in good time, in near real time, in
+    real time, in the long run, in the near future, in time, instantaneous, instantaneously, instantly,
+    momentarily, near real time, now and then, on a regular basis, periodically, promptly, regularly, right
+    away, shortly, simultaneously, sometimes, soon, sooner or later, straight away, ultimately, until further
+    notice, with minimal delay, within a short time, without delay
+"""),
+)
+"""Clauses to escape by (R8) may contain one of these; the sentence then breaks this rule alone."""
+_END_OR_PURPOSE = re.compile(r"\s+(?:for|to)\b|\s*[.,;:]|\s*$")
+_TIME_GIVEN = re.compile(r"\d\s?(?:ns|us|µs|ms|s|sec|seconds?|min|minutes?|h|hours?|d|days?)\b")
+
+
+def _indefinite_time(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
+    if terms.is_absent(sentence):
+        return
+    is_timed = _TIME_GIVEN.search(sentence.response) is not None
+    found = listed(
+        match
+        for match in terms.find(sentence, start=sentence.response_start)
+        if not (is_timed and match.term in _SEQUENCE_WORDS) and not _is_rate_or_name(sentence, match)
+    )
+    if found:
+        yield Flaw(message=f"says {found}, which sets no time", hint="say within which time of which event")
+
+
+def _is_rate_or_name(sentence: Sentence, match: Match) -> bool:
+    """'once per day' is a rate, and 'a point in time' and 'in time services' are things."""
+    tokens = sentence.tokens
+    if match.term == "once":
+        return match.after < len(tokens) and tokens[match.after].word in ("a", "again", "daily", "each", "every", "per")
+    end = tokens[match.after - 1].end
+    is_point = match.first > 0 and tokens[match.first - 1].word in ("point", "points")
+    return match.term == "in time" and (is_point or _END_OR_PURPOSE.match(sentence.text, end) is None)
+
+
+RULES: tuple[SentenceRule, ...] = (
+    SentenceRule(
+        id="wording.R35",
+        severity=Severity.WARNING,
+        explanation=(
+            "A requirement sets its times by numbers. Words of sequence, such as 'after', are let pass where the "
+            "response states a time."
+        ),
+        find=_indefinite_time,
+        terms=INDEFINITE_TIMES,
+        meaning="words of indefinite time",
+        breaking=(
+            "The gripper shall eventually hold the cup.",
+            "The arm shall eventually stop.",
+            "The arm shall stop immediately.",
+            "The arm shall stop after the cup is placed.",
+            "The arm shall wait until the cup is placed.",
+            "The arm shall stop as soon as possible.",
+            "The arm shall stop ASAP.",
+            "The arm shall stop in time.",
+            "The arm shall stop once the cup is placed.",
+            "The arm shall stop a.s.a.p. when told.",
+            "The arm shall stop in a timely fashion.",
+        ),
+        passing=(
+            "The arm shall stop within 2 s after the alarm.",
+            "The cell shall report once per day.",
+            "The cell shall report the counters in Time Services telemetry.",
+        ),
+    ),
+)

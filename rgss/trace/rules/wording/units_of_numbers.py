@@ -1,0 +1,100 @@
+"""Numbers without a unit (R6).
+
+The number is that of the INCOSE *Guide to Writing Requirements*, version 3.1.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from bisect import bisect_right
+from collections.abc import Iterator
+
+from rgss.findings import Severity
+from rgss.requirements import Requirement
+from rgss.trace.rules.rule import Flaw, SentenceRule, Worded
+from rgss.trace.sentences import Sentence, TermList, TextQuantity, phrases, words_of
+
+_PURE_NUMBERS = phrases("""
+    coefficient, coefficients, count, exponent, factor, fraction, gain, index, number, order, probability,
+    proportion, quotient, rank, rate, ratio, score, seed, share, value
+""")
+# "3 fingers" is a count; "a mass of 3 for each" and "3." are not.
+_COUNTED = re.compile(r"(?:\s+|-)(?P<word>[A-Za-z][A-Za-z-]*)")
+FUNCTION_WORDS = frozenset(
+    words_of(
+        "a after an and are as at before below above between but by during each for from has if in into is of on "
+        "once or over per shall than that the then through to under until was when where while with within"
+    )
+)
+# "between 3 and 5 kg", "3 to 5 kg", "2, 4 or 6 kg", "2 × 3 m": the unit stands behind the last number.
+_RANGE = re.compile(r"\s*(?:,|to\b|and\b|or\b|through\b|–|-|×|x\b|±|\+/-|:|/|\*)\s*[+-]?\d", re.IGNORECASE)
+# What a quantity stands behind. Behind another word a number is a name: station 3, joint 6, ISO 9001, SYS-012.
+_INTRODUCTIONS = frozenset(
+    words_of(
+        "a about above an approximately are around at be below between beyond by equal equals exceed exceeding "
+        "exceeds from is least maximum minimum most of over than to under was weigh weighs with within"
+    )
+)
+_YEAR = re.compile(r"(?:19|20)\d\d")
+
+
+def _without_unit(sentence: Sentence, terms: TermList, element: Worded) -> Iterator[Flaw]:
+    bare = [
+        quantity
+        for quantity in sentence.quantities
+        if quantity.unit == "1" and not _needs_no_unit(sentence, quantity, element)
+    ]
+    if bare and not any(terms.find(sentence)):
+        numbers = ", ".join(repr(quantity.text) for quantity in bare)
+        yield Flaw(message=f"has the number {numbers} without a unit", hint="give the unit, or say what is counted")
+
+
+def _needs_no_unit(sentence: Sentence, quantity: TextQuantity, element: Worded) -> bool:
+    if _RANGE.match(sentence.text, quantity.end) or _YEAR.fullmatch(quantity.text):
+        return True
+    count = bisect_right(sentence.tokens, quantity.start, key=lambda token: token.end)
+    if count:
+        before = sentence.tokens[count - 1]
+        if before.start != sentence.response_start + 1 and before.word not in _INTRODUCTIONS:
+            return True
+    counted = _COUNTED.match(sentence.text, quantity.end)
+    if counted is not None and counted["word"].lower() not in FUNCTION_WORDS:
+        return True
+    criterion = element.criterion if isinstance(element, Requirement) else None
+    return criterion is not None and criterion.unit == "1" and math.isclose(criterion.threshold, quantity.value)
+
+
+RULES: tuple[SentenceRule, ...] = (
+    SentenceRule(
+        id="wording.R6",
+        severity=Severity.ERROR,
+        explanation=(
+            "A number has a unit, unless it counts something that is named, or is a pure number such as a ratio. "
+            "Without its unit a number is read in whatever unit the reader is used to."
+        ),
+        find=_without_unit,
+        terms=_PURE_NUMBERS,
+        meaning="words for pure numbers; where one stands in the sentence, a number needs no unit",
+        breaking=(
+            "The gripper shall weigh at most 3.",
+            "The gripper shall lift 3.",
+            "The arm shall stop within 0.5.",
+            "When the load exceeds 3, the arm shall stop.",
+            "The table shall have a height of 0.74 for each guest.",
+        ),
+        passing=(
+            "The cell shall fit on a table of at most 2 × 3 m.",
+            "The gripper shall weigh at most 3 kg.",
+            "The gripper shall have 3 fingers.",
+            "The arm shall reach station 3 of the line.",
+            "The arm shall comply with ISO 10218 part 1.",
+            "The cell shall keep the rules of EN 60204-1.",
+            "The computer shall have a port of USB 3.0.",
+            "The RGSS shall reach a task success score of at least 0.9.",
+            "The contact shall have a friction coefficient of at least 0.5.",
+            "The screw shall have a gear ratio of 3 to 1.",
+            "The trial shall end with one of the outcomes in table 4.",
+        ),
+    ),
+)

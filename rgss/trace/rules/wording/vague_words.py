@@ -1,0 +1,91 @@
+"""Vague words (R7).
+
+The number is that of the INCOSE *Guide to Writing Requirements*, version 3.1.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from rgss.findings import Severity
+from rgss.trace.rules.rule import Flaw, SentenceRule, Worded
+from rgss.trace.sentences import Match, Sentence, TermList, listed, phrases
+
+# Vague where a number follows; otherwise about an axis, around a table, close to a grasp.
+_BEFORE_NUMBERS = phrases("""
+    about, around, circa, close to, roughly
+""")
+# Not vague where one of these words follows.
+_CLEAR_BEFORE = {"rather": ("than",), "normally": ("open", "closed")}
+_VAGUE = phrases("""
+    a couple of, a few, a lot of, a number of, acceptable, adequate, adequately, allowable, almost, almost
+    always, ample, ancillary, appropriate, appropriately, approximate, approximately, as usual, as well as
+    possible, comfortable, comfortably, commonly, considerable, considerably, convenient, conveniently,
+    customary, cutting-edge, decent, desirable, easy to *, effective, effectively, efficient, efficiently,
+    effortless, effortlessly, elegant, elegantly, environmentally friendly, ergonomic, ergonomically, excessive,
+    excessively, expandable, extremely, fairly, flexible, flexibly, frequently, generally, good enough,
+    good-quality, graceful, gracefully, high-quality, ideal, inadequate, infrequently, insignificant,
+    insufficient, intuitive, intuitively, largely, lots of, maintainable, many, meaningful, moderate, modern,
+    more or less, mostly, nearly, negligible, normally, numerous, occasionally, often, operator-friendly, plenty
+    of, proficient, properly, quite, rarely, rather, realistic, realistically, reasonable, reasonably, relevant,
+    satisfactory, seamless, seamlessly, seldom, sensible, sensibly, several, significant, significantly, simple
+    to *, some, somewhat, state of the art, substantial, substantially, sufficient, sufficiently, suitable,
+    suitably, timely, tolerable, typical, typically, undue, unduly, unreasonable, unreasonably, user-friendly,
+    usual, usually, various, versatile, very, with ease, without difficulty, world-class
+""")
+_NUMBER_NEXT = re.compile(r"\s*[~±]?\d")
+
+
+def _vague(sentence: Sentence, terms: TermList, _: Worded) -> Iterator[Flaw]:
+    if terms.is_absent(sentence):
+        return
+    found = listed(match for match in terms.find(sentence) if _is_vague(sentence, match))
+    if found:
+        yield Flaw(message=f"says {found}, which is vague", hint="say how much, how many, or which")
+
+
+def _is_vague(sentence: Sentence, match: Match) -> bool:
+    """Some words are vague only as an adverb of a number: 'about 3 s', but not 'about an axis'."""
+    after = sentence.tokens[match.after].word if match.after < len(sentence.tokens) else ""
+    if after in _CLEAR_BEFORE.get(match.term, ()):
+        return False
+    if match.term not in _BEFORE_NUMBERS:
+        return True
+    return _NUMBER_NEXT.match(sentence.text, sentence.tokens[match.after - 1].end) is not None
+
+
+RULES: tuple[SentenceRule, ...] = (
+    SentenceRule(
+        id="wording.R7",
+        severity=Severity.ERROR,
+        explanation="A requirement has no vague word, which each reader would measure by another scale.",
+        find=_vague,
+        terms=(*_BEFORE_NUMBERS, *_VAGUE),
+        meaning="vague words",
+        breaking=(
+            "The gripper shall hold several cups.",
+            "The gripper shall hold many cups.",
+            "The gripper shall weigh about 3 kg.",
+            "The arm shall stop around 5 mm before the table.",
+            "The cell shall have adequate light.",
+            "The arm shall move some cups.",
+            "The gripper shall hold close to 3 kg.",
+            "The arm shall usually stop within 1 s.",
+            "The tool shall have a suitable colour.",
+            "The panel shall be user friendly.",
+            "The panel shall be User-Friendly.",
+            "The panel shall be easy to use.",
+            "The panel shall be Simple to Learn.",
+            "The cell shall use STATE OF THE ART sensors.",
+            "The gripper shall hold SEVERAL cups.",
+        ),
+        passing=(
+            "The gripper shall close to a firm grasp.",
+            "The gripper shall close around the cup.",
+            "The joint shall rotate about the vertical axis.",
+            "The arm shall use a finger rather than a hook.",
+            "The cell shall use a normally closed valve.",
+        ),
+    ),
+)
