@@ -149,7 +149,7 @@ def test_a_whole_trial_can_be_one_task(spec_of):
 def test_a_planner_that_is_not_there_is_an_error(spec_of):
     task = PieceTask(digest="a" * 64, kind=PieceKind.PLAN, spec=replace(spec_of(65), planner="PRM"))
 
-    with pytest.raises(MotionError, match="there is no planner 'PRM'"):
+    with pytest.raises(MotionError, match="unknown planner 'PRM'"):
         make(task, {})
 
 
