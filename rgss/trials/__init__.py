@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from rgss.trials.filming import Film
     from rgss.trials.goal_reasons import Obstacle
     from rgss.trials.impact import ClosingImpact, closing_impact
+    from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.settings import PlanningSettings, TrialSettings
@@ -29,6 +30,8 @@ __all__ = [
     "PlanningSettings",
     "SceneProblem",
     "SceneProblemKind",
+    "Simulation",
+    "SimulationState",
     "TrialSettings",
     "TrialSpec",
     "closing_impact",
