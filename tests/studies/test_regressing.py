@@ -10,7 +10,6 @@ import pytest
 
 from rgss.errors import DefinitionError, DocumentError, EvidenceError
 from rgss.evidence import PieceKind, Provenance
-from rgss.guard import guard
 from rgss.guard.guard import baseline_name, compare_with_baseline, make_baseline
 from rgss.guard.inputs import constants_of, origin_of_trials
 from rgss.guard.runs import guard_of, watched_trials
@@ -20,7 +19,7 @@ from rgss.regression.input_changes import InputKind, origin_changes
 from rgss.regression.report import FailureCause
 from rgss.studies.project import load_project
 from rgss.sweep.running import sweep, trials_of
-from rgss.trials import METRICS, Aggregation, MetricDescriptor, execution
+from rgss.trials import execution
 
 from .conftest import REASON, SECTION, STUDY, without_section
 
@@ -67,29 +66,6 @@ def test_reasons_are_kept(project_of, stores, runner):
     assert [change.reason for change in second.history] == [REASON, "Another engine."]
     assert first.runs["planning"].seeds == tuple(range(1, 13))
     assert first.runs["grasp"].variants == (57,)
-
-
-@pytest.mark.parametrize("schema", [3, 4])
-def test_a_metric_that_trials_newly_have_changes_nothing(compared, monkeypatch, schema):
-    new = MetricDescriptor(name="noise_1", unit="1", meaning="noise", trial=Aggregation.GREATEST)
-
-    def with_new(baseline):
-        monkeypatch.setattr(guard, "METRICS", {**METRICS, "noise_1": new})
-        return baseline if schema == 4 else replace(baseline, schema=3, phase_record={})
-
-    report = compared(baseline_of=with_new, more_metrics={"noise_1": 0.5}, more_of_phases=schema == 4)
-
-    assert (report.verdict, report.failing) == ("same", ())
-    assert report.notes == ("trials newly have noise_1, which the baseline does not guard",)
-    assert report.behaviour.changed == ()
-    assert all(one.identical for one in report.comparisons)
-
-
-def test_a_metric_of_a_record_that_changes_is_changed_behaviour_whether_guarded_or_not(compared):
-    report = compared(more_metrics={"slip_m": 0.5})
-
-    assert (report.verdict, report.failing) == ("changed", ())
-    assert {one.phase for one in report.behaviour.changed} == {"trial"}
 
 
 def test_a_slower_planner(compared):

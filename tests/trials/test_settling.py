@@ -25,9 +25,12 @@ class Shaking(World):
     shaking_s = 0.3
     _seen = 0
 
+    def step(self):
+        super().step()
+        self._seen += 1
+
     def workpiece_pose(self):
         pose = super().workpiece_pose()
-        self._seen += 1
         if self._seen > self.shaking_s * self.settings.rate_hz or self._seen % 2:
             return pose
         turn = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (self.turn_rad, 0.0, 0.0))
