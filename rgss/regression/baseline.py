@@ -28,7 +28,7 @@ Values = Mapping[str, Mapping[str, Mapping[str, tuple[float | None, ...]]]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BaselineRun:
-    """The trials of one run.
+    """Trials of one run.
 
     Attributes:
         fidelity: How much physics they had.
@@ -108,7 +108,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Baseline:
-    """What metrics and the decision are held against.
+    """Baseline with which metrics and the decision are compared.
 
     Attributes:
         study: The study's id.

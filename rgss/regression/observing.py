@@ -1,4 +1,4 @@
-"""What a trial's record says of a metric, over the whole trial or in one phase."""
+"""Values of metrics in a record, over the whole trial or in one phase, and fingerprints of records."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SHORT = 12
 
 
 def observed(record: TrialRecord, metric: str, phase: str) -> float | None:
-    """The value of a metric; None where the trial does not tell.
+    """The value of a metric; None where the record has none.
 
     Args:
         record: The trial's record.

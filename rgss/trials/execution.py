@@ -52,7 +52,7 @@ class Execution:
             references: Targets of the moves; the program ends before the first move that has none.
             control: Thresholds.
             kinematics: The arm's, with the tool at the grasp centre.
-            observer: Looks on after every step.
+            observer: Callback after each step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
         """
         self._world = world
