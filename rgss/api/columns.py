@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from rgss.api.column import Column, FrameDescription, Kind
-from rgss.api.metric_columns import phase_metric_columns, trial_metric_columns
+from rgss.api.metric_columns import phase_metric_columns, recorded_column, trial_metric_columns
 
 _VARIANT = Column(name="variant", meaning="id of the design variant", unit="1", kind=Kind.COUNT)
 _SEED = Column(
@@ -74,22 +74,17 @@ _PHASES = FrameDescription(
     index=(_VARIANT, _SEED, Column(name="phase", meaning="the state")),
     columns=(
         Column(name="outcome", meaning="completed, failed or not_run"),
-        Column(name="duration_s", meaning="simulated time that it took", unit="s", kind=Kind.NUMBER),
+        recorded_column("duration_s"),
         Column(name="planning_outcome", meaning="how the planning of the move ended; missing if it is not planned"),
-        Column(name="planning_checks", meaning="state-validity checks of the search", unit="1", kind=Kind.COUNT),
+        recorded_column("planning_checks", Kind.COUNT),
         Column(
             name="planning_simplification_checks",
             meaning="state-validity checks of the simplification, its final check included",
             unit="1",
             kind=Kind.COUNT,
         ),
-        Column(
-            name="planning_time_s",
-            meaning="planning time t_sp by the study's clock: search and simplification",
-            unit="s",
-            kind=Kind.NUMBER,
-        ),
-        Column(name="path_length_m", meaning="length of the tool's path", unit="m", kind=Kind.NUMBER),
+        recorded_column("planning_time_s"),
+        recorded_column("path_length_m"),
         *phase_metric_columns(),
     ),
 )

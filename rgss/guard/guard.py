@@ -42,12 +42,13 @@ from rgss.regression import (
     powers,
     run_failings,
     schema_failings,
+    schema_notes,
     settle,
     unchanged_phases,
     value_changes,
 )
 from rgss.studies import Project, RegressionGuard
-from rgss.trials import METRICS
+from rgss.trials import METRICS, PHASE_METRICS
 
 LONGEST_REASON = 500
 
@@ -104,6 +105,7 @@ def make_baseline(
         study=project.study.id,
         units=_units(guard),
         record=_record_schema(),
+        phase_record={name: metric.unit for name, metric in PHASE_METRICS.items()},
         runs={trials.run.id: _baseline_run(guard, trials, records, inputs, shared) for trials in watched},
         decision=decision,
         origin=origin,
@@ -168,7 +170,7 @@ class _Comparing:
         self._seeds = {trials.run.id: 0 for trials in self._watched}
 
     def run(self, on_look: Callable[[int, int], None] | None, accepted: str) -> RegressionReport:
-        failing = list(schema_failings(self._baseline, _units(self._guard), _record_schema()))
+        failing = list(schema_failings(self._baseline, _units(self._guard)))
         for trials in self._watched:
             failing += run_failings(
                 trials.run.id,
@@ -200,7 +202,7 @@ class _Comparing:
             comparisons=tuple(latest[subject] for subject in sorted(latest, key=_order)),
             behaviour=self._behaviour(inputs),
             failing=(*failing, *unstable),
-            notes=(*self._of_the_baseline(), *notes),
+            notes=(*self._of_the_baseline(), *schema_notes(self._baseline, _record_schema()), *notes),
             looks=settled.looks,
             trials=dict(self._seeds),
             error_rate=self._guard.error_rate,
@@ -222,7 +224,7 @@ class _Comparing:
             count = self._seeds[trials.run.id]
             seeds = trials.seeds(count)
             records = self._records.of(trials, count)
-            same = unchanged_phases(before, fingerprints_of(records), seeds, _PHASES)
+            same = unchanged_phases(before, fingerprints_of(records, self._baseline), seeds, _PHASES)
             for metric, phase in subjects_of(self._guard, trials.run.id):
                 baseline = self._values(trials.run.id, metric.metric, phase)
                 if baseline is None:
@@ -312,7 +314,9 @@ class _Comparing:
             if before is not None:
                 count = self._seeds[trials.run.id]
                 records = self._records.of(trials, count)
-                changed += changed_trials(trials.run.id, before, fingerprints_of(records), trials.seeds(count))
+                changed += changed_trials(
+                    trials.run.id, before, fingerprints_of(records, self._baseline), trials.seeds(count)
+                )
                 compared += sum(len(set(row) & set(before.seeds)) for row in records.values())
         # A file may have changed where no trial reads it. A baseline without values cannot show that.
         harmless = {InputKind.MACHINE, *((InputKind.FILE,) if self._baseline.has_values else ())}

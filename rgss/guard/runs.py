@@ -9,7 +9,7 @@ from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import EvidenceStore, Provenance, TrialRecord
 from rgss.guard.designs import guard_findings, watched_designs
-from rgss.regression import fingerprint, observed
+from rgss.regression import Baseline, fingerprint, observed
 from rgss.studies import GuardedMetric, Project, RegressionGuard, WatchedRun, trial_specs
 from rgss.sweep import key_of
 from rgss.trials.pieces import TrialSpec
@@ -153,9 +153,24 @@ def series_of(
     }
 
 
-def fingerprints_of(records: Mapping[int, Mapping[int, TrialRecord]]) -> dict[int, dict[int, str]]:
-    """The fingerprint of each record by variant and seed."""
-    return {variant: {seed: fingerprint(record) for seed, record in row.items()} for variant, row in records.items()}
+def fingerprints_of(
+    records: Mapping[int, Mapping[int, TrialRecord]], baseline: Baseline | None = None
+) -> dict[int, dict[int, str]]:
+    """The fingerprint of each record by variant and seed.
+
+    Args:
+        records: The records.
+        baseline: The baseline with whose fingerprints they are compared: metrics that records have only since
+            then do not count. None if all count.
+    """
+    metrics = None if baseline is None else baseline.record
+    phase_metrics = None if baseline is None or not baseline.phase_record else baseline.phase_record
+    return {
+        variant: {
+            seed: fingerprint(record, metrics=metrics, phase_metrics=phase_metrics) for seed, record in row.items()
+        }
+        for variant, row in records.items()
+    }
 
 
 def subjects_of(guard: RegressionGuard, run: str) -> Iterable[tuple[GuardedMetric, str]]:

@@ -1,4 +1,4 @@
-"""Forward kinematics, Jacobians and inverse dynamics of the arm at its tool centre."""
+"""Forward kinematics and Jacobians of the arm at its tool centre."""
 
 from __future__ import annotations
 
@@ -13,8 +13,6 @@ from rgss.scenes import Pose, Robot
 
 Vector = NDArray[np.float64]
 
-STANDARD_GRAVITY_M_S2 = 9.80665
-
 
 class Arm:
     """A six-joint arm with a tool at its flange.
@@ -22,20 +20,18 @@ class Arm:
     Args:
         robot: The arm.
         tool: Transform of the tool-centre frame to the flange.
-        gravity_m_s2: Magnitude of gravity along the world's -z, for the inverse dynamics.
 
     Raises:
         DefinitionError: The robot's description and its data contradict each other.
     """
 
-    def __init__(self, robot: Robot, tool: Pose, *, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> None:
+    def __init__(self, robot: Robot, tool: Pose) -> None:
         import pinocchio
 
         self.robot = robot
         self.tool = tool
         self._engine: Any = pinocchio
         self._model = build_model(robot)
-        self._model.gravity.linear = np.array([0.0, 0.0, -gravity_m_s2])
         flange = self._model.frames[self._model.getFrameId(robot.flange)]
         self._tool = self._model.addFrame(
             pinocchio.Frame(
@@ -132,28 +128,6 @@ class Arm:
             self._engine.ReferenceFrame.LOCAL_WORLD_ALIGNED,
         )
         return jacobian
-
-    def inverse_dynamics(
-        self, q: Sequence[float] | Vector, dq: Sequence[float] | Vector, ddq: Sequence[float] | Vector
-    ) -> Vector:
-        """Torques of the bare arm by the recursive Newton-Euler algorithm.
-
-        Args:
-            q: Joint angles in rad, shape (6,).
-            dq: Joint speeds in rad/s, shape (6,).
-            ddq: Joint accelerations in rad/s², shape (6,).
-
-        Returns:
-            Joint torques in N·m, shape (6,).
-        """
-        torques: Vector = self._engine.rnea(
-            self._model,
-            self._data,
-            np.asarray(q, dtype=float),
-            np.asarray(dq, dtype=float),
-            np.asarray(ddq, dtype=float),
-        )
-        return np.array(torques)
 
     def joint_axes(self) -> tuple[Vector, Vector]:
         """Axes of the joints and a point of the tool at the zero configuration, in the world.

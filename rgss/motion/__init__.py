@@ -4,9 +4,9 @@ from rgss.motion.blending import BlendedPath, SmoothPath, blend
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.limits import MotionLimits
 from rgss.motion.paths import JointPath, path_length, segment_states
+from rgss.motion.planners import PLANNERS, Planner
 from rgss.motion.planning import plan
 from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
-from rgss.motion.search import PLANNERS
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory
 from rgss.motion.validity import StateValidity, ToolKinematics
@@ -18,6 +18,7 @@ __all__ = [
     "JointPath",
     "MotionLimits",
     "PlanResult",
+    "Planner",
     "PlanningClock",
     "PlanningProblem",
     "SmoothPath",

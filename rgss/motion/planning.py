@@ -11,8 +11,9 @@ from rgss.evidence.records import PlanOutcome
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.engine import load_engine
 from rgss.motion.paths import JointPath
+from rgss.motion.planners import PLANNERS
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
-from rgss.motion.search import PLANNERS, search
+from rgss.motion.search import search
 from rgss.motion.simplification import shorten
 from rgss.motion.validity import StateValidity
 
@@ -41,8 +42,8 @@ def plan(
 
     Args:
         problem: The move.
-        validity: Tells valid states from invalid ones; its verdict depends on the state alone.
-        planner: One of `PLANNERS`.
+        validity: Validity of a state; depends on the state alone.
+        planner: Name of one of `PLANNERS`.
         seed: Seed of the search and of the simplification, at least 0.
         budget_checks: Greatest number of validity checks of the search.
         simplification_checks: Greatest number of validity checks of looking for shortcuts; 0 leaves the path as found.
@@ -114,14 +115,12 @@ def _check_arguments(
     planner: str, seed: int, budget_checks: int, simplification_checks: int, simplification_limit_s: float
 ) -> None:
     if planner not in PLANNERS:
-        raise MotionError(f"there is no planner {planner!r}", hint=f"the planners are {', '.join(PLANNERS)}")
+        raise MotionError(f"unknown planner {planner!r}", hint=f"the planners are {', '.join(PLANNERS)}")
     if seed < 0:
-        raise MotionError(f"{seed} is no seed", hint="give a whole number of at least 0")
+        raise MotionError(f"seed must be at least 0, got {seed}", hint="give a whole number")
     if budget_checks < 0 or simplification_checks < 0:
-        raise MotionError(
-            f"a budget of {min(budget_checks, simplification_checks)} validity checks is impossible",
-            hint="give a whole number of at least 0",
-        )
+        least = min(budget_checks, simplification_checks)
+        raise MotionError(f"a budget of validity checks must be at least 0, got {least}", hint="give a whole number")
     if not simplification_limit_s >= 0.0:
         raise MotionError(
             f"the simplification limit must be at least 0 s, got {simplification_limit_s:g} s",

@@ -12,19 +12,16 @@ from numpy.typing import NDArray
 
 from rgss.motion.engine import Engine, load_engine
 from rgss.motion.motion_validation import motion_validator
+from rgss.motion.planners import PLANNERS
 from rgss.motion.problem import PlanningProblem
 from rgss.motion.validity import StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
 
-PLANNERS: tuple[str, ...] = ("RRT", "TRRT", "STRIDE")
-"""Names of the planners: rapidly-exploring random trees, their transition-based kind, and search tree
-with resolution-independent density estimation."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SearchResult:
-    """What a search found.
+    """Result of a search.
 
     Attributes:
         corners: Corners of the path found in rad, shape (n, joints); None when it was ended before.
@@ -44,14 +41,14 @@ def search(
     is_over: Callable[[int], bool],
     range_rad: float | None = None,
 ) -> SearchResult:
-    """Run a planner until it finds a path or is told to stop.
+    """Run a planner until it finds a path or its termination predicate holds.
 
     Args:
         problem: The move; its start and goal are valid.
-        validity: Tells valid states from invalid ones.
-        planner: One of `PLANNERS`.
+        validity: Validity of a state.
+        planner: Name of one of `PLANNERS`.
         seed: Seed of the engine's random numbers, at least 1.
-        is_over: Told the number of checks so far before every step of the planner; ends the search when true.
+        is_over: Termination predicate, called with the check count before every step of the planner.
         range_rad: Longest step of the planner's tree; the planner's own default when None.
     """
     engine = load_engine()
@@ -87,7 +84,10 @@ def search(
     definition.setStartAndGoalStates(
         _state(engine, information, problem.start), _state(engine, information, problem.goal)
     )
-    algorithm = getattr(engine.geometric, planner)(information)
+    entry = PLANNERS[planner]
+    algorithm = getattr(engine.geometric, entry.ompl_class)(information)
+    for setter, value in entry.settings.items():
+        getattr(algorithm, setter)(value)
     if range_rad is not None:
         algorithm.setRange(range_rad)
     algorithm.setProblemDefinition(definition)

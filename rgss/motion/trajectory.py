@@ -1,4 +1,4 @@
-"""A smooth path with its timing: where every joint is at every time."""
+"""Trajectory: a smooth path with its timing."""
 
 from __future__ import annotations
 
@@ -39,41 +39,19 @@ class Trajectory:
         """Time from start to end."""
         return float(self.times_s[-1])
 
-    def sample(self, times: ArrayLike) -> tuple[Vector, Vector, Vector]:
-        """Joint angles, speeds and accelerations at given times.
+    def positions(self, times: ArrayLike) -> Vector:
+        """Joint angles in rad, shape (n, joints), at given times (s).
 
         Before the start and after the end the arm rests there.
 
         Args:
             times: Times in s, shape (n,).
-
-        Returns:
-            q in rad, dq in rad/s and ddq in rad/s², each of shape (n, joints).
         """
-        asked = np.atleast_1d(np.asarray(times, dtype=float))
-        moving = ((asked >= 0.0) & (asked <= self.duration_s) & (self.duration_s > 0.0)).astype(float)
-        parameter, rate, acceleration = self._progress(asked)
-        rate, acceleration = rate * moving, acceleration * moving
-        first = self.path(parameter, 1)
-        second = self.path(parameter, 2)
-        return (
-            self.path(parameter),
-            first * rate[:, None],
-            first * acceleration[:, None] + second * rate[:, None] ** 2,
-        )
-
-    def positions(self, times: ArrayLike) -> Vector:
-        """Joint angles alone, in rad, shape (n, joints), at given times (s); as `sample` has them."""
-        return self.path(self._progress(np.atleast_1d(np.asarray(times, dtype=float)))[0])
-
-    def _progress(self, asked: Vector) -> tuple[Vector, Vector, Vector]:
-        """The path's parameter at given times, and its first two derivatives by time while the motion lasts."""
-        time = np.clip(asked, 0.0, self.duration_s)
+        time = np.clip(np.atleast_1d(np.asarray(times, dtype=float)), 0.0, self.duration_s)
         knot = np.clip(np.searchsorted(self.times_s, time, side="right") - 1, 0, len(self.times_s) - 2)
         span = self.times_s[knot + 1] - self.times_s[knot]
         safe = np.where(span > 0.0, span, 1.0)
         acceleration = np.where(span > 0.0, (self.rates[knot + 1] - self.rates[knot]) / safe, 0.0)
         since = time - self.times_s[knot]
         parameter = self.parameters[knot] + self.rates[knot] * since + 0.5 * acceleration * since**2
-        parameter = np.clip(parameter, self.parameters[knot], self.parameters[knot + 1])
-        return parameter, self.rates[knot] + acceleration * since, acceleration
+        return self.path(np.clip(parameter, self.parameters[knot], self.parameters[knot + 1]))

@@ -197,11 +197,6 @@ class World:
         position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
         return Pose(position_m=position, quaternion_xyzw=orientation)
 
-    def workpiece_speed(self) -> tuple[float, float]:
-        """Linear (m/s) and angular (rad/s) speed of the workpiece."""
-        linear, angular = self._engine.getBaseVelocity(self._workpiece, physicsClientId=self._client)
-        return math.fsum(v * v for v in linear) ** 0.5, math.fsum(w * w for w in angular) ** 0.5
-
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world as the arm really stands."""
         return self.hand_view().tool

@@ -20,11 +20,12 @@ if TYPE_CHECKING:
         decision_changes,
         run_failings,
         schema_failings,
+        schema_notes,
         unchanged_phases,
     )
     from rgss.regression.input_changes import InputChange, InputKind, Inputs, origin_changes, value_changes
     from rgss.regression.looking import settle
-    from rgss.regression.observing import OF_PHASES, SUCCESS, fingerprint, observed
+    from rgss.regression.observing import RECORDED_OF_PHASES, SUCCESS, fingerprint, observed
     from rgss.regression.power import MEAN_LOSS, MOST_SEEDS, TARGET, Power, powers
     from rgss.regression.report import Behaviour, ChangedTrial, Failing, FailureCause, RegressionReport
     from rgss.regression.sign_flips import FEWEST_SEEDS, adjusted_p_values
@@ -35,7 +36,7 @@ __all__ = [
     "FEWEST_SEEDS",
     "MEAN_LOSS",
     "MOST_SEEDS",
-    "OF_PHASES",
+    "RECORDED_OF_PHASES",
     "SUCCESS",
     "TARGET",
     "WHOLE_TRIAL",
@@ -69,6 +70,7 @@ __all__ = [
     "read_baseline",
     "run_failings",
     "schema_failings",
+    "schema_notes",
     "settle",
     "unchanged_phases",
     "value_changes",

@@ -11,11 +11,14 @@ from typing import Any
 from rgss.errors import EvidenceError
 from rgss.evidence.records import plain_json, read_plain
 
-SCHEMA = 3
+SCHEMA = 4
 """The form of the file."""
 
+_WITHOUT_PHASE_RECORD = 3
+"""An earlier schema without the metrics of phases; it is still read."""
+
 _WITHOUT_VALUES = 2
-"""The schema before it, which has no values of inputs; it is still read."""
+"""An earlier schema that lacks the values of inputs too; it is still read."""
 
 LARGEST_FILE_BYTES = 32 * 1024 * 1024
 
@@ -25,7 +28,7 @@ Values = Mapping[str, Mapping[str, Mapping[str, tuple[float | None, ...]]]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BaselineRun:
-    """The trials of one run.
+    """Trials of one run.
 
     Attributes:
         fidelity: How much physics they had.
@@ -105,7 +108,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Baseline:
-    """What metrics and the decision are held against.
+    """Baseline with which metrics and the decision are compared.
 
     Attributes:
         study: The study's id.
@@ -116,6 +119,7 @@ class Baseline:
         origin: Where the values come from.
         history: Every change of the file, the first one first.
         inputs: The values of those inputs that all trials share, by dotted name, as text.
+        phase_record: Name and unit of every metric that a phase's record may have; empty if it is not known.
         schema: The form of the file.
     """
 
@@ -127,6 +131,7 @@ class Baseline:
     origin: BaselineOrigin
     history: tuple[Change, ...]
     inputs: Mapping[str, str] = field(default_factory=dict, hash=False)
+    phase_record: Mapping[str, str] = field(default_factory=dict, hash=False)
     schema: int = SCHEMA
 
     @property
@@ -172,7 +177,7 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
         raise EvidenceError(f"the baseline {label} is not UTF-8", hint=again) from None
     if not isinstance(data, dict) or "schema" not in data:
         raise EvidenceError(f"{label} is no baseline: it has no 'schema'", hint=again)
-    if data["schema"] == _WITHOUT_VALUES:
+    if data["schema"] in (_WITHOUT_VALUES, _WITHOUT_PHASE_RECORD):
         _add_empty_values(data)
     elif data["schema"] != SCHEMA:
         raise EvidenceError(f"the baseline {label} has schema {data['schema']!r}; {SCHEMA} is read", hint=again)
@@ -185,7 +190,10 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
 
 
 def _add_empty_values(data: dict[str, Any]) -> None:
-    """Bring a baseline of schema 2 into the present form, where its parts are what they should be."""
+    """Bring a baseline of an earlier schema into the present form, where its parts are what they should be."""
+    data.setdefault("phase_record", {})
+    if data["schema"] != _WITHOUT_VALUES:
+        return
     runs = data.get("runs")
     parts = [(data, ("inputs",)), (data.get("origin"), ("modules", "constants"))]
     parts += [(run, ("inputs",)) for run in (runs.values() if isinstance(runs, dict) else ())]

@@ -10,13 +10,12 @@ from rgss.regression.observing import first_difference
 from rgss.regression.report import ChangedTrial, Failing, FailureCause
 
 
-def schema_failings(baseline: Baseline, units: Mapping[str, str], record: Mapping[str, str]) -> Iterator[Failing]:
-    """What changed in what trials observe, which makes old values and new ones incomparable.
+def schema_failings(baseline: Baseline, units: Mapping[str, str]) -> Iterator[Failing]:
+    """Changes of the guarded metrics, which make old values and new ones incomparable.
 
     Args:
         baseline: The baseline.
         units: The unit of each guarded metric now.
-        record: Name and unit of every metric that a trial's record has now.
     """
     for name, unit in sorted(baseline.units.items()):
         if name not in units:
@@ -27,12 +26,25 @@ def schema_failings(baseline: Baseline, units: Mapping[str, str], record: Mappin
             yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"{name} was in {unit} and is in {units[name]}")
     for name in sorted(units.keys() - baseline.units.keys()):
         yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"the study guards {name}, the baseline does not")
-    gone = sorted(baseline.record.keys() - record.keys())
+
+
+def schema_notes(baseline: Baseline, record: Mapping[str, str]) -> Iterator[str]:
+    """Changes of the metrics of records that are not guarded.
+
+    A new metric fails nothing and changes no fingerprint. One that is gone or has another unit leaves its trace in
+    the fingerprints, where it is a change of behaviour.
+
+    Args:
+        baseline: The baseline.
+        record: Name and unit of every metric that a trial's record has now.
+    """
+    before = {name: unit for name, unit in baseline.record.items() if name not in baseline.units}
+    gone = sorted(before.keys() - record.keys())
     new = sorted(record.keys() - baseline.record.keys())
-    other = sorted(name for name in record.keys() & baseline.record.keys() if record[name] != baseline.record[name])
-    for names, said in ((gone, "no longer have"), (new, "newly have"), (other, "have another unit for")):
+    other = sorted(name for name in record.keys() & before.keys() if record[name] != before[name])
+    for names, change in ((gone, "no longer have"), (new, "newly have"), (other, "have another unit for")):
         if names:
-            yield Failing(trouble=FailureCause.CHANGED_SCHEMA, text=f"trials {said} {', '.join(names)}")
+            yield f"trials {change} {', '.join(names)}, which the baseline does not guard"
 
 
 def run_failings(

@@ -1,23 +1,32 @@
-"""What a trial's record says of a metric, over the whole trial or in one phase."""
+"""Values of metrics in a record, over the whole trial or in one phase, and fingerprints of records."""
 
 from __future__ import annotations
 
+from collections.abc import Container, Mapping
+from dataclasses import replace
+from operator import attrgetter
+
 from rgss.documents import digest
-from rgss.evidence import Phase, PhaseOutcome, PhaseRecord, TrialRecord
+from rgss.evidence import Metric, Phase, PhaseOutcome, PhaseRecord, TrialRecord
 from rgss.evidence.records import record_digest
 from rgss.regression.comparing import WHOLE_TRIAL
 
 SUCCESS = "success"
 """The metric that is 1 where a trial, or a phase that was reached, was completed, and 0 where not."""
 
-OF_PHASES = {"duration_s": "s", "planning_time_s": "s", "path_length_m": "m", "planning_checks": "1"}
-"""Units of what is known of a phase beside its own metrics."""
+_OF_PLANNING = {
+    "planning_time_s": attrgetter("time_s"),
+    "path_length_m": attrgetter("path_length_m"),
+    "planning_checks": attrgetter("checks"),
+}
+RECORDED_OF_PHASES = (SUCCESS, "duration_s", *_OF_PLANNING)
+"""Metrics of a phase that are fields of its record or of its planning, not among the metrics that it observes."""
 
 _SHORT = 12
 
 
 def observed(record: TrialRecord, metric: str, phase: str) -> float | None:
-    """The value of a metric; None where the trial does not tell.
+    """The value of a metric; None where the record has none.
 
     Args:
         record: The trial's record.
@@ -31,28 +40,34 @@ def observed(record: TrialRecord, metric: str, phase: str) -> float | None:
         return None if state.outcome is PhaseOutcome.NOT_RUN else float(state.outcome is PhaseOutcome.COMPLETED)
     if metric == "duration_s":
         return _number(state.duration_s)
-    if metric in OF_PHASES:
+    if metric in _OF_PLANNING:
         planned = next((one for one in record.planning if one.subtask.value == phase), None)
         if planned is None or state.outcome is PhaseOutcome.NOT_RUN:
             return None
-        return _number(
-            {
-                "planning_time_s": planned.time_s,
-                "path_length_m": planned.path_length_m,
-                "planning_checks": planned.checks,
-            }[metric]
-        )
+        return _number(_OF_PLANNING[metric](planned))
     return _number(state.metrics.get(metric))
 
 
-def fingerprint(record: TrialRecord) -> str:
+def fingerprint(
+    record: TrialRecord, *, metrics: Container[str] | None = None, phase_metrics: Container[str] | None = None
+) -> str:
     """The digest of a record and, behind it, a short one of each phase in order, with blanks between.
 
     They are equal only if every bit of every number is.
 
+    Args:
+        record: The record.
+        metrics: The metrics of the trial that count; all if None.
+        phase_metrics: The metrics of phases that count; all if None.
+
     Raises:
         EvidenceError: The record cannot be written.
     """
+    record = replace(
+        record,
+        metrics=_among(record.metrics, metrics),
+        phases=tuple(replace(one, metrics=_among(one.metrics, phase_metrics)) for one in record.phases),
+    )
     planning = {one.subtask: one for one in record.planning}
     parts = []
     for one in record.phases:
@@ -71,6 +86,10 @@ def first_difference(before: str, now: str) -> str:
 
 def _plain(phase: PhaseRecord) -> list[object]:
     return [phase.phase, phase.outcome, phase.duration_s, dict(phase.metrics)]
+
+
+def _among(found: Mapping[str, Metric], names: Container[str] | None) -> Mapping[str, Metric]:
+    return found if names is None else {name: value for name, value in found.items() if name in names}
 
 
 def _number(value: object) -> float | None:

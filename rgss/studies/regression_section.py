@@ -12,27 +12,11 @@ from rgss.errors import QuantityError
 from rgss.evidence import Fidelity, Phase
 from rgss.findings import Finding, shown
 from rgss.quantities import parse_quantity
-from rgss.regression import OF_PHASES, SUCCESS, WHOLE_TRIAL, Guard
-from rgss.trials import METRICS
+from rgss.regression import SUCCESS, WHOLE_TRIAL, Guard
+from rgss.trials import METRICS, PHASE_METRICS
 
 MOST_SEEDS = 200
 """Seeds of a variant that a guard may take."""
-
-PHASE_METRICS = {
-    **{name: kind.unit for name, kind in METRICS.items() if kind.length is None},
-    **OF_PHASES,
-    "opening_s": "s",
-    "settling_s": "s",
-    "release_height_m": "m",
-    "landing_force_n": "N",
-    "landing_speed_m_s": "m/s",
-    "touch_force_n": "N",
-    "tightenings": "1",
-    "finger_force_needed_n": "N",
-    "workpiece_displacement_m": "m",
-    "workpiece_tilt_rad": "rad",
-}
-"""The unit of each metric that a phase may observe."""
 
 _PHASES = tuple(phase.value for phase in Phase)
 
@@ -49,6 +33,21 @@ MarginText = Annotated[
 ]
 
 
+GuardableName = Annotated[
+    Identifier,
+    Field(
+        json_schema_extra={
+            "oneOf": [
+                {"const": name, "description": f"{metric.meaning} [{metric.unit}]"}
+                for name, metric in sorted({**PHASE_METRICS, **METRICS}.items())
+                if metric.length is None or (name in PHASE_METRICS and metric.length_in_phase is None)
+            ]
+        }
+    ),
+]
+"""A metric that is a single number, of the trial or of phases."""
+
+
 class RegressionRunEntry(DocumentModel):
     """Trials that are watched."""
 
@@ -63,7 +62,7 @@ class RegressionRunEntry(DocumentModel):
 class RegressionMetricEntry(DocumentModel):
     """A metric that is guarded."""
 
-    metric: Identifier
+    metric: GuardableName
     runs: Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
     phases: Literal["all"] | Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
     better: Literal["higher", "lower", "neither"]
@@ -236,20 +235,21 @@ class _Reader:
         )
 
     def _unit(self, entry: RegressionMetricEntry, at: tuple[str | int, ...]) -> str | None:
-        name = entry.metric
-        if entry.phases is not None:
-            if name not in PHASE_METRICS:
-                self._report(f"no phase observes a metric {name!r}", (*at, "metric"), _near(name, tuple(PHASE_METRICS)))
-            return PHASE_METRICS.get(name)
-        kind = METRICS.get(name)
-        if kind is None:
-            self._report(f"no trial observes a metric {name!r}", (*at, "metric"), _near(name, tuple(METRICS)))
+        """Unit of a metric that is a single number; None if it is reported."""
+        name, in_phases = entry.metric, entry.phases is not None
+        metrics, observer = (PHASE_METRICS, "phase") if in_phases else (METRICS, "trial")
+        metric = metrics.get(name)
+        if metric is None:
+            self._report(f"no {observer} observes a metric {name!r}", (*at, "metric"), _near(name, tuple(metrics)))
             return None
-        if kind.length is not None:
-            hint = "write 'phases: all'" if name in PHASE_METRICS else "guard one that is a single number"
-            self._report(f"{name} is a row of {kind.length} numbers", (*at, "metric"), hint)
+        length = metric.length_in_phase if in_phases else metric.length
+        if length is not None:
+            count = f"{length} numbers" if length else "numbers, one per finger"
+            is_number_of_phase = name in PHASE_METRICS and PHASE_METRICS[name].length_in_phase is None
+            hint = "write 'phases: all'" if is_number_of_phase else "guard one that is a single number"
+            self._report(f"{name} is a row of {count}", (*at, "metric"), hint)
             return None
-        return kind.unit
+        return metric.unit
 
     def _margins(self, entry: RegressionMetricEntry, unit: str, at: tuple[str | int, ...]) -> tuple[float, float]:
         """The margin in the metric's unit, and its share of the baseline's mean, 0 if it has none."""

@@ -5,17 +5,13 @@ The guesses decide the order of the work and the remaining time that is shown, n
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
-
 from rgss.evidence import PieceKind
+from rgss.motion import PLANNERS
 from rgss.trials.pieces import Task, TrialTask
 
 TaskClass = tuple[str, str, float]
 """Tasks that take about the same time: what they make, the planner, the tool speed."""
 
-_SEARCH_S: Mapping[str, float] = MappingProxyType({"STRIDE": 1.0, "TRRT": 0.2})
-_OTHER_SEARCH_S = 0.1
 _TIMING_S = 0.05
 _MOTION_M = 0.3
 _BENCH_S = 0.4
@@ -66,7 +62,7 @@ class Durations:
 
 def _guess_s(tasks: TaskClass) -> float:
     what, planner, speed_m_s = tasks
-    search_s = _SEARCH_S.get(planner, _OTHER_SEARCH_S)
+    search_s = PLANNERS[planner].typical_search_s if planner in PLANNERS else 0.0
     motion_s = _MOTION_M / speed_m_s if speed_m_s > 0.0 else 0.0
     return {
         PieceKind.PLAN.value: search_s,

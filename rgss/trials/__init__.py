@@ -8,7 +8,8 @@ if TYPE_CHECKING:
     from rgss.trials.filming import Film
     from rgss.trials.goal_reasons import Obstacle
     from rgss.trials.impact import ClosingImpact, closing_impact
-    from rgss.trials.metrics import AT_GRASP, METRICS, MetricKind
+    from rgss.trials.lifecycle import Simulation, SimulationState
+    from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.settings import PlanningSettings, TrialSettings
     from rgss.trials.tracing import run_traced_trial
@@ -17,15 +18,20 @@ else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
-    "AT_GRASP",
     "METRICS",
+    "PHASE_METRICS",
+    "Aggregation",
     "ClosingImpact",
+    "Direction",
     "Film",
-    "MetricKind",
+    "MetricDescriptor",
     "Obstacle",
+    "PhaseValue",
     "PlanningSettings",
     "SceneProblem",
     "SceneProblemKind",
+    "Simulation",
+    "SimulationState",
     "TrialSettings",
     "TrialSpec",
     "closing_impact",

@@ -1,4 +1,4 @@
-"""The highest fidelity: arm, hand, object and scene in contact."""
+"""Plant of the highest fidelity: arm, hand, object and scene in contact."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from rgss.evidence import Failure, Metric, Phase
-from rgss.grasping import GraspGeometryCache, configuration_distance_m
+from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, World
 from rgss.scenes import Pose
+from rgss.trials.grip_control import GripControl
 from rgss.trials.monitors import (
     DragMonitor,
     ForceSensor,
@@ -20,6 +21,7 @@ from rgss.trials.monitors import (
     ToolKinematics,
     grasp_metrics,
 )
+from rgss.trials.object_checks import check_displacement, check_place, has_moved
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants import ControlSettings
 from rgss.trials.program import run_program
@@ -50,7 +52,7 @@ class Execution:
             references: Targets of the moves; the program ends before the first move that has none.
             control: Thresholds.
             kinematics: The arm's, with the tool at the grasp centre.
-            observer: Looks on after every step.
+            observer: Callback after each step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
         """
         self._world = world
@@ -64,9 +66,7 @@ class Execution:
         self._held_at: Pose | None = None
         self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
-        self._grip_n = control.holding_share * world.gripper.finger_force_n
-        self._since_tightening_s = 0.0
-        self._tightenings = 0
+        self._grip = GripControl(world, control)
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
@@ -82,7 +82,7 @@ class Execution:
         """Follow a timed motion, with what is held."""
         world = self._world
         carried_at = self._held_at if phase in CARRYING else None
-        self._tightenings = 0
+        self._grip.tightenings = 0
         placed = PlacedObjectMonitor(world) if phase is Phase.MOVE_TO_GRASP_APPROACH else None
         watch = self._watch(carried_at, self._resting_on(phase), reference.tool_m, placed)
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
@@ -108,9 +108,9 @@ class Execution:
                 self._show(phase, watch, contacts)
             if carried_at is not None:
                 is_held = min(contacts.finger_forces_n) > 0.0
-                self._since_tightening_s += self._step_s
+                self._grip.since_tightening_s += self._step_s
                 if watch.grip_margin is not None and watch.grip_margin < least_margin:
-                    self._keep_grip()
+                    self._grip.keep()
             if watch.failure is not None:
                 break
         world.solve_freely(free=False)
@@ -120,38 +120,25 @@ class Execution:
         metrics["commanded_tool_speed_m_s"] = reference.peak_tool_speed_m_s
         metrics["commanded_tool_acceleration_m_s2"] = reference.peak_tool_acceleration_m_s2
         if carried_at is not None:
-            metrics["tightenings"] = self._tightenings
+            metrics["tightenings"] = self._grip.tightenings
         if watch.failure is None:
             self._judge_move(phase, watch, metrics)
         return self._result(phase, watch, steps, metrics)
 
     def _judge_move(self, phase: Phase, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
-        """After a move: the object must stand where it stood, or at the end in its place."""
+        """After a move: the object must not have moved, or at the end must be in its place."""
         if phase is Phase.MOVE_TO_GRASP:
-            start = self._world.scene.workpiece.pose
-            moved = math.dist(self._world.workpiece_pose().position_m, start.position_m)
-            metrics["workpiece_displacement_m"] = moved
-            if moved > self._control.displaced_m:
-                watch.fail(*self._why_displaced(moved, touched=watch.robot_touched_object))
+            metrics["workpiece_displacement_m"], violation = check_displacement(
+                self._world, self._control.displaced_m, touched=watch.robot_touched_object
+            )
+            watch.note(violation)
         elif phase is Phase.MOVE_TO_GRASP_APPROACH:
             self._judge_place(watch, metrics)
 
-    def _why_displaced(self, moved_m: float, *, touched: bool) -> tuple[Failure, str]:
-        """What became of an object that is not where it was before the grasp."""
-        told = f"{moved_m * 1e3:.1f} mm before the grasp"
-        if touched:
-            return Failure.OBJECT_COLLISION, f"the object was pushed {told}"
-        pose, start = self._world.workpiece_pose(), self._world.scene.workpiece.pose
-        tilt_rad = pose.tilt_rad
-        if tilt_rad > self._world.scene.place.largest_tilt_rad:
-            return (
-                Failure.NOT_UPRIGHT,
-                f"the object toppled by itself: it leans by {math.degrees(tilt_rad):.0f}° and moved {told}",
-            )
-        fallen_m = start.position_m[2] - pose.position_m[2]
-        if fallen_m > self._control.displaced_m:
-            return Failure.OBJECT_DROPPED, f"the object fell by itself: {fallen_m * 1e3:.1f} mm before the grasp"
-        return Failure.OBJECT_DROPPED, f"the object slid by itself: {told}"
+    def _judge_place(self, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
+        placed, violation = check_place(self._world)
+        metrics.update(placed)
+        watch.note(violation)
 
     def _resting_on(self, phase: Phase) -> str:
         scene = self._world.scene
@@ -170,8 +157,8 @@ class Execution:
         friction = gripper.friction * scene.workpiece.friction
         needed_n = scene.workpiece.mass_kg * scene.gravity_m_s2 / (friction * fingers)
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
-        world.drive_fingers(gripper.finger_velocity_m_s, self._grip_n)
-        self._tightenings = 0
+        self._grip.close()
+        self._grip.tightenings = 0
         hand, look_every = (
             InHandMotionTracker(world),
             max(1, round(world.settings.rate_hz / control.observation_rate_hz)),
@@ -189,7 +176,7 @@ class Execution:
             touching_s = touching_s + self._step_s if min(forces) > 0.0 else 0.0
             if firm_s == 0.0 and touching_s > control.firm_grasp_s:
                 touching_s = 0.0
-                self._tighten()
+                self._grip.tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 shown = ", ".join(f"{force:.2f}" for force in forces)
                 watch.fail(Failure.NO_FIRM_GRASP, f"fingers press with {shown} N, each needs {needed_n:.2f} N")
@@ -197,7 +184,7 @@ class Execution:
         metrics = watch.metrics()
         metrics["finger_force_n"] = forces
         metrics["finger_force_needed_n"] = needed_n
-        metrics["tightenings"] = self._tightenings
+        metrics["tightenings"] = self._grip.tightenings
         metrics["finger_travel_m"] = world.finger_travel_m()
         if watch.failure is None:
             metrics.update(grasp_metrics(world, hand.motion, self._held_at, self._memory))
@@ -234,7 +221,7 @@ class Execution:
             waited_s += self._step_s
             still_s += self._step_s
             stands_at = world.workpiece_pose()
-            if self._is_away(stands_at, stood_at):
+            if has_moved(world, control, stood_at, stands_at):
                 still_s, stood_at = 0.0, stands_at
         if contacts.fingers_touching:
             watch.fail(Failure.NOT_RELEASED, f"{contacts.fingers_touching} fingers still touch the object")
@@ -245,47 +232,6 @@ class Execution:
         metrics["settling_s"] = waited_s - still_s
         self._judge_place(watch, metrics)
         return self._result(Phase.PLACE, watch, steps, metrics)
-
-    def _is_away(self, stands_at: Pose, stood_at: Pose) -> bool:
-        """Whether the object has left where it stood, by its centre or by turning about it.
-
-        By the way and not by the speed: when the engine finds a resting body's contacts anew, the body has a speed
-        for one step and no way to speak of.
-        """
-        control, shape = self._control, self._world.scene.workpiece.shape
-        moved_m = configuration_distance_m(stood_at, stands_at, shape.half_height_m)
-        return moved_m > control.settled_speed_m_s * control.settled_s
-
-    def _judge_place(self, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
-        scene, pose = self._world.scene, self._world.workpiece_pose()
-        x, y, z = pose.position_m
-        centre = scene.place.centre_m
-        error, tilt = math.dist((x, y), centre[:2]), pose.tilt_rad
-        metrics["place_error_m"] = error
-        metrics["place_tilt_rad"] = tilt
-        height_error = abs(z - centre[2] - scene.workpiece.shape.half_height_m)
-        if tilt > scene.place.largest_tilt_rad:
-            watch.fail(Failure.NOT_UPRIGHT, f"the object leans by {math.degrees(tilt):.1f} deg")
-        if error > scene.place.radius_m or height_error > scene.place.radius_m:
-            watch.fail(
-                Failure.NOT_IN_PLACE_REGION,
-                f"the object is {error * 1e3:.1f} mm from the place and {height_error * 1e3:.1f} mm off its height",
-            )
-
-    def _keep_grip(self) -> None:
-        """Close further where friction is short of what the load needs."""
-        if self._since_tightening_s >= self._control.force_window_s:
-            self._tighten()
-
-    def _tighten(self) -> None:
-        gripper = self._world.gripper
-        if self._grip_n >= gripper.finger_force_n:
-            return
-        added_n = self._control.tightening_share * gripper.finger_force_n
-        self._grip_n = min(gripper.finger_force_n, self._grip_n + added_n)
-        self._since_tightening_s = 0.0
-        self._tightenings += 1
-        self._world.drive_fingers(gripper.finger_velocity_m_s, self._grip_n)
 
     def _hold_arm_and_step(self) -> None:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
@@ -320,7 +266,7 @@ class Execution:
     def _show(self, phase: Phase, watch: PhaseMonitor, contacts: Contacts) -> None:
         """Let others look at the step, and wait or end the task."""
         if self._observer is not None:
-            force_n = self._grip_n if phase is Phase.GRASP or phase in CARRYING else None
+            force_n = self._grip.force_n if phase is Phase.GRASP or phase in CARRYING else None
             self._observer.after_step(self._world, phase, contacts, watch.grip_margin, force_n)
         if self._checkpoint is not None:
             self._checkpoint()

@@ -1,4 +1,4 @@
-"""A simulation as its user handles it: initialise, execute, pause, resume, shut down."""
+"""Lifecycle of a simulation: initialise, execute, pause, resume, shut down."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.trials.pieces import Pieces, TrialSpec
 
 
 class SimulationState(str, Enum):
-    """Where a simulation stands."""
+    """State of a simulation."""
 
     CREATED = "created"
     READY = "ready"
@@ -36,7 +36,7 @@ class Simulation:
 
         Args:
             spec: The trial.
-            observer: Looks on after every physics step in contact.
+            observer: Callback after each physics step in contact.
         """
         self._spec = spec
         self._pieces = Pieces(observer=observer, checkpoint=self._wait_while_paused)
@@ -48,7 +48,7 @@ class Simulation:
 
     @property
     def state(self) -> SimulationState:
-        """Where it stands."""
+        """Its state."""
         return self._state
 
     def __enter__(self) -> Simulation:

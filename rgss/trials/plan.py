@@ -111,7 +111,7 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
 
     Args:
         cell: Scene, arm and collision models.
-        planner: RRT, TRRT or STRIDE.
+        planner: Name of one of `rgss.motion.PLANNERS`.
         seed: The trial's seed.
         settings: Clock, limit, resolution.
     """

@@ -16,8 +16,7 @@ from rgss.evidence import (
     PlanOutcome,
     TrialRecord,
 )
-from rgss.trials.metrics import AT_GRASP
-from rgss.trials.monitors import GREATEST, LEAST, worst_of
+from rgss.trials.metrics import METRICS, Aggregation, Direction, MetricDescriptor
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import PlannedMove, TaskPlan
 from rgss.trials.trial_spec import TrialSpec
@@ -27,15 +26,6 @@ _PLANNING_FAILURES = {
     PlanOutcome.INVALID_START: Failure.INVALID_START,
     PlanOutcome.INVALID_GOAL: Failure.INVALID_GOAL,
 }
-_GREATEST = (
-    "peak_tool_speed_m_s",
-    "peak_tool_acceleration_m_s2",
-    "sensed_finger_force_n",
-    "peak_finger_force_n",
-    "peak_joint_torque_ratio",
-    "tracking_error_m",
-    "slip_m",
-)
 _CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 
 
@@ -104,7 +94,7 @@ def assemble_record(
         failure_detail=detail,
         phases=tuple(phases),
         planning=tuple(planning),
-        metrics={**_metrics(phases, planning, success=failure is None), "bench_payload_kg": bench_payload_kg},
+        metrics=_metrics(phases, planning, success=failure is None, bench_payload_kg=bench_payload_kg),
     )
 
 
@@ -134,20 +124,15 @@ def _limit_detail(planned: PlannedMove, spec: TrialSpec) -> str:
     return f"{spec.planner} found no path in {spec.planning_limit_s:g} s ({planned.checks} validity checks)"
 
 
-def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], *, success: bool) -> dict[str, Metric]:
-    durations = [phase.duration_s for phase in phases if phase.duration_s is not None]
-    motion_s = math.fsum(durations)
-    times = [record.time_s for record in planning if record.time_s is not None]
-    by_phase = {record.phase: record for record in phases}
-    closing = by_phase[Phase.GRASP]
-    placing = by_phase[Phase.PLACE]
-    opening_s = placing.metrics.get("opening_s")
-    cycle_s: Metric = None
-    if closing.outcome is PhaseOutcome.COMPLETED and isinstance(opening_s, float) and closing.duration_s is not None:
-        cycle_s = closing.duration_s + opening_s
-    touches = [count for p in phases if isinstance(count := p.metrics.get("arm_scene_contacts"), int)]
-    margins = [m for p in phases if isinstance(m := p.metrics.get("grip_margin_min"), float)]
-    metrics: dict[str, Metric] = {
+def _metrics(
+    phases: Sequence[PhaseRecord],
+    planning: Sequence[PlanningRecord],
+    *,
+    success: bool,
+    bench_payload_kg: float | None,
+) -> dict[str, Metric]:
+    """Every metric of the trial: those that are computed here, the others aggregated as their descriptor states."""
+    computed: dict[str, Metric] = {
         "success": int(success),
         "phases_completed": sum(phase.outcome is PhaseOutcome.COMPLETED for phase in phases),
         "phases_total": len(phases),
@@ -156,57 +141,73 @@ def _metrics(phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], 
             None if record.outcome is PlanOutcome.NOT_RUN else record.checks for record in planning
         ),
         "path_length_m": tuple(record.path_length_m for record in planning),
-        "motion_time_s": motion_s,
-        "task_time_s": motion_s + math.fsum(times) if success else None,
-        "grasp_cycle_time_s": cycle_s,
-        "grip_margin_min": min(margins, default=None),
-        "arm_scene_contacts": sum(touches) if touches else None,
-        "place_error_m": _last(phases, "place_error_m"),
-        "place_tilt_rad": _last(phases, "place_tilt_rad"),
+        **_durations(phases, planning, success=success),
+        "most_loaded_joint": _most_loaded_joint(phases),
+        "grasp_force_closure_share_1": _force_closure_share(phases),
+        "bench_payload_kg": bench_payload_kg,
     }
-    for name in _GREATEST:
-        values = [v for p in phases if isinstance(v := p.metrics.get(name), float)]
-        metrics[name] = max(values, default=None)
-    return {**metrics, **_joint_load(phases), **_grasp(by_phase)}
+    return {
+        name: computed[name] if metric.trial is Aggregation.COMPUTED else _aggregated(metric, phases)
+        for name, metric in METRICS.items()
+    }
 
 
-def _joint_load(phases: Sequence[PhaseRecord]) -> dict[str, Metric]:
-    """What each joint needed over all phases, and which one came nearest to its limit."""
-    peaks, saturated = (_rows(phases, name) for name in ("peak_joint_torque_n_m", "joint_saturated_s"))
+def _aggregated(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Metric:
+    """The value of the trial by the metric's rule; None where no phase has a value."""
+    rule = metric.trial
+    if rule is Aggregation.AT_GRASP:
+        return next(phase for phase in phases if phase.phase is Phase.GRASP).metrics.get(metric.source)
+    if rule in (Aggregation.WORST_CARRIED, Aggregation.SUM_CARRIED):
+        phases = [phase for phase in phases if phase.phase in _CARRIED]
+    values = [value for phase in phases if (value := phase.metrics.get(metric.name)) is not None]
+    if not values:
+        return None
+    if rule is Aggregation.LAST:
+        return values[-1]
+    if rule in (Aggregation.GREATEST_OF_EACH, Aggregation.SUM_OF_EACH):
+        of_each = max if rule is Aggregation.GREATEST_OF_EACH else math.fsum
+        rows = [tuple(float(entry or 0.0) for entry in value) for value in values if isinstance(value, tuple)]
+        return tuple(map(of_each, zip(*rows, strict=True)))
+    numbers = [value for value in values if isinstance(value, (int, float))]
+    if rule in (Aggregation.SUM, Aggregation.SUM_CARRIED):
+        total = math.fsum(numbers)
+        total = int(total) if all(isinstance(value, int) for value in numbers) else total
+        return total or None if rule is Aggregation.SUM_CARRIED else total
+    higher_is_better = metric.better is Direction.HIGHER
+    least = rule is Aggregation.LEAST or (rule is Aggregation.WORST_CARRIED and higher_is_better)
+    return min(numbers) if least else max(numbers)
+
+
+def _durations(
+    phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], *, success: bool
+) -> dict[str, float | None]:
+    motion_s = math.fsum(phase.duration_s for phase in phases if phase.duration_s is not None)
+    planning_s = math.fsum(record.time_s for record in planning if record.time_s is not None)
+    by_phase = {phase.phase: phase for phase in phases}
+    closing, opening_s = by_phase[Phase.GRASP], by_phase[Phase.PLACE].metrics.get("opening_s")
+    cycle_s = None
+    if closing.outcome is PhaseOutcome.COMPLETED and isinstance(opening_s, float) and closing.duration_s is not None:
+        cycle_s = closing.duration_s + opening_s
+    return {
+        "motion_time_s": motion_s,
+        "task_time_s": motion_s + planning_s if success else None,
+        "grasp_cycle_time_s": cycle_s,
+    }
+
+
+def _most_loaded_joint(phases: Sequence[PhaseRecord]) -> Metric:
+    """The joint that came nearest to its torque limit in any phase."""
     ratios = [
         (ratio, phase.metrics.get("most_loaded_joint"))
         for phase in phases
         if isinstance(ratio := phase.metrics.get("peak_joint_torque_ratio"), float)
     ]
-    most_loaded = max(ratios, key=lambda pair: pair[0])[1] if ratios else None
-    return {
-        "peak_joint_torque_n_m": tuple(map(max, zip(*peaks, strict=True))) if peaks else None,
-        "joint_saturated_s": tuple(map(math.fsum, zip(*saturated, strict=True))) if saturated else None,
-        "most_loaded_joint": most_loaded,
-    }
+    return max(ratios, key=lambda pair: pair[0])[1] if ratios else None
 
 
-def _rows(phases: Sequence[PhaseRecord], name: str) -> list[tuple[float, ...]]:
-    rows = [phase.metrics.get(name) for phase in phases]
-    return [tuple(float(value or 0.0) for value in row) for row in rows if isinstance(row, tuple)]
-
-
-def _grasp(by_phase: Mapping[Phase, PhaseRecord]) -> dict[str, Metric]:
-    """The grasp as it was closed, and at its worst while the object was carried."""
-    carried = [by_phase[phase].metrics for phase in _CARRIED]
-    worst = worst_of(carried)
+def _force_closure_share(phases: Sequence[PhaseRecord]) -> float | None:
     samples, closed = (
-        sum(value for row in carried if isinstance(value := row.get(name), int))
+        sum(value for phase in phases if phase.phase in _CARRIED and isinstance(value := phase.metrics.get(name), int))
         for name in ("grasp_samples", "grasp_samples_closed")
     )
-    first = by_phase[Phase.GRASP].metrics
-    return {
-        **{name: worst.get(name) for name in (*LEAST, *GREATEST)},
-        "grasp_samples": samples if samples else None,
-        "grasp_force_closure_share_1": closed / samples if samples else None,
-        **{at_grasp: first.get(name) for at_grasp, name in AT_GRASP.items()},
-    }
-
-
-def _last(phases: Sequence[PhaseRecord], name: str) -> Metric:
-    return next((p.metrics[name] for p in reversed(phases) if p.metrics.get(name) is not None), None)
+    return closed / samples if samples else None

@@ -67,7 +67,16 @@ def stores(tmp_path):
 def runner(record_of):
     """Runs trials without a simulation; each planning takes its time, and one may fail, or not be run at all."""
 
-    def make(store, *, slower_s=0.0, slower=lambda spec: True, fails=lambda spec: False, lost=lambda spec: False):
+    def make(
+        store,
+        *,
+        slower_s=0.0,
+        slower=lambda spec: True,
+        fails=lambda spec: False,
+        lost=lambda spec: False,
+        more_metrics=None,
+        more_of_phases=False,
+    ):
         def run(specs):
             rows = []
             for spec in specs:
@@ -76,6 +85,11 @@ def runner(record_of):
                     continue
                 took_s = 0.5 + chance.random() + slower_s * slower(spec)
                 record = record_of(spec, success=not fails(spec), planning_s=took_s)
+                more = more_metrics or {}
+                record = replace(record, metrics={**record.metrics, **more})
+                if more_of_phases:
+                    phases = tuple(replace(one, metrics={**one.metrics, **more}) for one in record.phases)
+                    record = replace(record, phases=phases)
                 rows.append((key_of(spec), record, Provenance(inputs={}, versions={})))
             store.put_many(trials=rows)
 

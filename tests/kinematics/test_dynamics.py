@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.kinematics import Arm, ArmDynamics, Load, gripper_loads, workpiece_load
+from rgss.kinematics import ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.scenes import Gripper, Pose, load_gripper, load_scene
 from rgss.scenes.assembly import assembled_urdf, finger_joint
 
@@ -62,13 +62,6 @@ def point(mass_kg, *position_m):
 
 def mass_matrix(model, q):
     return np.array([model.torques(q, REST, unit) - model.torques(q, REST, REST) for unit in np.eye(6)])
-
-
-def test_without_loads_it_is_the_bare_arm(ur10, states):
-    arm = Arm(ur10, Pose(), gravity_m_s2=GRAVITY_M_S2)
-    bare = dynamics(ur10)
-    for q, dq, ddq in states(50):
-        assert bare.torques(q, dq, ddq) == pytest.approx(arm.inverse_dynamics(q, dq, ddq), abs=1e-12)
 
 
 @pytest.mark.engine

@@ -15,7 +15,8 @@ import pytest
 
 from rgss.errors import MotionError
 from rgss.evidence.records.outcomes import PlanOutcome
-from rgss.motion import PLANNERS, ClockKind, PlanningClock, outcome_within, plan
+from rgss.motion import PLANNERS, ClockKind, Planner, PlanningClock, outcome_within, plan
+from rgss.motion.engine import load_engine
 from rgss.motion.paths import path_states
 
 pytestmark = pytest.mark.engine
@@ -129,9 +130,9 @@ ELSEWHERE = """
 import hashlib, json, sys
 sys.path.insert(0, sys.argv[1])
 import conftest
-from rgss.motion import PlanningClock, PlanningProblem, plan
+from rgss.motion import PLANNERS, PlanningClock, PlanningProblem, plan
 problem = PlanningProblem(**json.loads(sys.argv[2]))
-for planner in ("STRIDE", "RRT", "TRRT"):
+for planner in reversed(PLANNERS):
     result = plan(problem, conftest.Wall(), planner, seed=7, budget_checks=20000, simplification_checks=300,
                   clock=PlanningClock(charge_s=0.001))
     print(planner, result.checks, result.simplification_checks, hashlib.sha256(result.path.points_rad).hexdigest())
@@ -224,26 +225,47 @@ def test_an_error_of_the_validity_check_comes_through(planned):
         planned(validity=Impassable())
 
 
+def test_every_planner_is_a_class_of_the_engine_under_its_name():
+    for name, planner in PLANNERS.items():
+        assert planner.name == name
+        assert planner.meaning
+        assert hasattr(load_engine().geometric, planner.ompl_class)
+
+
+@pytest.mark.parametrize("range_rad", [0.1, 3.0])
+def test_a_new_planner_is_one_entry(planned, monkeypatch, range_rad):
+    new = Planner(name="Both", ompl_class="RRTConnect", meaning="two trees", settings={"setRange": range_rad})
+    used = {**PLANNERS, "Both": new}
+    for module in ("planning", "search"):
+        monkeypatch.setattr(f"rgss.motion.{module}.PLANNERS", used)
+
+    found = planned("Both", seed=3)
+
+    assert found.outcome is PlanOutcome.SOLVED
+    longest = np.linalg.norm(np.diff(found.path.points_rad, axis=0), axis=1).max()
+    assert (longest <= 0.1 + 1e-9) == (range_rad == 0.1)
+
+
 def test_a_planner_that_there_is_not(planned):
     with pytest.raises(MotionError) as caught:
         planned("RRTStar")
-    assert caught.value.message == "there is no planner 'RRTStar'"
-    assert caught.value.hint == "the planners are RRT, TRRT, STRIDE"
+    assert caught.value.message == "unknown planner 'RRTStar'"
+    assert caught.value.hint == f"the planners are {', '.join(PLANNERS)}"
 
 
 def test_a_seed_that_is_none(planned):
     with pytest.raises(MotionError) as caught:
         planned(seed=-1)
-    assert caught.value.message == "-1 is no seed"
-    assert caught.value.hint == "give a whole number of at least 0"
+    assert caught.value.message == "seed must be at least 0, got -1"
+    assert caught.value.hint == "give a whole number"
 
 
 @pytest.mark.parametrize("name", ["budget_checks", "simplification_checks"])
 def test_a_budget_below_zero(planned, name):
     with pytest.raises(MotionError) as caught:
         planned(**{name: -5})
-    assert caught.value.message == "a budget of -5 validity checks is impossible"
-    assert caught.value.hint == "give a whole number of at least 0"
+    assert caught.value.message == "a budget of validity checks must be at least 0, got -5"
+    assert caught.value.hint == "give a whole number"
 
 
 @pytest.mark.parametrize("planner", PLANNERS)

@@ -43,7 +43,6 @@ def digest(fingers: int) -> str:
                 *world.finger_travel_m(),
                 *pose.position_m,
                 *pose.quaternion_xyzw,
-                *world.workpiece_speed(),
                 *contacts.finger_forces_n,
                 *contacts.friction_n,
             )

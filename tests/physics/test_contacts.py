@@ -11,6 +11,8 @@ from rgss.physics import Contacts, PhysicsSettings, World
 from rgss.scenes import Pose
 from rgss.scenes.assembly import assembled_urdf
 
+from .speeds import workpiece_speed
+
 # What the engine tells of a point before its friction.
 NOT_ASKED = (None,) * 10
 ELSEWHERE = Pose(position_m=(-1.8, 1.8, 0.05))
@@ -211,7 +213,7 @@ def test_the_points_of_the_fingers_are_on_the_wall_of_the_cup_also_while_it_move
         for position, velocity in zip(path[:-1].tolist(), velocities.tolist(), strict=True):
             world.command_arm(position, velocity)
             world.step()
-            fastest = max(fastest, world.workpiece_speed()[0])
+            fastest = max(fastest, workpiece_speed(world)[0])
             for point in world.finger_contacts():
                 x, y, z = point.position_m
                 assert math.hypot(x, y) == pytest.approx(cup.radius_m, abs=5e-6)

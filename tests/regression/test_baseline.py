@@ -73,8 +73,8 @@ def test_a_reason_is_text_whatever_it_holds(tmp_path, baseline):
         (b"", "the baseline b.json is not JSON: "),
         (b"\xff", "the baseline b.json is not UTF-8 (make it"),
         (b"[]", "b.json is no baseline: it has no 'schema' (make it"),
-        (b'{"schema": 4}', "the baseline b.json has schema 4; 3 is read (make it"),
-        (b'{"schema": 3}', "b.json: baseline lacks 'study' (make it"),
+        (b'{"schema": 5}', "the baseline b.json has schema 5; 4 is read (make it"),
+        (b'{"schema": 4}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 2}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 2, "runs": 5, "origin": []}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 1, "schema": 1}', "the baseline b.json is not JSON: a key stands twice"),
@@ -93,7 +93,7 @@ def test_one_of_the_schema_before_is_read_without_values_of_inputs(file, baselin
     document = json.loads(file.read_text("ascii"))
     for part in (document, *document["runs"].values()):
         del part["inputs"]
-    del document["origin"]["modules"], document["origin"]["constants"]
+    del document["origin"]["modules"], document["origin"]["constants"], document["phase_record"]
     document["schema"] = 2
     file.write_text(json.dumps(document), "ascii")
     found = read_baseline(file, label="b")
@@ -101,6 +101,16 @@ def test_one_of_the_schema_before_is_read_without_values_of_inputs(file, baselin
     assert baseline.has_values
     assert found.runs["planning"].fingerprints == baseline.runs["planning"].fingerprints
     assert found.inputs_of("planning", 9) == {}
+
+
+def test_one_of_schema_3_is_read_without_the_metrics_of_phases(file, baseline):
+    document = json.loads(file.read_text("ascii"))
+    del document["phase_record"]
+    document["schema"] = 3
+    file.write_text(json.dumps(document), "ascii")
+    found = read_baseline(file, label="b")
+    assert found.has_values
+    assert found == replace(baseline, schema=3, phase_record={})
 
 
 def test_a_folder_and_a_name_that_no_file_can_have(tmp_path):

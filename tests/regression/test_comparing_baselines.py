@@ -12,6 +12,7 @@ from rgss.regression.comparing_baselines import (
     decision_changes,
     run_failings,
     schema_failings,
+    schema_notes,
     unchanged_phases,
 )
 from rgss.regression.observing import first_difference
@@ -26,23 +27,40 @@ def texts(failings):
 
 def test_nothing_changed(baseline):
     run = baseline.runs["planning"]
-    assert texts(schema_failings(baseline, UNITS, UNITS)) == []
+    assert texts(schema_failings(baseline, UNITS)) == []
+    assert list(schema_notes(baseline, UNITS)) == []
     assert texts(run_failings("planning", run, fidelity="kinematic", variants=(9, 10), seeds=(1, 2, 3))) == []
 
 
 @pytest.mark.parametrize(
-    ("units", "record", "said"),
+    ("units", "said"),
     [
-        ({"success": "1"}, UNITS, "missing metric: the baseline guards time_s, the study no longer does"),
-        ({**UNITS, "time_s": "ms"}, UNITS, "changed schema: time_s was in s and is in ms"),
-        ({**UNITS, "slip_m": "m"}, UNITS, "changed schema: the study guards slip_m, the baseline does not"),
-        (UNITS, {"success": "1"}, "changed schema: trials no longer have time_s"),
-        (UNITS, {**UNITS, "slip_m": "m"}, "changed schema: trials newly have slip_m"),
-        (UNITS, {**UNITS, "time_s": "5 × s"}, "changed schema: trials have another unit for time_s"),
+        ({"success": "1"}, "missing metric: the baseline guards time_s, the study no longer does"),
+        ({**UNITS, "time_s": "ms"}, "changed schema: time_s was in s and is in ms"),
+        ({**UNITS, "slip_m": "m"}, "changed schema: the study guards slip_m, the baseline does not"),
     ],
 )
-def test_a_changed_schema(baseline, units, record, said):
-    assert texts(schema_failings(baseline, units, record)) == [said]
+def test_a_changed_schema(baseline, units, said):
+    assert texts(schema_failings(baseline, units)) == [said]
+
+
+@pytest.mark.parametrize(
+    ("record", "change"),
+    [
+        (UNITS, "no longer have slip_m"),
+        ({**UNITS, "slip_m": "mm"}, "have another unit for slip_m"),
+        ({**UNITS, "slip_m": "m", "noise_db": "1"}, "newly have noise_db"),
+    ],
+)
+def test_a_metric_that_is_not_guarded_fails_nothing(baseline, record, change):
+    before = replace(baseline, record={**UNITS, "slip_m": "m"})
+
+    assert list(schema_notes(before, record)) == [f"trials {change}, which the baseline does not guard"]
+    assert texts(schema_failings(before, UNITS)) == []
+
+
+def test_a_metric_that_is_guarded_is_no_note(baseline):
+    assert list(schema_notes(baseline, {"success": "1", "time_s": "5 × s"})) == []
 
 
 @pytest.mark.parametrize(

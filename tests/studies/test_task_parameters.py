@@ -6,6 +6,8 @@ import re
 
 import pytest
 
+from rgss.motion import PLANNERS
+
 SPACE, CATALOGUE = "designs/grasping_system.yaml", "designs/catalogue.yaml"
 
 VALUES = [
@@ -45,7 +47,7 @@ def test_a_planner_that_only_the_catalogue_knows(edit, problems, place_of):
     edit(CATALOGUE, "matches: {d8: TRRT}", "matches: {d8: PRM}")
 
     assert problems() == [
-        f"{place_of(SPACE, 'PRM')}: error: there is no planner 'PRM' (planners: RRT, TRRT, STRIDE) [design.planner]"
+        f"{place_of(SPACE, 'PRM')}: error: there is no planner 'PRM' (planners: {', '.join(PLANNERS)}) [design.planner]"
     ]
 
 
@@ -71,7 +73,7 @@ def test_a_parameter_of_another_unit(edit, problems, place_of):
 
 def test_a_planner_that_is_a_number(edit, problems, place_of):
     edit(SPACE, "    kind: name\n    role: planner\n", '    unit: "1"\n')
-    for number, planner in enumerate(("RRT", "TRRT", "STRIDE")):
+    for number, planner in enumerate(PLANNERS):
         edit(SPACE, f"d8: {planner}", f"d8: {number}")
         edit(CATALOGUE, f"d8: {planner}", f"d8: {number}")
 

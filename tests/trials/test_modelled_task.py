@@ -287,9 +287,6 @@ class ScriptedWorld:
         here = NOWHERE if qs[0][0] else self.scene.grasp
         return np.tile(here.position_m, (len(qs), 1)), np.zeros((len(qs), 3))
 
-    def workpiece_speed(self):
-        return 0.0, 0.0
-
     def support_force_n(self):
         return 1.0e6 if self.wrong == "the object lands hard" else 0.0
 

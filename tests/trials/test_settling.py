@@ -36,9 +36,6 @@ class Shaking(World):
         turn = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (self.turn_rad, 0.0, 0.0))
         return Pose(position_m=self.shift_m) @ pose @ turn
 
-    def workpiece_speed(self):
-        return 1.0, 1.0
-
 
 @pytest.fixture
 def place(spec_of):

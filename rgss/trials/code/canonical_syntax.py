@@ -1,9 +1,10 @@
 """Canonical form of Python source: what a module does, without how it is written down.
 
 Two texts have one form if they differ in layout, comments, docstrings, the annotations of functions and of
-variables in them, or imports for type checkers. Annotations in the body of a class and of a module count, for
-dataclasses and readers of records look at them. The form is the same on every Python that can parse the text,
-for it holds no field that a later grammar has added and that is not used, and joins what one grammar splits.
+variables in them, imports for type checkers, or the texts of arguments that are named in `PROSE`. Annotations in the
+body of a class and of a module count, for dataclasses and readers of records look at them. The form is the same on
+every Python that can parse the text, for it holds no field that a later grammar has added and that is not used, and
+joins what one grammar splits.
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ import ast
 from collections.abc import Iterable, Iterator
 
 _FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
+PROSE = frozenset({"meaning", "phase_meaning"})
+"""Keyword arguments whose literal texts describe and decide nothing, as those of a metric's descriptor."""
+
 _NOT_COUNTED = frozenset({"ctx", "kind", "type_comment", "returns", "type_ignores"})
 
 
@@ -70,6 +74,8 @@ def _write(node: ast.AST, parts: list[str], leave_out: frozenset[ast.stmt], in_f
         return
     if kind is ast.Name:
         parts.append(f"${node.id};")  # type: ignore[attr-defined]
+        return
+    if isinstance(node, ast.keyword) and node.arg in PROSE and _text_of(node.value) is not None:
         return
     if isinstance(node, ast.AnnAssign) and in_function:
         if node.value is not None:

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from rgss.trials.monitors.arm_monitor import ToolKinematics
     from rgss.trials.monitors.drag_monitor import DragMonitor
     from rgss.trials.monitors.force_sensor import ForceSensor
-    from rgss.trials.monitors.grasp_record import GREATEST, LEAST, grasp_metrics, worst_of
+    from rgss.trials.monitors.grasp_record import grasp_metrics
     from rgss.trials.monitors.in_hand_motion import InHandMotionTracker
     from rgss.trials.monitors.observer import StepObserver
     from rgss.trials.monitors.phase_monitor import PhaseMonitor
@@ -17,8 +17,6 @@ else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
-    "GREATEST",
-    "LEAST",
     "DragMonitor",
     "ForceSensor",
     "InHandMotionTracker",
@@ -28,5 +26,4 @@ __all__ = [
     "StepObserver",
     "ToolKinematics",
     "grasp_metrics",
-    "worst_of",
 ]

@@ -1,10 +1,10 @@
-"""What the arm does over a phase: the torques of its joints, and how its tool follows its path."""
+"""Monitor of the arm in contact physics: its states step by step, evaluated at once when they are needed."""
 
 from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -13,25 +13,25 @@ from numpy.typing import ArrayLike, NDArray
 from rgss.evidence import Metric
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Robot
-from rgss.trials.plants import ControlSettings, JointLoad
+from rgss.trials.plants import ArmObservations, ControlSettings, tool_metrics
 
 Array = NDArray[np.float64]
 JointState = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]
 
 
 class ToolKinematics(Protocol):
-    """What turns the motion of the joints into that of the tool."""
+    """Forward kinematics of the tool."""
 
     @property
     def reach_m(self) -> float:
-        """No axis of a joint is farther from the tool."""
+        """Greatest distance of a joint's axis from the tool."""
 
     def tool_motion(self, qs: ArrayLike, dqs: ArrayLike) -> tuple[Array, Array]:
         """Positions (m) and velocities (m/s) of the tool, each (n, 3), for joint angles and speeds, each (n, 6)."""
 
 
 class ArmMonitor:
-    """Notes the joints step by step; what follows from them is worked out when it is asked for, all steps at once."""
+    """Buffer of the joints' states in each step; the observations are computed from all steps at once."""
 
     def __init__(
         self,
@@ -90,38 +90,31 @@ class ArmMonitor:
         error = math.dist(self._kinematics.tool_motion([positions], [velocities])[0][0], target_m)
         if error <= self._limit_m:
             return None
-        return f"the tool was {error * 1e3:.2f} mm from where it should be{self._load().words()}"
+        return self._observed({}).tracking_failure(error)
 
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit; those of the tool are missing where it did not follow a path."""
+        return self._observed(self._tool()).metrics()
+
+    def _tool(self) -> Mapping[str, Metric]:
         states = self._states()
         if not len(states):
-            off = 0.0
-            speed = acceleration = None
-        else:
-            positions, velocities = self._kinematics.tool_motion(states[:, 0], states[:, 1])
-            targets = np.asarray(self._path_m[1 : len(states) + 1])
-            off = float(np.linalg.norm(positions - targets, axis=1).max())
-            speed = float(np.linalg.norm(velocities, axis=1).max())
-            # Every move starts from rest.
-            padded = np.vstack([np.zeros((self._window, 3)), velocities])
-            changes = np.linalg.norm(padded[self._window :] - padded[: -self._window], axis=1)
-            acceleration = float(changes.max()) / (self._window * self._step_s)
-        return {
-            **self._load().metrics(),
-            "tracking_error_m": off,
-            "peak_tool_speed_m_s": speed,
-            "peak_tool_acceleration_m_s2": acceleration,
-        }
+            return {"tracking_error_m": 0.0, "peak_tool_speed_m_s": None, "peak_tool_acceleration_m_s2": None}
+        positions, velocities = self._kinematics.tool_motion(states[:, 0], states[:, 1])
+        # Every move starts from rest.
+        padded = np.vstack([np.zeros((self._window, 3)), velocities])
+        changes = np.linalg.norm(padded[self._window :] - padded[: -self._window], axis=1)
+        targets = np.asarray(self._path_m[1 : len(states) + 1])
+        return tool_metrics(positions, targets, velocities, changes / (self._window * self._step_s))
 
     def _states(self) -> Array:
         """Positions, velocities and torques of the steps of a move, shape (steps, 3, joints)."""
         return np.frombuffer(self._followed).reshape(-1, 3, len(self._joints))
 
-    def _load(self) -> JointLoad:
-        load = JointLoad(self._joints)
+    def _observed(self, tool: Mapping[str, Metric]) -> ArmObservations:
+        arm = ArmObservations(self._joints, self._step_s)
         # A phase holds the arm or moves it.
-        for torques in (np.array(self._held).reshape(-1, len(self._joints)), np.array(self._states()[:, 2])):
-            if len(torques):
-                load.note_all(torques, self._step_s)
-        return load
+        arm.note_torques(np.array(self._held).reshape(-1, len(self._joints)))
+        arm.note_torques(np.array(self._states()[:, 2]))
+        arm.note_tool(tool)
+        return arm

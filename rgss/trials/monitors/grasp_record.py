@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from rgss.evidence import Metric
 from rgss.grasping import (
@@ -24,40 +25,18 @@ from rgss.grasping import (
 )
 from rgss.physics import FingerContact, World
 from rgss.scenes import RIBS, Cylinder, Pose
+from rgss.trials.metrics import CARRY_METRICS, GRASP_METRICS, Aggregation, Direction
 from rgss.trials.monitors.in_hand_motion import HandMotion
 
 Vector3 = tuple[float, float, float]
 
-LEAST: tuple[str, ...] = (
-    "grasp_contact_count",
-    "grasp_equilibrium",
-    "grasp_force_closure",
-    "grasp_form_closure",
-    "grasp_q_msv_1",
-    "grasp_q_voe_1",
-    "grasp_q_gii_1",
-    "grasp_q_smw_n",
-    "grasp_load_factor_1",
-    "contact_gap_min_m",
-    "contacts_rolling",
+_WORST: Mapping[str, Callable[[Iterable[float]], float]] = MappingProxyType(
+    {
+        metric.name: min if metric.better is Direction.HIGHER else max
+        for metric in (*GRASP_METRICS, *CARRY_METRICS)
+        if metric.trial is Aggregation.WORST_CARRIED
+    }
 )
-"""What is the worse the less it is."""
-
-GREATEST: tuple[str, ...] = (
-    "grasp_q_gpri_1",
-    "grasp_q_diff_m",
-    "contact_closing_speed_m_s",
-    "contact_opening_speed_m_s",
-    "contact_slip_speed_m_s",
-    "contacts_penetrating",
-    "contacts_separating",
-    "contacts_slipping",
-    "held_distance_m",
-    "held_speed_m_s",
-    "held_wrench_n",
-)
-"""What is the worse the more it is."""
-
 _ANALYSED = (
     "contact_count",
     "equilibrium",
@@ -138,14 +117,13 @@ def grasp_metrics(
 
 
 def worst_of(samples: Iterable[Mapping[str, Metric]]) -> dict[str, Metric]:
-    """The worst of each measure over several instants; what none of them knows is missing."""
+    """The worst of each metric over several instants, by its preferred direction; without those that none has."""
     rows = list(samples)
     worst: dict[str, Metric] = {}
-    for names, choose in ((LEAST, min), (GREATEST, max)):
-        for name in names:
-            known = [value for row in rows if isinstance(value := row.get(name), (int, float))]
-            if known:
-                worst[name] = choose(known)
+    for name, choose in _WORST.items():
+        known = [value for row in rows if isinstance(value := row.get(name), (int, float))]
+        if known:
+            worst[name] = choose(known)
     return worst
 
 

@@ -9,7 +9,7 @@ from rgss.physics import Contacts, World
 
 
 class StepObserver(Protocol):
-    """Told of every physics step; it reads the world and must not change it."""
+    """Callback after each physics step; read-only."""
 
     def after_step(
         self,
@@ -26,5 +26,5 @@ class StepObserver(Protocol):
             phase: The phase to which the step belongs.
             contacts: What touched what.
             grip_margin: Friction available over friction needed; None while it is not known.
-            commanded_force_n: Force that each finger is told to press with; None while it is to open.
+            commanded_force_n: Commanded force of each finger; None while it opens.
         """

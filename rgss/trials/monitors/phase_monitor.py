@@ -1,4 +1,4 @@
-"""What is observed during a phase, step by step."""
+"""Monitor of a phase in contact physics."""
 
 from __future__ import annotations
 

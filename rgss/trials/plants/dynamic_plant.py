@@ -1,8 +1,7 @@
-"""The middle fidelity: joint torques against the arm's dynamics, without contact.
+"""Plant of the middle fidelity: the arm under joint torques, without contact.
 
-It knows what torques the task needs, how well the arm tracks under them, and which joint reaches
-its limit. It knows nothing of the grasp: the object is a load that the flange has from the grasp
-to the release, and no force or slip of it is recorded.
+It gives the torques that the task needs, the tracking error under them, and the joints that reach their limits.
+The object is a load of the flange from the grasp to the release; no force on it and no slip is recorded.
 """
 
 from __future__ import annotations
@@ -16,10 +15,10 @@ import numpy as np
 from rgss.evidence import Failure, Metric, Phase
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Joint, Scene
+from rgss.scenes import Gripper, Scene
 from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
-from rgss.trials.plants.joint_load import JointLoad
 from rgss.trials.reference import Array, Reference
 
 _SETTLING_S = 0.5
@@ -94,7 +93,7 @@ class DynamicPlant:
 
     def move(self, phase: Phase, reference: Reference) -> PhaseResult:
         """Follow the targets under computed torque until the end is reached."""
-        log = _Log(self._scene.robot.joints)
+        log = self._log()
         target = reference.positions_rad
         # The engine adds an acceleration to the speed of the step before, and that speed to the position.
         speeds = np.vstack([np.zeros((1, target.shape[1])), reference.velocities_rad_s])
@@ -103,18 +102,13 @@ class DynamicPlant:
             self._drive(target[index], speeds[index], accelerations[index], log) for index in range(reference.steps)
         ]
         tool_m = np.vstack([reference.tool_m[:1], self._arm.tool_position(np.array(actual))])
-        log.tracking_m = float(np.linalg.norm(tool_m - reference.tool_m, axis=1).max())
+        tool = tool_metrics_by_differences(tool_m, reference.tool_m, step_s=self._step_s)
+        log.arm.note_tool(tool)
         self._at_rad = target[-1]
-        reached = self._settle(log)
-        failure, detail = self._judge(reached, log)
-        metrics = log.metrics()
-        velocity = np.diff(tool_m, axis=0) / self._step_s
-        acceleration = np.diff(velocity, axis=0) / self._step_s
-        metrics["peak_tool_speed_m_s"] = float(np.linalg.norm(velocity, axis=1).max())
-        metrics["peak_tool_acceleration_m_s2"] = float(np.linalg.norm(acceleration, axis=1).max(initial=0.0))
-        return PhaseResult(
-            phase=phase, failure=failure, detail=detail, duration_s=log.steps * self._step_s, metrics=metrics
-        )
+        failure, detail = None, ""
+        if not self._settle(log) or tool["tracking_error_m"] > self._control.largest_tracking_error_m:
+            failure, detail = Failure.TRACKING_ERROR, log.arm.tracking_failure(tool["tracking_error_m"])
+        return self._result(phase, log, failure, detail, {})
 
     def grasp(self) -> PhaseResult:
         """Close: the arm holds still for the fingers' travel and the time of a firm grasp."""
@@ -133,16 +127,25 @@ class DynamicPlant:
         return self._wait(Phase.PLACE, opening_s, {"opening_s": opening_s})
 
     def _wait(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
-        log = _Log(self._scene.robot.joints)
+        log = self._log()
         still = np.zeros(len(self._at_rad))
         for _ in range(math.ceil(duration_s / self._step_s)):
             self._drive(self._at_rad, still, still, log)
+        return self._result(phase, log, None, "", metrics)
+
+    def _log(self) -> _Log:
+        return _Log(arm=ArmObservations(self._scene.robot.joints, self._step_s))
+
+    def _result(
+        self, phase: Phase, log: _Log, failure: Failure | None, detail: str, metrics: dict[str, Metric]
+    ) -> PhaseResult:
+        observed = log.arm.metrics() if log.steps else {}
         return PhaseResult(
             phase=phase,
-            failure=None,
-            detail="",
+            failure=failure,
+            detail=detail,
             duration_s=log.steps * self._step_s,
-            metrics={**metrics, **log.metrics()},
+            metrics={**metrics, **observed},
         )
 
     def _drive(self, target: Array, speed: Array, acceleration: Array, log: _Log) -> Array:
@@ -153,7 +156,8 @@ class DynamicPlant:
         q, dq = (np.array(values) for values in self._machine.state())
         wanted = acceleration + 2 * zeta * omega * (speed - dq) + omega**2 * (target - q)
         torques = self._model.torques(q, dq, wanted)
-        log.note(torques, self._step_s)
+        log.steps += 1
+        log.arm.note_torques(torques[None])
         self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
         return np.array(self._machine.state()[0])
 
@@ -166,13 +170,6 @@ class DynamicPlant:
             self._drive(self._at_rad, still, still, log)
         return False
 
-    def _judge(self, reached: bool, log: _Log) -> tuple[Failure | None, str]:  # noqa: FBT001 - a verdict, not a switch
-        worst = log.tracking_m
-        if not reached or worst > self._control.largest_tracking_error_m:
-            words = f"the tool was {worst * 1e3:.2f} mm from where it should be{log.load.words()}"
-            return Failure.TRACKING_ERROR, words
-        return None, ""
-
     def _finger_time_s(self) -> float:
         return self._finger_travel_m() / self._gripper.finger_velocity_m_s
 
@@ -181,19 +178,9 @@ class DynamicPlant:
         return min(geometry.stroke_m, geometry.largest_opening_m - self._scene.workpiece.shape.radius_m)
 
 
+@dataclass(slots=True)
 class _Log:
-    """What one phase observes."""
+    """Observations of one phase, and how many steps it took."""
 
-    def __init__(self, joints: Sequence[Joint]) -> None:
-        self.steps = 0
-        self.tracking_m = 0.0
-        self.load = JointLoad(joints)
-
-    def note(self, torques: Array, step_s: float) -> None:
-        """Add one step's commanded torques."""
-        self.steps += 1
-        self.load.note(torques.tolist(), step_s)
-
-    def metrics(self) -> dict[str, Metric]:
-        """The observations by name with unit."""
-        return {"tracking_error_m": self.tracking_m, **self.load.metrics()} if self.steps else {}
+    arm: ArmObservations
+    steps: int = 0

@@ -7,7 +7,7 @@ or of contact, and records none of these.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,6 +16,7 @@ import numpy as np
 from rgss.evidence import Metric, Phase
 from rgss.scenes import Gripper, Workpiece
 from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants.arm_observations import tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import Array, Reference, ToolPositions
 
@@ -80,14 +81,11 @@ class KinematicPlant:
         wanted_m = np.vstack(
             [reference.tool_m, np.repeat(reference.tool_m[-1:], max(0, len(deviation) - len(reference.tool_m)), axis=0)]
         )
-        velocity = np.diff(tool_m, axis=0) / self._step_s
-        acceleration = np.diff(velocity, axis=0) / self._step_s
-        metrics: dict[str, Metric] = {
-            "tracking_error_m": float(np.linalg.norm(tool_m - wanted_m, axis=1).max()),
-            "peak_tool_speed_m_s": float(np.linalg.norm(velocity, axis=1).max()),
-            "peak_tool_acceleration_m_s2": float(np.linalg.norm(acceleration, axis=1).max()),
-        }
-        return self._result(phase, (len(deviation) - 1) * self._step_s, metrics)
+        return self._result(
+            phase,
+            (len(deviation) - 1) * self._step_s,
+            tool_metrics_by_differences(tool_m, wanted_m, step_s=self._step_s),
+        )
 
     def grasp(self) -> PhaseResult:
         """Close: the travel at the finger velocity, then the time for which a grasp must be firm."""
@@ -123,7 +121,7 @@ class KinematicPlant:
         end = int(np.argmax(reached)) if reached.any() else len(reached) - 1
         return rows[: last + end + 1]
 
-    def _result(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
+    def _result(self, phase: Phase, duration_s: float, metrics: Mapping[str, Metric]) -> PhaseResult:
         return PhaseResult(phase=phase, failure=None, detail="", duration_s=duration_s, metrics=metrics)
 
 

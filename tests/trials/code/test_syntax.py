@@ -77,6 +77,7 @@ def test_every_way_to_start_python_finds_the_same_digests(flags):
     ("one", "other"),
     [
         ("a = 1", "# why\na  =  (\n1)"),
+        ("a = D(name='x', meaning='b')", "a = D(name='x', meaning='c')"),
         ("def f(): pass", 'def f():\n    """Doc."""'),
         ("def f(a, b=1): return a", "def f(a: int, b: str = 1) -> int: return a"),
         ("def f():\n a = 1", "def f():\n a: int = 1"),
@@ -197,6 +198,8 @@ SPEED = "tool_speed_m_s=spec.tool_speed_m_s"
         ("trials/pieces/run.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {"record"}),
         ("trials/code/kernel_environment.py", 'KERNEL = "Nehalem"', 'KERNEL = "Haswell"', {*ENTRIES}),
         ("trials/pieces/run.py", "Begin with no pieces.", "Begin with nothing at all.", set()),
+        ("trials/metrics/task_metrics.py", "how many states the task has", "number of phases", set()),
+        ("trials/metrics/task_metrics.py", "trial=Aggregation.LEAST", "trial=Aggregation.LAST", {"record"}),
         ("trials/plan.py", "# The task is done as far as", "# It is done as far as", set()),
     ],
 )

@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import Fidelity, Phase
-from rgss.trials.metrics import AT_GRASP
-from rgss.trials.monitors.grasp_record import GREATEST, LEAST, worst_of
+from rgss.trials.metrics import CARRY_METRICS, GRASP_METRICS, METRICS, Aggregation, Direction
+from rgss.trials.monitors.grasp_record import worst_of
 from rgss.trials.pieces.run import run_trial
 
 pytestmark = pytest.mark.engine
@@ -55,11 +55,11 @@ def test_a_trial_is_judged_by_its_worst_carried_grasp(replicate, variant):
     record = replicate.records[variant]
     carried = [phase_metrics(record, phase) for phase in CARRIED]
 
-    for name in LEAST:
-        assert record.metrics[name] == min(metrics[name] for metrics in carried)
-    for name in GREATEST:
-        known = [metrics[name] for metrics in carried if name in metrics]
-        assert record.metrics[name] == max(known, default=None)
+    for metric in (*GRASP_METRICS, *CARRY_METRICS):
+        if metric.trial is Aggregation.WORST_CARRIED:
+            known = [metrics[metric.name] for metrics in carried if metric.name in metrics]
+            worst = min if metric.better is Direction.HIGHER else max
+            assert record.metrics[metric.name] == worst(known, default=None)
 
 
 @pytest.mark.parametrize("variant", [28, 10])
@@ -81,9 +81,10 @@ def test_what_is_known_at_the_grasp_is_that_of_the_grasp(replicate, variant):
     record = replicate.records[variant]
     grasp = phase_metrics(record, Phase.GRASP)
 
-    assert len(AT_GRASP) == 20
-    for at_grasp, name in AT_GRASP.items():
-        assert record.metrics[at_grasp] == grasp.get(name)
+    at_grasp = [metric for metric in METRICS.values() if metric.trial is Aggregation.AT_GRASP]
+    assert len(at_grasp) == len(GRASP_METRICS) == 20
+    for metric in at_grasp:
+        assert record.metrics[metric.name] == grasp.get(metric.source)
     assert record.metrics["at_grasp_contacts_slipping"] == 0
     assert record.metrics["at_grasp_contacts_rolling"] == record.metrics["at_grasp_contact_count"] > 1
 
@@ -164,7 +165,6 @@ def test_the_worst_of_several_instants():
 
     assert worst_of(samples) == {"grasp_q_msv_1": 1.0, "held_distance_m": 3e-4, "contacts_slipping": 2}
     assert worst_of([]) == {}
-    assert not {*LEAST} & {*GREATEST}
 
 
 def test_the_bench_of_a_gripper_is_in_every_record_of_it(replicate):

@@ -219,7 +219,7 @@ def test_an_end_that_is_not_reached_is_a_failure_after_half_a_second(planned):
 
 def test_the_object_weighs_on_the_joints_from_the_grasp_to_the_release(planned):
     spec, cell = planned.spec, planned.cell
-    at = planned.timing.trajectories[Phase.LIFT].sample(np.zeros(1))[0][0]
+    at = planned.timing.trajectories[Phase.LIFT].positions(np.zeros(1))[0]
     wait = still(at, cell, 24)
     with machine_of(planned) as machine:
         plant = plant_of(planned, machine)

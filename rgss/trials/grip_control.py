@@ -1,0 +1,48 @@
+"""Control of the grip: the force that is commanded to the fingers, and when it is increased."""
+
+from __future__ import annotations
+
+from rgss.physics import World
+from rgss.trials.plants import ControlSettings
+
+
+class GripControl:
+    """Commanded finger force of a task, from a share of the greatest force up to all of it.
+
+    Attributes:
+        force_n: Commanded force of each finger.
+        tightenings: How often it was increased in this phase.
+        since_tightening_s: Carrying time since the last increase; the caller adds each step.
+    """
+
+    def __init__(self, world: World, control: ControlSettings) -> None:
+        """Begin with the share that holds an object at rest.
+
+        Args:
+            world: The world whose fingers are driven.
+            control: The shares, and the least time between two increases.
+        """
+        self._world = world
+        self._control = control
+        self.force_n = control.holding_share * world.gripper.finger_force_n
+        self.tightenings = 0
+        self.since_tightening_s = 0.0
+
+    def close(self) -> None:
+        """Close the fingers with the commanded force."""
+        self._world.drive_fingers(self._world.gripper.finger_velocity_m_s, self.force_n)
+
+    def keep(self) -> None:
+        """Increase the force where friction is short of what the load needs, unless that was done just now."""
+        if self.since_tightening_s >= self._control.force_window_s:
+            self.tighten()
+
+    def tighten(self) -> None:
+        """Increase the force by one share, up to the greatest."""
+        greatest_n = self._world.gripper.finger_force_n
+        if self.force_n >= greatest_n:
+            return
+        self.force_n = min(greatest_n, self.force_n + self._control.tightening_share * greatest_n)
+        self.since_tightening_s = 0.0
+        self.tightenings += 1
+        self.close()

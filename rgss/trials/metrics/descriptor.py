@@ -1,0 +1,101 @@
+"""Descriptor of a metric."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.evidence import Fidelity
+
+
+class Direction(str, Enum):
+    """Preferred direction of a metric."""
+
+    HIGHER = "higher"
+    LOWER = "lower"
+    NEITHER = "neither"
+
+
+class Aggregation(str, Enum):
+    """Rule by which the value of a trial follows from those of its phases; phases without a value do not count."""
+
+    COMPUTED = "computed"
+    """By a function of its own (rgss/trials/record.py)."""
+    GREATEST = "greatest"
+    LEAST = "least"
+    LAST = "last"
+    SUM = "sum"
+    GREATEST_OF_EACH = "greatest of each"
+    """Greatest of each entry of a row."""
+    SUM_OF_EACH = "sum of each"
+    """Sum of each entry of a row."""
+    WORST_CARRIED = "worst carried"
+    """Least, or greatest where lower is better, over the phases in which the object is carried."""
+    SUM_CARRIED = "sum carried"
+    """Sum over the phases in which the object is carried; missing if it is 0."""
+    AT_GRASP = "at grasp"
+    """Value of another metric (`MetricDescriptor.source`) in the grasp phase."""
+
+
+class PhaseValue(str, Enum):
+    """Origin of the value of a phase."""
+
+    OBSERVED = "observed"
+    """Among the metrics of the phase's record, from the plant or a monitor."""
+    RECORDED = "recorded"
+    """A field of the phase's record or of the record of its planning."""
+
+
+EVERY_FIDELITY = tuple(Fidelity)
+WITH_TORQUES = (Fidelity.DYNAMIC, Fidelity.CONTACT)
+WITH_CONTACT = (Fidelity.CONTACT,)
+
+_SUFFIXES = {
+    Aggregation.WORST_CARRIED: ", the worst while the object is carried",
+    Aggregation.AT_GRASP: ", when the grasp was firm",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MetricDescriptor:
+    """All that is stated of a metric, from which records, frames, the guard, schemas and documentation are made.
+
+    Attributes:
+        name: Key in records, with the unit at its end.
+        unit: SI unit; ``1`` if it has none.
+        meaning: Definition, in one phrase. It takes no part in the digests of code.
+        better: Preferred direction.
+        trial: How the value of a trial is made; None if only phases have one.
+        phase: Origin of the values of phases; None if only the trial has one.
+        fidelities: Fidelities in which it is observed. A trial may lack it nevertheless, such as after a failure.
+        length: Number of entries of a row; 0 for one per finger, None for a single number. A recorded value of a
+            phase is always a single number.
+        phase_meaning: Definition for one phase, where it differs.
+        source: The metric that is taken at the grasp, for `Aggregation.AT_GRASP`.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    better: Direction = Direction.NEITHER
+    trial: Aggregation | None = None
+    phase: PhaseValue | None = PhaseValue.OBSERVED
+    fidelities: tuple[Fidelity, ...] = EVERY_FIDELITY
+    length: int | None = None
+    phase_meaning: str = ""
+    source: str = ""
+
+    @property
+    def meaning_in_trial(self) -> str:
+        """Definition of the value of a trial."""
+        return self.meaning + (_SUFFIXES.get(self.trial, "") if self.trial is not None else "")
+
+    @property
+    def meaning_in_phase(self) -> str:
+        """Definition of the value of a phase."""
+        return self.phase_meaning or self.meaning
+
+    @property
+    def length_in_phase(self) -> int | None:
+        """Number of entries of the value of a phase; None for a single number."""
+        return None if self.phase is PhaseValue.RECORDED else self.length

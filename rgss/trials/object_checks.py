@@ -1,0 +1,78 @@
+"""Checks of where the object is: before the grasp, while it settles, and at its place."""
+
+from __future__ import annotations
+
+import math
+
+from rgss.evidence import Failure, Metric
+from rgss.grasping import configuration_distance_m
+from rgss.physics import World
+from rgss.scenes import Pose
+from rgss.trials.plants import ControlSettings
+
+Violation = tuple[Failure, str]
+
+
+def check_displacement(world: World, largest_m: float, *, touched: bool) -> tuple[float, Violation | None]:
+    """Displacement of an object that was not grasped yet (m), and the violation if it exceeds a limit.
+
+    Args:
+        world: The world.
+        largest_m: The limit.
+        touched: Whether the robot touched the object.
+    """
+    pose, start = world.workpiece_pose(), world.scene.workpiece.pose
+    moved_m = math.dist(pose.position_m, start.position_m)
+    if moved_m <= largest_m:
+        return moved_m, None
+    displacement = f"{moved_m * 1e3:.1f} mm before the grasp"
+    fallen_m = start.position_m[2] - pose.position_m[2]
+    if touched:
+        return moved_m, (Failure.OBJECT_COLLISION, f"the object was pushed {displacement}")
+    if pose.tilt_rad > world.scene.place.largest_tilt_rad:
+        lean = f"it leans by {math.degrees(pose.tilt_rad):.0f}° and moved {displacement}"
+        return moved_m, (Failure.NOT_UPRIGHT, f"the object toppled by itself: {lean}")
+    if fallen_m > largest_m:
+        return moved_m, (
+            Failure.OBJECT_DROPPED,
+            f"the object fell by itself: {fallen_m * 1e3:.1f} mm before the grasp",
+        )
+    return moved_m, (Failure.OBJECT_DROPPED, f"the object slid by itself: {displacement}")
+
+
+def check_place(world: World) -> tuple[dict[str, Metric], Violation | None]:
+    """Error and tilt of the placed object, and the violation if one of them exceeds its limit.
+
+    Args:
+        world: The world.
+    """
+    scene, pose = world.scene, world.workpiece_pose()
+    x, y, z = pose.position_m
+    centre = scene.place.centre_m
+    error_m, tilt_rad = math.dist((x, y), centre[:2]), pose.tilt_rad
+    height_error_m = abs(z - centre[2] - scene.workpiece.shape.half_height_m)
+    violation: Violation | None = None
+    if tilt_rad > scene.place.largest_tilt_rad:
+        violation = Failure.NOT_UPRIGHT, f"the object leans by {math.degrees(tilt_rad):.1f} deg"
+    elif error_m > scene.place.radius_m or height_error_m > scene.place.radius_m:
+        violation = (
+            Failure.NOT_IN_PLACE_REGION,
+            f"the object is {error_m * 1e3:.1f} mm from the place and {height_error_m * 1e3:.1f} mm off its height",
+        )
+    return {"place_error_m": error_m, "place_tilt_rad": tilt_rad}, violation
+
+
+def has_moved(world: World, control: ControlSettings, before: Pose, now: Pose) -> bool:
+    """Whether the object has left where it was, by its centre or by turning about it.
+
+    The criterion is a distance, not a speed: when the engine finds a resting body's contacts anew, the body has a
+    speed for one step and hardly moves.
+
+    Args:
+        world: The world.
+        control: The speed and the time below which the object counts as settled.
+        before: Transform of the object to the world before.
+        now: The same now.
+    """
+    moved_m = configuration_distance_m(before, now, world.scene.workpiece.shape.half_height_m)
+    return moved_m > control.settled_speed_m_s * control.settled_s

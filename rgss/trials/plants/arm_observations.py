@@ -1,0 +1,83 @@
+"""Observations of the arm over a phase: loads of the joints, and how the tool followed its path."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.evidence import Metric
+from rgss.scenes import Joint
+from rgss.trials.plants.joint_load import JointLoad
+
+Array = NDArray[np.float64]
+
+
+def tool_metrics(positions_m: Array, targets_m: Array, velocities: Array, accelerations: Array) -> dict[str, float]:
+    """Tracking error of the tool, and peaks of its speed and acceleration.
+
+    Args:
+        positions_m: Positions of the tool in the world, shape (n, 3).
+        targets_m: Where it should have been, shape (n, 3).
+        velocities: Its velocities in m/s, shape (m, 3).
+        accelerations: Magnitudes of its acceleration in m/s², shape (k,).
+    """
+    return {
+        "tracking_error_m": float(np.linalg.norm(positions_m - targets_m, axis=1).max()),
+        "peak_tool_speed_m_s": float(np.linalg.norm(velocities, axis=1).max()),
+        "peak_tool_acceleration_m_s2": float(accelerations.max(initial=0.0)),
+    }
+
+
+def tool_metrics_by_differences(positions_m: Array, targets_m: Array, *, step_s: float) -> dict[str, float]:
+    """The same with velocities and accelerations by differences of the positions.
+
+    Args:
+        positions_m: Positions of the tool in the world at the start and after each step, shape (n + 1, 3).
+        targets_m: Where it should have been, shape (n + 1, 3).
+        step_s: Length of a step.
+    """
+    velocities = np.diff(positions_m, axis=0) / step_s
+    accelerations = np.diff(velocities, axis=0) / step_s
+    return tool_metrics(positions_m, targets_m, velocities, np.linalg.norm(accelerations, axis=1))
+
+
+class ArmObservations:
+    """Loads of the joints of a phase, and the metrics of its tool, for any plant with torques."""
+
+    def __init__(self, joints: Sequence[Joint], step_s: float) -> None:
+        """Begin at rest.
+
+        Args:
+            joints: The arm's joints with their limits.
+            step_s: Length of a step.
+        """
+        self._load = JointLoad(joints)
+        self._step_s = step_s
+        self._tool: Mapping[str, Metric] = {"tracking_error_m": 0.0}
+
+    def note_torques(self, torques_n_m: Array) -> None:
+        """Add steps.
+
+        Args:
+            torques_n_m: Torque of each joint in each step, shape (steps, joints).
+        """
+        if len(torques_n_m):
+            self._load.note_all(torques_n_m, self._step_s)
+
+    def note_tool(self, metrics: Mapping[str, Metric]) -> None:
+        """Take the metrics of the tool that followed a path, as of `tool_metrics`."""
+        self._tool = metrics
+
+    def tracking_failure(self, error_m: float) -> str:
+        """Detail of a failure to track, with the joints that reached their limit.
+
+        Args:
+            error_m: Distance of the tool from where it should be.
+        """
+        return f"the tool was {error_m * 1e3:.2f} mm from where it should be{self._load.words()}"
+
+    def metrics(self) -> dict[str, Metric]:
+        """The observations by name with unit."""
+        return {**self._tool, **self._load.metrics()}

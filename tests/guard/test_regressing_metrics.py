@@ -1,0 +1,33 @@
+"""Guarding a study whose trials have other metrics than those of its baseline."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rgss.guard import guard
+from rgss.trials import METRICS, Aggregation, MetricDescriptor
+
+
+@pytest.mark.parametrize("schema", [3, 4])
+def test_a_metric_that_trials_newly_have_changes_nothing(compared, monkeypatch, schema):
+    new = MetricDescriptor(name="noise_1", unit="1", meaning="noise", trial=Aggregation.GREATEST)
+
+    def with_new(baseline):
+        monkeypatch.setattr(guard, "METRICS", {**METRICS, "noise_1": new})
+        return baseline if schema == 4 else replace(baseline, schema=3, phase_record={})
+
+    report = compared(baseline_of=with_new, more_metrics={"noise_1": 0.5}, more_of_phases=schema == 4)
+
+    assert (report.verdict, report.failing) == ("same", ())
+    assert report.notes == ("trials newly have noise_1, which the baseline does not guard",)
+    assert report.behaviour.changed == ()
+    assert all(one.identical for one in report.comparisons)
+
+
+def test_a_metric_of_a_record_that_changes_is_changed_behaviour_whether_guarded_or_not(compared):
+    report = compared(more_metrics={"slip_m": 0.5})
+
+    assert (report.verdict, report.failing) == ("changed", ())
+    assert {one.phase for one in report.behaviour.changed} == {"trial"}
