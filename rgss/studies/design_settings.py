@@ -27,7 +27,8 @@ def design_findings(
     designs: DesignSpace,
     document: Document,
     grippers: Mapping[str, GripperFile],
-    defaults: Mapping[str, ParameterValue],
+    robot: Robot,
+    planning: PlanningChoice,
 ) -> Iterator[Finding]:
     """Find what would keep a trial of a design from being run.
 
@@ -35,9 +36,10 @@ def design_findings(
         designs: The design space.
         document: Its file, for positions.
         grippers: The gripper file of each gripper component, by its name.
-        defaults: The values that the robot and the study give where no design does, by quantity.
+        robot: The robot, which gives values where no design does.
+        planning: How the study plans, which gives values too.
     """
-    yield from _missing_findings(designs, document, grippers, defaults)
+    yield from _missing_findings(designs, document, grippers, default_values(robot, planning))
     yield from _planner_findings(designs, document)
     yield from _component_findings(designs, grippers)
 

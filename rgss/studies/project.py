@@ -17,7 +17,7 @@ from rgss.measures import MeasureSet, load_measures
 from rgss.quantities import same_dimension
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes import GripperFile, Scene, load_gripper_file, load_scene
-from rgss.studies.design_settings import GRIPPER, default_values, design_findings
+from rgss.studies.design_settings import GRIPPER, design_findings
 from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import source_findings
 from rgss.studies.study import StudyDefinition, named_file, read_study
@@ -184,8 +184,7 @@ class _Reader:
         if designs is not None:
             document = read_document(folder / named["design_space"], label=named["design_space"])
             if scene is not None and study is not None:
-                defaults = default_values(scene.robot, study.planning)
-                self._findings.extend(design_findings(designs, document, grippers, defaults))
+                self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
             if measures is not None:
                 document = read_document(folder / MEASURES, label=MEASURES)
                 self._findings.extend(source_findings(measures.inputs, designs.source_units(), document))
