@@ -26,7 +26,7 @@ _VARIANTS = FrameDescription(
     columns=(
         Column(
             name="PARAMETER",
-            meaning="value of a design parameter; id, name and unit make the name, as in d2_finger_mass_kg",
+            meaning="value of a design parameter; id, name and unit make the name, as in m_f_finger_mass_kg",
             unit="the parameter's, in SI",
             kind=Kind.NUMBER,
         ),

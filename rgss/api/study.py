@@ -214,7 +214,8 @@ class Study:
 
         Args:
             only: Which variants, as ``--only`` takes it: ids such as ``"1,5,60-72"``, filters such as
-                ``"d8=RRT"`` or ``"d7 <= 0.8 m/s"``; of several all must hold. All variants by default.
+                ``"planning.planner=RRT"`` or ``"robot.tool_speed <= 0.8 m/s"``; of several all must hold. All
+                variants by default.
             jobs: Number of worker processes, one for each core by default; 0 for this process. A script
                 that uses others needs ``if __name__ == "__main__":``, for they import it.
             on_trial: Called after each trial with the number that is there and that of all.

@@ -105,7 +105,8 @@ def _cell(variant: DesignVariant, definition: DesignParameter) -> str:
 
 
 def _name(definition: DesignParameter) -> str:
-    return f"{definition.id} {definition.name.replace('_', ' ')}"
+    name = definition.name.replace("_", " ")
+    return name if definition.name == definition.id else f"{definition.id} {name}"
 
 
 def _unit(definition: DesignParameter) -> str:

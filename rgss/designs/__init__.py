@@ -4,19 +4,24 @@ from rgss.designs.catalogue import CatalogueModel, load_catalogue
 from rgss.designs.compatibility import Condition, Limit, Rule
 from rgss.designs.components import Catalogue, Component, Role, SourcedValue
 from rgss.designs.constraints import Constraint
-from rgss.designs.design_values import COMPONENT_PREFIX, numbers, source_units, sources
+from rgss.designs.design_values import COMPONENT_PREFIX, DESIGN_PREFIX, numbers, source_units, sources
 from rgss.designs.document import DesignSpaceModel
 from rgss.designs.factors import Factor, Level, Span
 from rgss.designs.loading import load_design_space
-from rgss.designs.parameters import DesignParameter, ParameterKind, si_unit
+from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue, format_value, si_unit
 from rgss.designs.picking import picked
 from rgss.designs.sampling import Sample, SamplingMethod
+from rgss.designs.set_findings import written_values
+from rgss.designs.settable_quantities import SETTABLE_QUANTITIES, Application, SettableQuantity
 from rgss.designs.space import DesignSpace, ExcludedCombination
 from rgss.designs.tables import variant_rows, variants_csv
 from rgss.designs.variants import DesignVariant
 
 __all__ = [
     "COMPONENT_PREFIX",
+    "DESIGN_PREFIX",
+    "SETTABLE_QUANTITIES",
+    "Application",
     "Catalogue",
     "CatalogueModel",
     "Component",
@@ -31,12 +36,15 @@ __all__ = [
     "Level",
     "Limit",
     "ParameterKind",
+    "ParameterValue",
     "Role",
     "Rule",
     "Sample",
     "SamplingMethod",
+    "SettableQuantity",
     "SourcedValue",
     "Span",
+    "format_value",
     "load_catalogue",
     "load_design_space",
     "numbers",
@@ -46,4 +54,5 @@ __all__ = [
     "sources",
     "variant_rows",
     "variants_csv",
+    "written_values",
 ]

@@ -11,6 +11,8 @@ from rgss.designs.components import Catalogue, Component, Role, SourcedValue
 from rgss.designs.fields import ConditionsField, ScalarField
 from rgss.designs.findings import dotted_findings, duplicate_findings, near_hint, unit_findings
 from rgss.designs.parameters import read_magnitude
+from rgss.designs.set_findings import component_set_findings, role_set_findings
+from rgss.designs.settable_quantities import SettableField
 from rgss.documents import Document, DocumentModel, Identifier, Text, UnitText, load_document
 from rgss.errors import DocumentError, QuantityError
 from rgss.findings import Finding, shown
@@ -31,6 +33,7 @@ class RoleModel(DocumentModel):
     id: Identifier
     name: Text
     properties: dict[Identifier, UnitText] = Field(default_factory=dict)
+    sets: dict[Identifier, SettableField] = Field(default_factory=dict)
 
 
 class ComponentModel(DocumentModel):
@@ -81,6 +84,9 @@ class _CatalogueReader:
         components = tuple(
             self._component(index, component, by_id) for index, component in enumerate(self._model.components)
         )
+        self._findings += role_set_findings(self._document, roles)
+        if not self._findings:
+            self._findings += component_set_findings(self._document, components)
         if self._findings:
             raise DocumentError(sorted(self._findings))
         return Catalogue(roles=roles, components=components, document=self._document)
@@ -99,7 +105,7 @@ class _CatalogueReader:
         if not any(component.role == role.id for component in self._model.components):
             message = f"no component has the role {role.id!r}"
             self._report("empty-role", message, "roles", index, "id", hint="add one, or remove the role")
-        return Role(id=role.id, name=role.name, properties=dict(role.properties))
+        return Role(id=role.id, name=role.name, properties=dict(role.properties), sets=dict(role.sets))
 
     def _component(self, index: int, component: ComponentModel, roles: Mapping[str, Role]) -> Component:
         place = ("components", index)
@@ -119,6 +125,7 @@ class _CatalogueReader:
             geometry=component.geometry or "",
             cost=self._cost(component.cost, *place, "cost"),
             properties={} if role is None else self._properties(component, role, *place),
+            sets={} if role is None else role.sets,
         )
 
     def _cost(self, model: SourcedValueModel, *place: str | int) -> SourcedValue:

@@ -33,23 +33,33 @@ class Condition:
                 return False
         return True
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parameters and roles that it names."""
+        return tuple(self.choices)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limit:
     """Holds when a product of numbers of the design is at most another of them.
 
     Attributes:
-        product_of: Names of the factors, such as ``design.d5``.
+        product_of: Names of the factors, such as ``design.finger_force``.
         at_most: Name of the bound, such as ``component.gripper.max_force``.
     """
 
     product_of: tuple[str, ...]
     at_most: str
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The numbers of the design that it names."""
+        return (*self.product_of, self.at_most)
+
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
         """Tell whether it holds for a combination; it does where a role has no component yet."""
         known = numbers(parameters, components)
-        if not {*self.product_of, self.at_most} <= known.keys():
+        if not set(self.names) <= known.keys():
             return True
         return prod(known[name] for name in self.product_of) <= known[self.at_most]
 
@@ -69,6 +79,11 @@ class Rule:
     rationale: str
     when: Condition
     require: Condition | Limit | Constraint | None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parameters, roles and numbers of the design that it names."""
+        return (*self.when.names, *(self.require.names if self.require is not None else ()))
 
     def allows(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
         """Tell whether a combination satisfies the rule."""

@@ -36,11 +36,13 @@ class Role:
         id: Its id, such as ``gripper``.
         name: Its name.
         properties: The SI unit of each property that its components have, by name.
+        sets: The quantity of `SETTABLE_QUANTITIES` that a property sets, by property.
     """
 
     id: str
     name: str
     properties: Mapping[str, str]
+    sets: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,6 +59,7 @@ class Component:
         geometry: The file with its geometry, relative to the project; empty if it has none.
         cost: What it costs.
         properties: Its other properties, by name.
+        sets: The quantity of `SETTABLE_QUANTITIES` that a property sets, by property; the same for the whole role.
     """
 
     id: str
@@ -67,6 +70,7 @@ class Component:
     geometry: str
     cost: SourcedValue
     properties: Mapping[str, SourcedValue]
+    sets: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def cost_usd(self) -> float:

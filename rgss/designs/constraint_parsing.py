@@ -9,9 +9,9 @@ The grammar, from the weakest binding to the strongest::
     base        quantity | name | "(" side ")"
     quantity    a number, with its unit if it has one: 1.2 m/s, 50 %
 
-A unit has no space in it, so that ``1 m/s * d9`` is a speed times ``d9``. A name is that of a
-parameter, such as ``d5`` or ``design.d5``, or of a property of a component, such as
-``component.gripper.max_force``.
+A unit has no space in it, so that ``1 m/s * limit`` is a speed times ``limit``. A name is that of a
+parameter, such as ``finger_force`` or ``design.finger_force``, of what a parameter sets, such as
+``gripper.finger.force``, or of a property of a component, such as ``component.gripper.max_force``.
 """
 
 from __future__ import annotations
@@ -80,25 +80,27 @@ class _Part:
     offset: int
 
 
-def parse_constraint(text: str, units: Mapping[str, str]) -> Constraint:
+def parse_constraint(text: str, units: Mapping[str, str], aliases: Mapping[str, str] | None = None) -> Constraint:
     """Read a constraint.
 
     Args:
         text: The text.
-        units: The SI unit of each value of the design by its name, such as ``design.d5``; empty for a name.
+        units: The SI unit of each value of the design by its name, such as ``design.finger_force``; empty for a name.
+        aliases: Other names of such values, such as ``gripper.finger.force``, with the name that each is for.
 
     Raises:
-        ConstraintProblem: It is none.
+        ConstraintProblem: The text is not a constraint.
     """
     if len(text) > LONGEST_CONSTRAINT:
         raise _problem(0, f"longer than {LONGEST_CONSTRAINT} characters", "split it into rules of their own")
-    return _Reader(text, units).read()
+    return _Reader(text, units, aliases or {}).read()
 
 
 class _Reader:
-    def __init__(self, text: str, units: Mapping[str, str]) -> None:
+    def __init__(self, text: str, units: Mapping[str, str], aliases: Mapping[str, str]) -> None:
         self._text = text
         self._units = units
+        self._aliases = aliases
         self._tokens = _tokens(text)
         self._at = 0
         self._depth = 0
@@ -116,11 +118,11 @@ class _Reader:
             parts.append(part)
         token = self._next()
         if token.kind != "end":
-            raise _problem(token.offset, f"{token.text!r} is out of place", "write it like d1 * d5 <= 40 N")
+            raise _problem(token.offset, f"{token.text!r} is out of place", "write it like fingers * force <= 40 N")
         if not signs:
-            raise _problem(0, "nothing is compared", "write it like d1 * d5 <= 40 N")
+            raise _problem(0, "nothing is compared", "write it like fingers * force <= 40 N")
         if not self._names:
-            raise _problem(0, "no number of the design is named", "name a parameter, such as d5")
+            raise _problem(0, "no number of the design is named", "name a parameter, such as finger_force")
         return Constraint(
             text=self._text,
             sides=tuple(part.node for part in parts),
@@ -202,10 +204,10 @@ class _Reader:
 
     def _symbol(self, token: _Token) -> _Part:
         own = f"{DESIGN_PREFIX}{token.text}"
-        name = own if own in self._units else token.text
+        name = own if own in self._units else self._aliases.get(token.text, token.text)
         unit = self._units.get(name)
         if unit is None:
-            known = [one.removeprefix(DESIGN_PREFIX) for one, of in self._units.items() if of]
+            known = [*(one.removeprefix(DESIGN_PREFIX) for one, of in self._units.items() if of), *self._aliases]
             hint = near_hint(token.text, known, "known numbers")
             if "-" in token.text:
                 hint = "leave spaces around a minus sign"

@@ -47,7 +47,7 @@ class Amount:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Symbol:
-    """A number of the design, by its name, such as ``design.d5``."""
+    """A number of the design, by its name, such as ``design.finger_force``."""
 
     name: str
 
@@ -94,13 +94,13 @@ Node = Amount | Symbol | Operation | Raised
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Constraint:
-    """Sides of which each is compared with the next, such as ``0.2 kg <= d2 * d1 <= 1 kg``.
+    """Sides of which each is compared with the next, such as ``0.2 kg <= m_f * n_f <= 1 kg``.
 
     Attributes:
         text: As it is written.
         sides: What is compared.
         signs: The comparison after each side but the last.
-        names: The numbers of the design that it names, such as ``design.d2``, each once.
+        names: The numbers of the design that it names, such as ``design.m_f``, each once.
     """
 
     text: str

@@ -38,6 +38,11 @@ def numbers(parameters: Mapping[str, ParameterValue], components: Mapping[str, C
     return found
 
 
+def set_names(parameters: Iterable[DesignParameter]) -> Mapping[str, str]:
+    """The name of each parameter in `sources`, by the quantity that it sets."""
+    return {one.sets: f"{DESIGN_PREFIX}{one.id}" for one in parameters if one.sets}
+
+
 def source_units(parameters: Iterable[DesignParameter], catalogue: Catalogue) -> Mapping[str, str]:
     """The SI unit of each value that `sources` gives, by its name; empty for names."""
     units = {f"{DESIGN_PREFIX}{parameter.id}": parameter.unit for parameter in parameters}

@@ -7,6 +7,7 @@ from pydantic import Field
 from rgss.designs.fields import ConditionsField, ScalarField
 from rgss.designs.parameters import ParameterKind
 from rgss.designs.sampling import SamplingMethod
+from rgss.designs.settable_quantities import SettableField
 from rgss.documents import DocumentModel, Identifier, Text, UnitText
 
 
@@ -19,6 +20,7 @@ class ParameterModel(DocumentModel):
     kind: ParameterKind = ParameterKind.QUANTITY
     unit: UnitText | None = None
     role: Identifier | None = None
+    sets: SettableField | None = None
     description: Text
     assumption: Text | None = None
 

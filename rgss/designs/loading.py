@@ -13,6 +13,8 @@ from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterVal
 from rgss.designs.ranges import read_sample, read_span, sample_findings
 from rgss.designs.rules import RuleReader
 from rgss.designs.selection import selection_findings
+from rgss.designs.set_findings import design_value_findings, parameter_set_findings
+from rgss.designs.settable_quantities import CATALOGUE_PREFIX
 from rgss.designs.space import DesignSpace
 from rgss.designs.values import ValueReader
 from rgss.documents import Document, load_document
@@ -55,6 +57,7 @@ class _SpaceReader:
     def read(self) -> DesignSpace:
         parameters = tuple(self._parameter(index, item) for index, item in enumerate(self._model.parameters))
         self._find_duplicates()
+        self._findings += parameter_set_findings(self._document, parameters, self._catalogue)
         self._values = ValueReader.of(parameters, self._catalogue)
         selectors = self._selectors()
         constants = self._read_values(self._model.constants, "constants")
@@ -82,6 +85,7 @@ class _SpaceReader:
         )
         if not self._is_too_large(space):
             self._findings += selection_findings(space, self._document, self._model)
+        self._findings += design_value_findings(space, self._document)
         if self._findings:
             raise DocumentError(sorted(set(self._findings)))
         return space
@@ -120,7 +124,8 @@ class _SpaceReader:
             symbol=model.symbol,
             kind=model.kind,
             unit=unit,
-            role=model.role or "",
+            role=_role_of(model),
+            sets=model.sets or "",
             description=model.description,
             assumption=model.assumption or "",
         )
@@ -130,14 +135,16 @@ class _SpaceReader:
         if model.unit is not None:
             message = f"{model.id} has names and a unit"
             self._report("unit", message, *place, "unit", hint="remove 'unit'", at_key=True)
-        if model.role is None:
+        if model.role is None and model.sets is None:
             hint = "add 'role': what its names stand for"
             self._report("role", f"{model.id} has names of no role", *place, hint=hint)
-        elif model.role not in roles:
+        elif model.role is not None and model.role not in roles:
             hint = near_hint(model.role, roles, "known roles")
             self._report("unknown-role", f"unknown role {model.role!r}", *place, "role", hint=hint)
 
     def _selectors(self) -> Mapping[str, Mapping[str, tuple[ParameterValue, ...]]]:
+        parameters = self._values.parameters.values()
+        choosing = {one.role: one.id for one in parameters if one.sets.startswith(CATALOGUE_PREFIX)}
         selectors = {}
         for index, component in enumerate(self._catalogue.components):
             read: dict[str, tuple[ParameterValue, ...]] = {}
@@ -146,6 +153,8 @@ class _SpaceReader:
                 values, findings = self._values.choices(self._catalogue.document, location, name, written)
                 self._findings += findings
                 read[name] = values
+            if component.role in choosing:
+                read.setdefault(choosing[component.role], (component.id,))
             selectors[component.id] = read
         return selectors
 
@@ -232,3 +241,8 @@ class _SpaceReader:
             message = f"the factors make {combinations} combinations; at most {LARGEST_SPACE} are expanded"
             self._report("too-large", message, "factors", hint="study fewer at once, or add 'sample'", at_key=True)
         return combinations > LARGEST_SPACE
+
+
+def _role_of(model: ParameterModel) -> str:
+    chosen = model.sets or ""
+    return model.role or (chosen.removeprefix(CATALOGUE_PREFIX) if chosen.startswith(CATALOGUE_PREFIX) else "")

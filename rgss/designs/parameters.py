@@ -40,12 +40,13 @@ class DesignParameter:
     """One quantity that a designer chooses.
 
     Attributes:
-        id: Its id, such as ``d2``.
+        id: Its id, such as ``m_f``.
         name: Its name in columns, such as ``finger_mass``.
         symbol: Its symbol in equations.
         kind: What its values are.
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
         role: The role of the components that its names stand for; empty unless it has names.
+        sets: What it sets: a quantity of `SETTABLE_QUANTITIES`, or ``catalogue.<role>``; may be empty.
         description: What it is, in a sentence.
         assumption: What is assumed about it and why; may be empty.
     """
@@ -56,14 +57,15 @@ class DesignParameter:
     kind: ParameterKind
     unit: str
     role: str = ""
+    sets: str = ""
     description: str = ""
     assumption: str = ""
 
     @property
     def column(self) -> str:
-        """Its column in tables: id, name and unit, such as ``d2_finger_mass_kg``."""
+        """Its column in tables: id, name and unit, such as ``m_f_finger_mass_kg``."""
         unit = "" if self.unit == "1" else re.sub(r"[^a-z0-9]+", "_", self.unit.lower()).strip("_")
-        return "_".join(part for part in (self.id, self.name, unit) if part)
+        return "_".join(part for part in dict.fromkeys((self.id, self.name, unit)) if part)
 
     def read(self, written: ParameterValue) -> ParameterValue:
         """Read a value as it is written in a file.

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from rgss.designs.balance import balanced_part, binned
 from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
-from rgss.designs.design_values import COMPONENT_PREFIX, DESIGN_PREFIX, source_units
+from rgss.designs.design_values import COMPONENT_PREFIX, DESIGN_PREFIX, set_names, source_units
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterKind
 from rgss.designs.space import DesignSpace
@@ -29,9 +29,10 @@ def picked(space: DesignSpace, terms: Sequence[str], *, option: str = "--only") 
     A term is one of
 
     - ids and filters with commas between them, which choose what any of them does: ``1,5,60-72``,
-      ``d8=RRT,d8=TRRT``. A filter compares a parameter, a factor's level or a component with a value
-      (``d8=RRT``, ``fingers=two``, ``gripper!=kg-2-light``), or is a constraint as in the file of
-      the design space (``d7 <= 0.8 m/s``, ``d1 * d2 < 1 kg``);
+      ``planning.planner=RRT,planning.planner=TRRT``. A filter compares a parameter (by its id or by what
+      it sets), a factor's level or a component with a value (``planning.planner=RRT``, ``fingers=two``,
+      ``gripper!=kg-2-light``), or is a constraint as in the file of the design space
+      (``robot.tool_speed <= 0.8 m/s``);
     - a fraction such as ``1/4``: so many of the variants that the terms before it choose, balanced
       over the levels of their factors.
 
@@ -95,7 +96,8 @@ def _filter(space: DesignSpace, text: str, option: str) -> Filter:
             return found if equals["sign"] != "!=" else lambda variant: not found(variant)
     if _COMPARISON.search(text):
         try:
-            constraint = parse_constraint(text, source_units(space.parameters, space.catalogue))
+            units, aliases = source_units(space.parameters, space.catalogue), set_names(space.parameters)
+            constraint = parse_constraint(text, units, aliases)
         except ConstraintProblem as problem:
             raise DefinitionError(f"{option}: {shown(text)}: {problem.message}", hint=problem.hint) from None
         return lambda variant: constraint.holds(variant.parameters, variant.components)
@@ -127,7 +129,7 @@ def _ids(space: DesignSpace, text: str, option: str) -> Filter:
 
 def _equals(space: DesignSpace, name: str, value: str, option: str) -> Filter | None:
     """A filter on one name and its value; None if nothing has the name."""
-    bare = name.removeprefix(DESIGN_PREFIX)
+    bare = set_names(space.parameters).get(name, name).removeprefix(DESIGN_PREFIX)
     parameter = next((one for one in space.parameters if one.id == bare), None)
     if parameter is not None:
         try:
@@ -159,4 +161,4 @@ def _require(option: str, name: str, value: str, known: set[str]) -> None:
 
 def _known_names(space: DesignSpace) -> set[str]:
     parameters, factors = ({one.id for one in some} for some in (space.parameters, space.factors))
-    return parameters | factors | {role.id for role in space.catalogue.roles}
+    return parameters | factors | set(set_names(space.parameters)) | {role.id for role in space.catalogue.roles}

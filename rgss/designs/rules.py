@@ -9,7 +9,7 @@ from rgss.designs.compatibility import Condition, Limit, Rule
 from rgss.designs.components import Catalogue
 from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
 from rgss.designs.constraints import Constraint
-from rgss.designs.design_values import COMPONENT_PREFIX, source_units
+from rgss.designs.design_values import COMPONENT_PREFIX, set_names, source_units
 from rgss.designs.document import LimitModel, RuleModel
 from rgss.designs.factors import Factor
 from rgss.designs.findings import near_hint
@@ -135,7 +135,8 @@ class RuleReader:
 
     def _constraint(self, text: str, *place: str | int) -> Constraint | None:
         try:
-            return parse_constraint(text, source_units(self._values.parameters.values(), self._catalogue))
+            parameters = self._values.parameters.values()
+            return parse_constraint(text, source_units(parameters, self._catalogue), set_names(parameters))
         except ConstraintProblem as problem:
             finding = self._document.finding(problem.rule, problem.message, place, hint=problem.hint)
             column = finding.column + self._offset(finding, text, problem.offset)

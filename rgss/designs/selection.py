@@ -64,7 +64,7 @@ def _selecting_parameters(space: DesignSpace) -> Mapping[str, tuple[str, ...]]:
             for read, match in zip(selectors, written, strict=True)
             for name, values in match.items()
         ):
-            selecting[role.id] = tuple(dict.fromkeys(name for match in written for name in match))
+            selecting[role.id] = tuple(dict.fromkeys(name for read in selectors for name in read))
     return selecting
 
 

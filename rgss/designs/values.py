@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from rgss.designs.components import Catalogue
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue
+from rgss.designs.settable_quantities import CATALOGUE_PREFIX
 from rgss.documents import Document
 from rgss.errors import QuantityError
 from rgss.findings import Finding, shown
@@ -32,7 +33,9 @@ class ValueReader:
         names = {}
         roles = {role.id for role in catalogue.roles}
         for parameter in parameters:
-            if parameter.kind is ParameterKind.NAME and parameter.role in roles:
+            if parameter.sets.startswith(CATALOGUE_PREFIX):
+                names[parameter.id] = tuple(component.id for component in catalogue.of_role(parameter.role))
+            elif parameter.kind is ParameterKind.NAME and parameter.role in roles:
                 matches = [component.matches.get(parameter.id, ()) for component in catalogue.of_role(parameter.role)]
                 names[parameter.id] = tuple(str(name) for values in matches for name in values)
         return cls(parameters={parameter.id: parameter for parameter in reversed(parameters)}, names=names)

@@ -44,5 +44,5 @@ class DesignVariant:
         return digest({"parameters": self.parameters, "components": components})
 
     def columns(self) -> Mapping[str, ParameterValue]:
-        """The values of its parameters by column, such as ``d2_finger_mass_kg``, in order."""
+        """The values of its parameters by column, such as ``m_f_finger_mass_kg``, in order."""
         return {definition.column: self.parameters[definition.id] for definition in self.definitions}

@@ -77,7 +77,7 @@ class InputSymbol:
 
     Attributes:
         id: Its symbol.
-        source: Where its value comes from: ``design.d1``, ``component.gripper.cost`` or
+        source: Where its value comes from: ``design.fingers``, ``component.gripper.cost`` or
             ``trial.path_length_m``. Values arrive in SI.
         unit: What it measures.
         length: The number of its entries; None for a single number.
@@ -236,7 +236,7 @@ class MeasureSet:
         return tuple(other.id for other in self.evaluation_order if other.id in used)
 
     def sources(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
-        """The sources that a measure stands on, directly or not, such as ``design.d7``.
+        """The sources that a measure stands on, directly or not, such as ``design.tool_speed``.
 
         Raises:
             DefinitionError: There is no such measure.

@@ -2,8 +2,8 @@
 
 from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
 from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
-from rgss.scenes.gripper import Gripper, GripperGeometry
-from rgss.scenes.gripper_file import load_gripper
+from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
+from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS, pad_ribs
 from rgss.scenes.robot import Joint, Robot
@@ -22,6 +22,7 @@ __all__ = [
     "Cylinder",
     "Gripper",
     "GripperDocument",
+    "GripperFile",
     "GripperGeometry",
     "Joint",
     "PlaceRegion",
@@ -39,6 +40,7 @@ __all__ = [
     "finger_joint",
     "finger_link",
     "load_gripper",
+    "load_gripper_file",
     "load_robot",
     "load_scene",
     "pad_ribs",

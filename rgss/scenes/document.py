@@ -134,17 +134,28 @@ class RobotDocument(DocumentModel):
     flange: Identifier
     joints: Annotated[tuple[JointEntry, ...], Field(min_length=6, max_length=6)]
     payload: Kilograms
+    tool_speed: MetresPerSecond | None = None
     tool_acceleration: MetresPerSecondSquared
     home: tuple[Radians, Radians, Radians, Radians, Radians, Radians]
     assumptions: tuple[AssumptionEntry, ...] = ()
 
 
+class BaseEntry(CylinderEntry):
+    """The base of a gripper; its mass, where no design sets it."""
+
+    mass: Kilograms | None = None
+
+
 class FingerEntry(DocumentModel):
-    """A finger's box: radial, tangential, axial."""
+    """A finger's box (radial, tangential, axial), and what it has where no design sets it."""
 
     thickness: Metres
     width: Metres
     length: Metres
+    mass: Kilograms | None = None
+    speed: MetresPerSecond | None = None
+    force: Newtons | None = None
+    friction: Dimensionless | None = None
 
 
 class GripperDocument(DocumentModel):
@@ -152,7 +163,7 @@ class GripperDocument(DocumentModel):
 
     gripper: Identifier
     azimuths: Annotated[tuple[Radians, ...], Field(min_length=2)]
-    base: CylinderEntry
+    base: BaseEntry
     finger: FingerEntry
     largest_opening: Metres
     stroke: Metres

@@ -9,6 +9,7 @@ from rgss.documents import Document, FilePlace, place_of
 from rgss.findings import Finding, shown
 
 Location = tuple["str | int", ...]
+_SLOWEST_M_S = 1.0e-3
 
 
 def not_positive(document: Document, values: Iterable[tuple[Location, float]]) -> Iterable[Finding]:
@@ -21,6 +22,20 @@ def not_positive(document: Document, values: Iterable[tuple[Location, float]]) -
     for location, value in values:
         if value <= 0:
             yield document.finding("scene.not-positive", f"{_name(location)} must be greater than zero", location)
+
+
+def too_slow(document: Document, speeds: Iterable[tuple[Location, float]]) -> Iterable[Finding]:
+    """A finding for each speed with which the task would need hours.
+
+    Args:
+        document: Where the speeds are.
+        speeds: Location and value of each, in m/s.
+    """
+    for location, speed in speeds:
+        if 0 < speed < _SLOWEST_M_S:
+            message = f"{_name(location)} must be at least 1 mm/s"
+            hint = "a slower arm or hand would need hours for the task"
+            yield document.finding("scene.too-slow", message, location, hint=hint)
 
 
 def negative(document: Document, values: Iterable[tuple[Location, float]]) -> Iterable[Finding]:

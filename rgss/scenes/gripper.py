@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rgss.scenes.pose import Pose
@@ -62,6 +63,19 @@ class GripperGeometry:
     def grasp_centre(self) -> Pose:
         """Transform of the grasp-centre frame to the flange."""
         return Pose(position_m=(0.0, 0.0, self.grasp_depth_m))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GripperFile:
+    """A gripper file.
+
+    Attributes:
+        geometry: The gripper's shape.
+        settings: What the gripper has where no design sets it: values in SI, such as ``gripper.finger.mass``.
+    """
+
+    geometry: GripperGeometry
+    settings: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""Reading a gripper's shape."""
+"""Reading gripper files."""
 
 from __future__ import annotations
 
@@ -7,13 +7,26 @@ from pathlib import Path
 from rgss.documents import load_document
 from rgss.errors import DocumentError
 from rgss.scenes.document import GripperDocument
-from rgss.scenes.findings import Location, not_positive
-from rgss.scenes.gripper import GripperGeometry
+from rgss.scenes.findings import Location, not_positive, too_slow
+from rgss.scenes.gripper import GripperFile, GripperGeometry
 from rgss.scenes.shapes import Box, Cylinder
 
 
 def load_gripper(path: Path, *, label: str | None = None) -> GripperGeometry:
     """Read a gripper's shape.
+
+    Args:
+        path: The gripper file.
+        label: The file's name in messages; the path by default.
+
+    Raises:
+        DocumentError: The file is wrong; with every problem in it.
+    """
+    return load_gripper_file(path, label=label).geometry
+
+
+def load_gripper_file(path: Path, *, label: str | None = None) -> GripperFile:
+    """Read a gripper's shape, and what it has where no design sets it.
 
     Args:
         path: The gripper file.
@@ -33,7 +46,16 @@ def load_gripper(path: Path, *, label: str | None = None) -> GripperGeometry:
         (("stroke",), entry.stroke),
         (("grasp_depth",), entry.grasp_depth),
     ]
-    findings = list(not_positive(document, lengths))
+    own: dict[Location, float | None] = {
+        ("base", "mass"): entry.base.mass,
+        ("finger", "mass"): entry.finger.mass,
+        ("finger", "speed"): entry.finger.speed,
+        ("finger", "force"): entry.finger.force,
+        ("finger", "friction"): entry.finger.friction,
+    }
+    given = {location: value for location, value in own.items() if value is not None}
+    findings = list(not_positive(document, [*lengths, *given.items()]))
+    findings.extend(too_slow(document, (item for item in given.items() if item[0] == ("finger", "speed"))))
     if entry.stroke >= entry.largest_opening:
         findings.append(
             document.finding(
@@ -55,7 +77,7 @@ def load_gripper(path: Path, *, label: str | None = None) -> GripperGeometry:
         )
     if findings:
         raise DocumentError(sorted(findings))
-    return GripperGeometry(
+    geometry = GripperGeometry(
         id=entry.gripper,
         azimuths_rad=entry.azimuths,
         base=Cylinder(radius_m=entry.base.radius, height_m=entry.base.height),
@@ -64,3 +86,5 @@ def load_gripper(path: Path, *, label: str | None = None) -> GripperGeometry:
         stroke_m=entry.stroke,
         grasp_depth_m=entry.grasp_depth,
     )
+    settings = {".".join(("gripper", *map(str, location))): value for location, value in given.items()}
+    return GripperFile(geometry=geometry, settings=settings)

@@ -55,6 +55,7 @@ class Robot:
         tool_acceleration_m_s2: Greatest acceleration of the tool centre.
         home_rad: A configuration near which inverse-kinematics branches are preferred.
         files: The meshes and textures that the URDF names, by their content.
+        tool_speed_m_s: Greatest speed of the tool centre where no design sets it; None if the file has none.
     """
 
     id: str
@@ -66,3 +67,4 @@ class Robot:
     tool_acceleration_m_s2: float
     home_rad: tuple[float, ...]
     files: tuple[RobotFile, ...] = ()
+    tool_speed_m_s: float | None = None

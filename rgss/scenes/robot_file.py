@@ -10,7 +10,7 @@ from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import RobotDocument
-from rgss.scenes.findings import named_file_findings, not_positive
+from rgss.scenes.findings import Location, named_file_findings, not_positive, too_slow
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Joint, Robot
 from rgss.scenes.urdf_file import ReadUrdf, read_urdf
@@ -53,6 +53,9 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
     findings.extend(
         not_positive(document, [(("payload",), entry.payload), (("tool_acceleration",), entry.tool_acceleration)])
     )
+    if entry.tool_speed is not None:
+        speed: list[tuple[Location, float]] = [(("tool_speed",), entry.tool_speed)]
+        findings.extend((*not_positive(document, speed), *too_slow(document, speed)))
     findings.extend(_home_findings(entry, document))
     top = path.parent if project is None else project
     problems = list(named_file_findings(document, entry.description, ("description",), folder=path.parent, project=top))
@@ -80,6 +83,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         tool_acceleration_m_s2=entry.tool_acceleration,
         home_rad=entry.home,
         files=urdf.files,
+        tool_speed_m_s=entry.tool_speed,
     )
 
 

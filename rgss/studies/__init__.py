@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from rgss.studies.source_text import invisible_findings
     from rgss.studies.study import ValueAnchors
     from rgss.studies.unread_files import unread_findings
+    from rgss.studies.unused_parameters import unused_findings
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -58,6 +59,7 @@ __all__ = [
     "project_of_study",
     "trial_specs",
     "unread_findings",
+    "unused_findings",
     "without_consequences",
     "write_headers",
     "write_scaffold",

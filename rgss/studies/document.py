@@ -67,6 +67,8 @@ class PlanningEntry(DocumentModel):
     simplification_checks: Annotated[int, Field(ge=0, le=1_000_000)]
     simplification_limit: Seconds = 2.0
     clearance: Metres
+    planner: Text | None = None
+    time_limit: Seconds | None = None
 
 
 class PhysicsEntry(DocumentModel):

@@ -23,7 +23,7 @@ _CONSEQUENCES: Mapping[str, tuple[str, ...]] = {
         "measures.cycle",
     ),
     "design.no-levels": ("design.never-set",),
-    "design.task-parameter": ("measures.unknown-source", "measures.source-unit"),
+    "design.sets": ("measures.source-unit",),
 }
 """For each rule, those that may be broken only because it is."""
 

@@ -16,11 +16,11 @@ from rgss.measures import MeasureKind as Kind
 from rgss.measures import MeasureSet, load_measures
 from rgss.quantities import same_dimension
 from rgss.requirements import RequirementSet, load_requirements
-from rgss.scenes import GripperGeometry, Scene, load_gripper, load_scene
+from rgss.scenes import GripperFile, Scene, load_gripper_file, load_scene
+from rgss.studies.design_settings import GRIPPER, design_findings
 from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import source_findings
 from rgss.studies.study import StudyDefinition, named_file, read_study
-from rgss.studies.task_parameters import GRIPPER, task_findings
 from rgss.trace import MeasureKind, MeasureTrace, check_trace
 
 FOLDERS = ("requirements", "designs", "scenes", "studies")
@@ -43,7 +43,7 @@ class Project:
         measures: The measures.
         designs: The design space with its catalogue.
         scene: The scene.
-        grippers: The shape of each gripper component, by its geometry file.
+        grippers: The gripper file of each gripper component, by its name.
         study: The study.
         measure_traces: The measures as traceability sees them.
     """
@@ -53,7 +53,7 @@ class Project:
     measures: MeasureSet
     designs: DesignSpace
     scene: Scene
-    grippers: dict[str, GripperGeometry]
+    grippers: dict[str, GripperFile]
     study: StudyDefinition
     measure_traces: tuple[MeasureTrace, ...]
 
@@ -183,7 +183,8 @@ class _Reader:
         grippers = self._grippers(designs) if designs is not None else {}
         if designs is not None:
             document = read_document(folder / named["design_space"], label=named["design_space"])
-            self._findings.extend(task_findings(designs, document, grippers))
+            if scene is not None and study is not None:
+                self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
             if measures is not None:
                 document = read_document(folder / MEASURES, label=MEASURES)
                 self._findings.extend(source_findings(measures.inputs, designs.source_units(), document))
@@ -258,9 +259,9 @@ class _Reader:
         space = named["design_space"]
         return self._try(lambda: load_design_space(self._folder / space, catalogue, label=space))
 
-    def _grippers(self, designs: DesignSpace) -> dict[str, GripperGeometry]:
-        """The shape of every gripper that a variant uses, by the name of its file."""
-        shapes: dict[str, GripperGeometry] = {}
+    def _grippers(self, designs: DesignSpace) -> dict[str, GripperFile]:
+        """The file of every gripper component, by its name."""
+        shapes: dict[str, GripperFile] = {}
         catalogue = designs.catalogue
         for component in catalogue.of_role(GRIPPER):
             name = component.geometry
@@ -270,7 +271,7 @@ class _Reader:
                 hint = "copy the file into the project and name it"
                 self._findings.append(catalogue.document.finding("design.geometry", message, place, hint=hint))
             elif name and name not in shapes:
-                shape = self._try(lambda name=name: load_gripper(self._folder / name, label=name))  # type: ignore[misc]
+                shape = self._try(lambda name=name: load_gripper_file(self._folder / name, label=name))  # type: ignore[misc]
                 if shape is not None:
                     shapes[name] = shape
         return shapes

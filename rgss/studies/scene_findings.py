@@ -10,8 +10,8 @@ from rgss.documents import Document, read_document
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
 from rgss.scenes import Waypoint
+from rgss.studies.design_settings import GRIPPER
 from rgss.studies.project import Project
-from rgss.studies.task_parameters import GRIPPER
 
 if TYPE_CHECKING:
     from rgss.trials import SceneProblem
@@ -45,7 +45,7 @@ def check_scene(project: Project) -> SceneCheck:
         of_reach: dict[SceneProblem, list[str]] = {}
         for file in _gripper_files(project):
             for problem in reach_problems(
-                project.scene, project.grippers[file], clearance_m=project.study.planning.clearance_m
+                project.scene, project.grippers[file].geometry, clearance_m=project.study.planning.clearance_m
             ):
                 of_reach.setdefault(problem, []).append(file)
     except ImportError as error:

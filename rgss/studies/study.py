@@ -33,6 +33,8 @@ class PlanningChoice:
         simplification_checks: Validity checks that may be spent on looking for shortcuts.
         simplification_limit_s: Longest time of simplifying a path by the planning clock.
         clearance_m: Distance that planned paths keep from everything.
+        planner: The planner where no design sets it; empty if the file has none.
+        time_limit_s: Longest planning time of one move where no design sets it; None if the file has none.
     """
 
     counted: bool
@@ -41,6 +43,8 @@ class PlanningChoice:
     simplification_checks: int
     simplification_limit_s: float
     clearance_m: float
+    planner: str = ""
+    time_limit_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,8 +142,9 @@ def read_study(
     for key, value in (
         ("charge_per_check", entry.planning.charge_per_check),
         ("resolution", entry.planning.resolution),
+        ("time_limit", entry.planning.time_limit),
     ):
-        if value <= 0:
+        if value is not None and value <= 0:
             findings.append(_not_positive(document, ("planning", key)))
     if entry.planning.clearance < 0:
         findings.append(document.finding("study.negative", "clearance must not be negative", ("planning", "clearance")))
@@ -177,6 +182,8 @@ def read_study(
             simplification_checks=planning.simplification_checks,
             simplification_limit_s=planning.simplification_limit,
             clearance_m=planning.clearance,
+            planner=planning.planner or "",
+            time_limit_s=planning.time_limit,
         ),
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,

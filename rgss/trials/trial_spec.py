@@ -20,8 +20,8 @@ class TrialSpec:
         scene: Where it happens.
         gripper: The gripper of the design.
         planner: Name of the planner of the design.
-        planning_limit_s: Longest planning time for one move (d9).
-        tool_speed_m_s: Greatest tool speed (d7).
+        planning_limit_s: Longest planning time for one move.
+        tool_speed_m_s: Greatest tool speed.
         settings: How it is planned and simulated.
     """
 

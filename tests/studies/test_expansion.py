@@ -78,7 +78,7 @@ def test_a_variant_without_a_number(shipped):
     variant = shipped.designs.variant(1)
     broken = replace(variant, parameters={**variant.parameters, "d7": "fast"})
 
-    with pytest.raises(DefinitionError, match=r"variant 1 has no number for design parameter 'd7' \(the task needs"):
+    with pytest.raises(DefinitionError, match=r"robot\.tool_speed of variant 1 must be a number, got 'fast'"):
         trial_specs(shipped, variants=[broken])
 
 
@@ -86,7 +86,10 @@ def test_a_variant_whose_gripper_has_another_shape(shipped):
     variant, other = shipped.designs.variant(1), shipped.designs.variant(19)
     broken = replace(variant, components={**variant.components, "gripper": other.components["gripper"]})
 
-    with pytest.raises(DefinitionError, match=r"is for 3 fingers but scenes/grippers/kg-2\.yaml has 2"):
+    with pytest.raises(
+        DefinitionError,
+        match=r"gripper\.fingers of variant 1 must equal azimuths in the gripper file, which is 2, got 3 \(let the",
+    ):
         trial_specs(shipped, variants=[broken])
 
 
@@ -97,3 +100,11 @@ def test_a_variant_whose_gripper_has_no_shape(shipped):
 
     with pytest.raises(DefinitionError, match="names no geometry"):
         trial_specs(shipped, variants=[broken])
+
+
+def test_a_variant_without_a_required_quantity(shipped):
+    variant = shipped.designs.variant(1)
+    definitions = tuple(replace(one, sets="") if one.sets == "robot.tool_speed" else one for one in variant.definitions)
+
+    with pytest.raises(DefinitionError, match=r"variant 1 has no value of robot\.tool_speed \(add a design parameter"):
+        trial_specs(shipped, variants=[replace(variant, definitions=definitions)])

@@ -15,7 +15,7 @@ def test_the_shipped_project_is_sound(shipped):
     assert len(shipped.designs.expand()) == 72
     assert shipped.scene.id == "restaurant"
     assert sorted(shipped.grippers) == ["scenes/grippers/kg-2.yaml", "scenes/grippers/kg-3.yaml"]
-    assert {shape.fingers for shape in shipped.grippers.values()} == {2, 3}
+    assert {file.geometry.fingers for file in shipped.grippers.values()} == {2, 3}
     assert (shipped.study.id, shipped.study.label) == ("pick_place", STUDY)
     assert shipped.evidence == shipped.folder / ".rgss" / "evidence.sqlite"
     assert [finding for finding in shipped.check() if finding.severity is not Severity.INFO] == []

@@ -67,6 +67,7 @@ def _check(options: argparse.Namespace) -> int:
         invisible_findings,
         load_project,
         unread_findings,
+        unused_findings,
     )
 
     skipped = ""
@@ -80,6 +81,7 @@ def _check(options: argparse.Namespace) -> int:
         findings: Sequence[Finding] = (
             *of_files,
             *guard_findings(project),
+            *unused_findings(project),
             *bench_findings(project),
             *impact_findings(project),
             *scene.findings,

@@ -26,7 +26,7 @@ EXAMPLE = "rgss sweep --replicates 10 --jobs 2"
 MORE_EXAMPLES = (
     ("rgss sweep --dry-run", "say what would be made and why"),
     ("rgss sweep --fidelity kinematic", "motion alone, for a first look"),
-    ("rgss sweep --only d1=2 --only 1/3", "a balanced third of the designs with two fingers"),
+    ("rgss sweep --only gripper.fingers=2 --only 1/3", "a balanced third of the designs with two fingers"),
     ("rgss sweep --until decided --cap 50", "add trials where they can still change the decision"),
 )
 

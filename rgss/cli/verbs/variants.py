@@ -13,12 +13,15 @@ if TYPE_CHECKING:
 
 HELP = "list every design variant with its parameters"
 ONLY_HELP = (
-    "only these variants: ids such as 1,5,60-72, filters such as d8=RRT or 'd7 <= 0.8 m/s', or a balanced "
-    "fraction such as 1/4; given several times, all must hold, in order"
+    "only these variants: ids such as 1,5,60-72, filters such as planning.planner=RRT or "
+    "'robot.tool_speed <= 0.8 m/s', or a balanced fraction such as 1/4; given several times, all must hold, in order"
 )
 EXAMPLE = "rgss variants --format csv > variants.csv"
 MORE_EXAMPLES = (
-    ("rgss variants --only d8=RRT --only 'd7 <= 0.8 m/s'", "those that two filters let through"),
+    (
+        "rgss variants --only planning.planner=RRT --only 'robot.tool_speed <= 0.8 m/s'",
+        "those of both filters",
+    ),
     ("rgss variants --only 1/4", "a balanced quarter of them"),
 )
 

@@ -65,7 +65,7 @@ def chain_of(model: TraceModel, evidence: TraceEvidence, name: str, *, definitio
         evidence: What is known beyond its files.
         name: Id of a need, a requirement, a block, a behaviour, a measure or a test; a trial as
             ``28/1`` or the beginning of its key; with definitions also a symbol or a source of
-            the measures, such as ``mu`` or ``design.d7``.
+            the measures, such as ``mu`` or ``design.tool_speed``.
         definitions: The measures as they are defined, for their names and for what they use.
 
     Raises:

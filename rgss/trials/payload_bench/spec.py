@@ -77,7 +77,7 @@ class BenchSpec:
 
     @property
     def total_force_n(self) -> float:
-        """F_max of eq. 4.8 when d5 is the force of one finger: N_f times d5."""
+        """F_max of eq. 4.8 with the force limit of one finger: N_f times that force."""
         return self.gripper.geometry.fingers * self.gripper.finger_force_n
 
     @property

@@ -46,9 +46,9 @@ def test_what_is_the_same_in_all_designs_is_so_whatever_is_listed(rgss, untouche
 def test_columns_have_their_full_names_where_these_fit(rgss, tmp_path):
     rgss("init", tmp_path / "new")
     head, _, *rows = rgss("variants", "--project", tmp_path / "new").output.splitlines()
-    assert head == "id  d1_fingers  d7_tool_speed_m_s"
+    assert head == "id  fingers  tool_speed_m_s"
     assert [row.split() for row in rows[:4]] == [["1", "2", "0.5"], ["2", "2", "1"], ["3", "3", "0.5"], ["4", "3", "1"]]
-    assert rows[5].startswith("The same in all designs: d2 finger mass 0.2 kg, d3 base mass 0.4 kg, ")
+    assert rows[5].startswith("The same in all designs: finger mass 0.2 kg, base mass 0.4 kg, ")
 
 
 def test_columns_that_find_no_room_go_on_in_another_table(rgss, untouched, monkeypatch):

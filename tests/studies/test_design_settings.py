@@ -51,14 +51,25 @@ def test_a_planner_that_only_the_catalogue_knows(edit, problems, place_of):
     ]
 
 
-def test_a_parameter_that_the_task_needs(folder, problems, place_of):
-    for file in (SPACE, CATALOGUE):
-        text = (folder / file).read_text(encoding="utf-8")
-        (folder / file).write_text(re.sub(r"\bd9\b", "d10", text), encoding="utf-8")
+def test_a_quantity_that_nothing_sets(edit, problems, place_of):
+    edit(SPACE, "    sets: planning.time_limit\n", "")
+
+    assert problems() == [
+        (
+            f"{place_of(SPACE, '- id: d1')}: error: nothing sets planning.time_limit "
+            "(add 'sets: planning.time_limit' to a parameter, or planning.time_limit in the study) "
+            "[design.unset-quantity]"
+        )
+    ]
+
+
+def test_a_quantity_that_some_gripper_files_lack(edit, problems, place_of):
+    edit(SPACE, "    sets: gripper.finger.force\n", "")
+    edit("scenes/grippers/kg-3.yaml", "length: 90 mm", "length: 90 mm, force: 10 N")
 
     (problem,) = problems()
     assert problem.startswith(
-        f"{place_of(SPACE, '- id: d1')}: error: the task needs the design parameter 'd9' (a trial"
+        f"{place_of(SPACE, '- id: d1')}: error: nothing sets gripper.finger.force of scenes/grippers/kg-2.yaml (add"
     )
 
 
@@ -68,7 +79,10 @@ def test_a_parameter_of_another_unit(edit, problems, place_of):
         edit(SPACE, f"d9: {time} s", f"d9: {time} m")
 
     (problem,) = problems()
-    assert problem.startswith(f"{place_of(SPACE, 'd9')}: error: d9 must be a quantity in 's' for the task (a trial is")
+    assert problem == (
+        f"{place_of(SPACE, 'planning.time_limit')}: error: d9 must be a quantity in 's' to set planning.time_limit, "
+        "not in 'm' (correct the unit) [design.sets]"
+    )
 
 
 def test_a_planner_that_is_a_number(edit, problems, place_of):
@@ -77,17 +91,23 @@ def test_a_planner_that_is_a_number(edit, problems, place_of):
         edit(SPACE, f"d8: {planner}", f"d8: {number}")
         edit(CATALOGUE, f"d8: {planner}", f"d8: {number}")
 
-    assert problems()[0].startswith(f"{place_of(SPACE, 'd8')}: error: d8 must be a name for the task")
+    assert problems()[0] == (
+        f"{place_of(SPACE, 'planning.planner')}: error: d8 must be a name to set planning.planner "
+        "(write 'kind: name') [design.sets]"
+    )
 
 
-def test_a_role_that_the_task_needs(folder, problems, place_of):
-    for file in (CATALOGUE, SPACE, "requirements/measures.yaml"):
+def test_the_role_of_grippers_is_needed(folder, problems, place_of):
+    for file, old, new in ((CATALOGUE, ": gripper\n", ": hand\n"), (SPACE, "component.gripper.", "component.hand.")):
         text = (folder / file).read_text(encoding="utf-8")
-        (folder / file).write_text(text.replace("finger_actuator", "finger_drive"), encoding="utf-8")
+        (folder / file).write_text(text.replace(old, new), encoding="utf-8")
+    measures = folder / "requirements/measures.yaml"
+    text = measures.read_text(encoding="utf-8")
+    measures.write_text(text.replace("component.gripper.", "component.hand."), encoding="utf-8")
 
     (problem,) = problems()
     assert problem.startswith(
-        f"{place_of(CATALOGUE, '- id: manipulator')}: error: the task needs components of the role 'finger_actuator'"
+        f"{place_of(CATALOGUE, '- id: manipulator')}: error: the task needs components of the role 'gripper' (roles: "
     )
 
 

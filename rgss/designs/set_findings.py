@@ -1,0 +1,188 @@
+"""Findings about what parameters and properties of components set in a trial."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from rgss.designs.components import Catalogue, Component, Role
+from rgss.designs.findings import near_hint
+from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue, read_magnitude
+from rgss.designs.settable_quantities import CATALOGUE_PREFIX, SETTABLE_QUANTITIES, SettableQuantity
+from rgss.designs.space import DesignSpace
+from rgss.documents import Document
+from rgss.errors import QuantityError
+from rgss.findings import Finding
+from rgss.quantities import dimension
+
+_Location = tuple["str | int", ...]
+_RULE = "design.sets"
+
+
+def parameter_set_findings(
+    document: Document, parameters: Sequence[DesignParameter], catalogue: Catalogue
+) -> Iterator[Finding]:
+    """Find parameters whose kind or unit is not that of what they set, and quantities that are set twice.
+
+    Args:
+        document: The file of the design space.
+        parameters: The parameters, in the order of the file.
+        catalogue: The catalogue, whose properties set quantities too.
+    """
+    setters = {
+        quantity: f"property {name!r} of role {role.id!r} in {_place(catalogue.document, index, name)}"
+        for index, role in enumerate(catalogue.roles)
+        for name, quantity in role.sets.items()
+    }
+    for index, parameter in enumerate(parameters):
+        if not parameter.sets:
+            continue
+        place: _Location = ("parameters", index, "sets")
+        if parameter.sets.startswith(CATALOGUE_PREFIX):
+            yield from _catalogue_findings(document, place, parameter, catalogue)
+        else:
+            problem = _kind_problem(parameter.kind, parameter.unit, SETTABLE_QUANTITIES[parameter.sets])
+            if problem:
+                message, hint = problem
+                yield document.finding(_RULE, f"{parameter.id} {message}", place, hint=hint)
+        if parameter.sets in setters:
+            message = f"{parameter.sets} is set already by {setters[parameter.sets]}"
+            yield document.finding("design.set-twice", message, place, hint="set it in one place")
+        else:
+            line, _ = document.values[place]
+            setters[parameter.sets] = f"{parameter.id} in line {line}"
+
+
+def role_set_findings(document: Document, roles: Sequence[Role]) -> Iterator[Finding]:
+    """Find properties that set what they cannot set, and quantities that two properties set.
+
+    Args:
+        document: The file of the catalogue.
+        roles: The roles, in the order of the file.
+    """
+    setters: dict[str, str] = {}
+    for index, role in enumerate(roles):
+        for name, quantity in role.sets.items():
+            place: _Location = ("roles", index, "sets", name)
+            if name not in role.properties:
+                hint = near_hint(name, role.properties, f"properties of a {role.id}")
+                message = f"a {role.id} has no property {name!r}"
+                yield document.finding("design.unknown-property", message, place, hint=hint, at_key=True)
+                continue
+            if quantity.startswith(CATALOGUE_PREFIX):
+                message, hint = f"property {name!r} cannot choose a component", "let a parameter choose it"
+                yield document.finding(_RULE, message, place, hint=hint)
+                continue
+            setting = SETTABLE_QUANTITIES[quantity]
+            kind = ParameterKind.COUNT if setting.kind is ParameterKind.COUNT else ParameterKind.QUANTITY
+            problem = _kind_problem(kind, role.properties[name], setting)
+            if problem:
+                yield document.finding(_RULE, f"property {name!r} {problem[0]}", place, hint=problem[1])
+            if quantity in setters:
+                message = f"{quantity} is set already by {setters[quantity]}"
+                yield document.finding("design.set-twice", message, place, hint="set it in one place")
+            line, _ = document.values[place]
+            setters.setdefault(quantity, f"property {name!r} of role {role.id!r} in line {line}")
+
+
+def component_set_findings(document: Document, components: Sequence[Component]) -> Iterator[Finding]:
+    """Find values of components that are out of the range of what they set.
+
+    Args:
+        document: The file of the catalogue.
+        components: The components, in the order of the file.
+    """
+    for index, component in enumerate(components):
+        for name, quantity in component.sets.items():
+            setting, value = SETTABLE_QUANTITIES[quantity], component.properties[name].value
+            place: _Location = ("components", index, "properties", name, "value")
+            if setting.kind is ParameterKind.COUNT and not value.is_integer():
+                message = f"{name} sets {quantity} and must be a whole number, got {value:g}"
+                yield document.finding("design.value", message, place, hint="write a count, such as 2")
+            else:
+                yield from value_findings(document, place, name, setting, value)
+
+
+def design_value_findings(designs: DesignSpace, document: Document) -> Iterator[Finding]:
+    """Find values of parameters that are out of the range of what they set.
+
+    Args:
+        designs: The design space.
+        document: Its file.
+    """
+    settings = {one.id: SETTABLE_QUANTITIES.get(one.sets) for one in designs.parameters}
+    for place, name, value in written_values(designs):
+        setting = settings[name]
+        if setting is not None:
+            yield from value_findings(document, place, name, setting, value)
+
+
+def written_values(designs: DesignSpace) -> Iterator[tuple[_Location, str, ParameterValue]]:
+    """Every value that the file gives to a parameter, and where.
+
+    Args:
+        designs: The design space.
+    """
+    for name, value in designs.constants.items():
+        yield ("constants", name), name, value
+    for number, factor in enumerate(designs.factors):
+        if factor.span is not None:
+            for end, bound in enumerate((factor.span.low, factor.span.high)):
+                yield ("factors", number, "range", end), factor.span.parameter, bound
+        for place, level in enumerate(factor.levels):
+            for name, value in level.values.items():
+                yield ("factors", number, "levels", place, "sets", name), name, value
+
+
+def value_findings(
+    document: Document, place: _Location, name: str, setting: SettableQuantity, value: ParameterValue
+) -> Iterator[Finding]:
+    """Find a value that is out of the range of what it sets.
+
+    Args:
+        document: The file.
+        place: Where the value is.
+        name: The key that gives it.
+        setting: What it sets.
+        value: The value in SI.
+    """
+    if isinstance(value, str):
+        return
+    if setting.positive and value <= 0:
+        yield document.finding("design.not-positive", f"{name} must be greater than zero", place)
+    elif setting.least and value < read_magnitude(setting.least, setting.unit):
+        rule = "design.too-slow" if setting.positive else "design.negative"
+        message = f"{name} must be at least {setting.least}"
+        yield document.finding(rule, message, place, hint=setting.least_reason)
+
+
+def _catalogue_findings(
+    document: Document, place: _Location, parameter: DesignParameter, catalogue: Catalogue
+) -> Iterator[Finding]:
+    role = parameter.sets.removeprefix(CATALOGUE_PREFIX)
+    roles = [known.id for known in catalogue.roles]
+    if role not in roles:
+        hint = near_hint(role, roles, "known roles")
+        yield document.finding("design.unknown-role", f"unknown role {role!r}", place, hint=hint)
+    elif parameter.kind is not ParameterKind.NAME:
+        message = f"{parameter.id} must be a name to set {parameter.sets}"
+        yield document.finding(_RULE, message, place, hint="write 'kind: name'; its values are ids of components")
+    elif parameter.role != role:
+        message = f"{parameter.id} has the role {parameter.role!r} and sets {parameter.sets}"
+        yield document.finding(_RULE, message, place, hint="remove 'role'")
+
+
+def _kind_problem(kind: ParameterKind, unit: str, setting: SettableQuantity) -> tuple[str, str] | None:
+    if kind is not setting.kind:
+        wanted = "a quantity" if setting.kind is ParameterKind.QUANTITY else f"a {setting.kind.value}"
+        return f"must be {wanted} to set {setting.name}", f"write 'kind: {setting.kind.value}'"
+    try:
+        if unit and dimension(unit) != dimension(setting.unit):
+            return f"must be a quantity in {setting.unit!r} to set {setting.name}, not in {unit!r}", "correct the unit"
+    except QuantityError:
+        return None  # An unknown unit is a finding of its own.
+    return None
+
+
+def _place(document: Document, role: int, name: str) -> str:
+    line, _ = document.values["roles", role, "sets", name]
+    return f"{document.label}:{line}"

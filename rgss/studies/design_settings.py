@@ -1,0 +1,121 @@
+"""Findings about designs of which no trial can be made, before anything is simulated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from rgss.designs import (
+    SETTABLE_QUANTITIES,
+    DesignSpace,
+    ParameterValue,
+    format_value,
+    written_values,
+)
+from rgss.documents import Document
+from rgss.findings import Finding, shown
+from rgss.scenes import GripperFile, Robot
+from rgss.studies.study import PlanningChoice
+
+GRIPPER = "gripper"
+"""The role of the components that have a gripper file."""
+
+TIME_LIMIT = "planning.time_limit"
+_FINGERS, _PLANNER, _TOOL_SPEED = "gripper.fingers", "planning.planner", "robot.tool_speed"
+
+
+def design_findings(
+    designs: DesignSpace,
+    document: Document,
+    grippers: Mapping[str, GripperFile],
+    robot: Robot,
+    planning: PlanningChoice,
+) -> Iterator[Finding]:
+    """Find what would keep a trial of a design from being run.
+
+    Args:
+        designs: The design space.
+        document: Its file, for positions.
+        grippers: The gripper file of each gripper component, by its name.
+        robot: The robot, which gives values where no design does.
+        planning: How the study plans, which gives values too.
+    """
+    yield from _missing_findings(designs, document, grippers, default_values(robot, planning))
+    yield from _planner_findings(designs, document)
+    yield from _component_findings(designs, grippers)
+
+
+def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, ParameterValue]:
+    """The values that the robot and the study give where no design does, by quantity.
+
+    Args:
+        robot: The robot.
+        planning: How the study plans.
+    """
+    given = {_TOOL_SPEED: robot.tool_speed_m_s, _PLANNER: planning.planner or None, TIME_LIMIT: planning.time_limit_s}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def setters_of(designs: DesignSpace) -> frozenset[str]:
+    """The quantities that parameters or properties of components set.
+
+    Args:
+        designs: The design space.
+    """
+    of_roles = (quantity for role in designs.catalogue.roles for quantity in role.sets.values())
+    return frozenset({*of_roles, *(parameter.sets for parameter in designs.parameters)})
+
+
+def _missing_findings(
+    designs: DesignSpace,
+    document: Document,
+    grippers: Mapping[str, GripperFile],
+    defaults: Mapping[str, ParameterValue],
+) -> Iterator[Finding]:
+    given = setters_of(designs) | defaults.keys()
+    for quantity in SETTABLE_QUANTITIES.values():
+        if not quantity.required or quantity.name in given:
+            continue
+        message = f"nothing sets {quantity.name}"
+        if quantity.default.endswith("the gripper file"):
+            lacking = [name for name, file in grippers.items() if quantity.name not in file.settings]
+            if not lacking:
+                continue
+            message += f" of {lacking[0]}"
+        hint = f"add 'sets: {quantity.name}' to a parameter, or {quantity.default}"
+        yield document.finding("design.unset-quantity", message, ("parameters",), hint=hint)
+
+
+def _planner_findings(designs: DesignSpace, document: Document) -> Iterator[Finding]:
+    from rgss.motion import PLANNERS
+
+    planners = {parameter.id for parameter in designs.parameters if parameter.sets == _PLANNER}
+    for location, name, value in written_values(designs):
+        if name in planners and value not in PLANNERS:
+            message, hint = f"there is no planner {shown(value)}", f"planners: {', '.join(PLANNERS)}"
+            yield document.finding("design.planner", message, location, hint=hint)
+
+
+def _component_findings(designs: DesignSpace, grippers: Mapping[str, GripperFile]) -> Iterator[Finding]:
+    catalogue = designs.catalogue
+    document = catalogue.document
+    roles = [role.id for role in catalogue.roles]
+    if GRIPPER not in roles:
+        message = f"the task needs components of the role {GRIPPER!r}"
+        yield document.finding("design.task-role", message, ("roles",), hint=f"roles: {', '.join(roles)}")
+    counting = [parameter.id for parameter in designs.parameters if parameter.sets == _FINGERS]
+    for index, component in enumerate(catalogue.components):
+        if component.role != GRIPPER:
+            continue
+        if not component.geometry:
+            message = f"gripper {component.id!r} has no geometry"
+            hint = "name the file of its shape under 'geometry'"
+            yield document.finding("design.geometry", message, ("components", index), hint=hint)
+            continue
+        file = grippers.get(component.geometry)
+        for name in counting:
+            counts = designs.selectors[component.id].get(name, ())
+            if file is not None and any(count != file.geometry.fingers for count in counts):
+                listed = " or ".join(format_value(count) for count in counts)
+                message = f"{component.id!r} is for {name} = {listed}, its shape has {file.geometry.fingers} fingers"
+                hint = "name the file of another shape"
+                yield document.finding("design.geometry", message, ("components", index, "geometry"), hint=hint)
