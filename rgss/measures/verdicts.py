@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from enum import Enum
 
 from rgss.errors import DefinitionError, QuantityError
 from rgss.measures.estimates import Estimate
 from rgss.requirements import Criterion, Statistic
-
-RELATIVE_TOLERANCE = 1e-9
 
 
 class Verdict(str, Enum):
@@ -40,8 +37,7 @@ class StaleCause(str, Enum):
 def meets(criterion: Criterion, value: float, unit: str) -> bool:
     """Tell whether one value satisfies a criterion, whatever its statistic.
 
-    A value that differs from the threshold by less than one part in 10⁹ counts as equal to it,
-    so that binary rounding never decides.
+    A value within `rgss.requirements.RELATIVE_TOLERANCE` of the threshold counts as equal to it.
 
     Args:
         criterion: The criterion.
@@ -57,8 +53,7 @@ def meets(criterion: Criterion, value: float, unit: str) -> bool:
         raise DefinitionError(
             f"criterion {criterion} cannot judge a value in {unit!r}", hint="correct the threshold's unit"
         ) from error
-    equal = math.isclose(value, threshold, rel_tol=RELATIVE_TOLERANCE)
-    return criterion.comparison.holds(threshold if equal else value, threshold)
+    return criterion.comparison.holds(value, threshold)
 
 
 def judge(criterion: Criterion, estimate: Estimate, *, stale: bool = False) -> Verdict:

@@ -19,7 +19,8 @@ from rgss.requirements.attributes import (
     VerificationMethod,
     VerificationPhase,
 )
-from rgss.requirements.criterion import Comparison, Statistic
+from rgss.requirements.comparison import Comparison
+from rgss.requirements.criterion import Statistic
 
 _Entry = TypeVar("_Entry")
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rgss.studies.scene_findings import check_scene
     from rgss.studies.schema_headers import write_headers, write_schemas
     from rgss.studies.source_text import invisible_findings
-    from rgss.studies.study import ValueAnchors
+    from rgss.studies.study import ValueAnchors, value_anchors
     from rgss.studies.unread_files import unread_findings
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
@@ -58,6 +58,7 @@ __all__ = [
     "project_of_study",
     "trial_specs",
     "unread_findings",
+    "value_anchors",
     "without_consequences",
     "write_headers",
     "write_scaffold",

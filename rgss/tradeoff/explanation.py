@@ -8,7 +8,6 @@ import numpy as np
 
 from rgss.tradeoff.decision import LONGEST_LIST, Contribution, FlatMeasure, InfeasibleAlternative, RankedAlternative
 from rgss.tradeoff.infeasibility import RequirementCount, excluded_counts
-from rgss.tradeoff.programs import value_column
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -112,7 +111,7 @@ def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[Flat
     everyone = np.ones(len(enumeration.table), dtype=np.bool_)
     for measure in problem.weighting.deciding_measures:
         column = enumeration.table.column(measure)
-        values = value_column(problem.value_function(measure), column)
+        values = problem.value_function(measure).values_at(column)
         among_all = _is_flat(values, everyone)
         if among_all or _is_flat(values, enumeration.feasible):
             known = column[~np.isnan(column) & (everyone if among_all else enumeration.feasible)]

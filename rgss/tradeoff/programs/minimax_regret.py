@@ -70,6 +70,11 @@ class MinimaxRegret:
         """None."""
         return ()
 
+    @property
+    def aimed_measures(self) -> tuple[str, ...]:
+        """None."""
+        return ()
+
     def needs(self, preferences: Preferences) -> Mapping[str, bool]:
         """All valued measures over weights; over replicates, those that have a weight."""
         if self.scenarios is Scenarios.WEIGHTS:

@@ -9,8 +9,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.measures import RELATIVE_TOLERANCE
+from rgss.requirements import Comparison
 from rgss.tradeoff.problem import TIE_TOLERANCE
+from rgss.tradeoff.programs.columns import keeps
 
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.intp]
@@ -244,5 +245,4 @@ class SequenceOrdering:
 
 def at_least(column: Column, bound: float | Column) -> Mask:
     """Which quantities reach a bound; those that differ by less than one part in 10⁹ do."""
-    equal = np.abs(column - bound) <= RELATIVE_TOLERANCE * np.maximum(np.abs(column), np.abs(bound))
-    return np.asarray((column >= bound) | equal)
+    return keeps(Comparison.AT_LEAST, column, bound)

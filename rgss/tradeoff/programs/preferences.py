@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.milp import ConditionConstraint, ConstraintTerm, EvidenceConstraint
+from rgss.tradeoff.milp import Constraint, EvidenceConstraint, StageSolution, StageSolver
 from rgss.tradeoff.problem import (
     EVIDENCE_PREFIX,
     PREFIXES,
@@ -25,7 +25,41 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from rgss.tradeoff.problem import Alternative
-    from rgss.tradeoff.programs.program import Program
+
+
+class Program(Protocol):
+    """Decision program: the objectives by which a feasible alternative is chosen, stage by stage."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        ...
+
+    @property
+    def limits(self) -> tuple[Threshold, ...]:
+        """Thresholds that it sets beside those of the requirements."""
+        ...
+
+    @property
+    def aimed_measures(self) -> tuple[str, ...]:
+        """Measures that it optimises by their quantities."""
+        ...
+
+    def needs(self, preferences: Preferences) -> Mapping[str, bool]:
+        """The measures that must be known, and whether in every replicate, too."""
+        ...
+
+    def check(self, preferences: Preferences) -> None:
+        """Make sure that it can decide a trade-off.
+
+        Raises:
+            TradeoffError: It cannot.
+        """
+        ...
+
+    def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
+        """Solve its stages, each standing on the answers of those before; ends where one is infeasible."""
+        ...
 
 
 class Preferences(ABC):
@@ -77,11 +111,6 @@ class Preferences(ABC):
         }
 
     @property
-    def evidence_measures(self) -> tuple[str, ...]:
-        """The measures that must be known and that no threshold bounds."""
-        return tuple(self.evidence_needs)
-
-    @property
     def requirements(self) -> tuple[str, ...]:
         """Ids of all demands, in the order of the conditions, then the pseudo requirements."""
         ids = [condition.requirement for condition in self.conditions]
@@ -100,10 +129,10 @@ class Preferences(ABC):
         return {requirement: " and ".join(demands) for requirement, demands in found.items()}
 
     @property
-    def constraints(self) -> tuple[ConstraintTerm, ...]:
+    def constraints(self) -> tuple[Constraint, ...]:
         """The demands as terms of a program."""
         return (
-            *(ConditionConstraint(condition=condition) for condition in self.conditions),
+            *self.conditions,
             *(
                 EvidenceConstraint(measure=measure, every_replicate=every_replicate)
                 for measure, every_replicate in self.evidence_needs.items()
