@@ -44,7 +44,7 @@ def check_roles(
     Args:
         document: The positions.
         entries: The file's entries.
-        used: What each measure stands on, directly or not.
+        used: Symbols that each measure depends on, directly or not.
         by_trial: Whether each measure differs from trial to trial.
         lengths: The number of entries of each measure; None for a single number.
     """

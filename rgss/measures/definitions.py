@@ -38,7 +38,7 @@ class Estimator(str, Enum):
 
 
 class Population(str, Enum):
-    """Which trials an estimate stands on: those that succeeded, or every one."""
+    """Population of an estimate: the trials that succeeded, or every one."""
 
     SUCCESSFUL = "successful"
     ALL = "all"
@@ -193,9 +193,9 @@ class MeasureSet:
         assumptions: The assumptions, in the order of the file.
         equations: The equations, in the order of the file.
         measures: The measures, in the order of the file.
-        evaluation_order: The measures, each after those that it stands on.
+        evaluation_order: The measures, each after those that it depends on.
         used: For each measure, the ids of all measures and the symbols of all inputs and
-            constants that it stands on, directly or not.
+            constants that it depends on, directly or not.
     """
 
     constants: tuple[Constant, ...]
@@ -224,7 +224,7 @@ class MeasureSet:
         return tuple(measure for measure in self.measures if measure.kind is kind)
 
     def dependencies(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
-        """Ids of all measures that a measure stands on, directly or not, in evaluation order.
+        """Ids of all measures that a measure depends on, directly or not, in evaluation order.
 
         Two measures of which one is among the other's dependencies count the same thing twice
         when both are valued.
@@ -236,7 +236,7 @@ class MeasureSet:
         return tuple(other.id for other in self.evaluation_order if other.id in used)
 
     def sources(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
-        """The sources that a measure stands on, directly or not, such as ``design.d7``.
+        """The sources that a measure depends on, directly or not, such as ``design.d7``.
 
         Raises:
             DefinitionError: There is no such measure.

@@ -10,7 +10,7 @@ from rgss.requirements import Criterion, Statistic
 
 
 class Verdict(str, Enum):
-    """What the evidence says about a requirement."""
+    """Verdict of the evidence on a requirement."""
 
     MET = "met"
     NOT_MET = "not_met"
@@ -20,7 +20,7 @@ class Verdict(str, Enum):
 
 
 class StaleCause(str, Enum):
-    """What changed since the evidence was made, so that it is evidence for something else."""
+    """Cause of staleness: the input that changed since the evidence was made."""
 
     REQUIREMENT = "requirement"
     """The requirement: its sentence, its criterion or how it is verified."""
@@ -66,7 +66,7 @@ def judge(criterion: Criterion, estimate: Estimate, *, stale: bool = False) -> V
     Args:
         criterion: The criterion.
         estimate: The estimate of its measure from the evidence that holds now.
-        stale: Whether there is evidence that the verdict should stand on, but something that it
+        stale: Whether there is evidence for the verdict, but something that it
             depends on changed since; see `StaleCause`. Such a verdict is stale, whatever else
             is known; without any evidence, old or new, it is not run.
 

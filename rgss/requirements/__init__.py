@@ -1,4 +1,4 @@
-"""Needs, requirements, criteria and architecture: what is asked for, and what is to satisfy it."""
+"""Needs, requirements, criteria, and the architecture that is to satisfy them."""
 
 from rgss.requirements.architecture import Architecture, Behaviour, BehaviourKind, Block, BlockLevel, BlockRelation
 from rgss.requirements.architecture_files import ArchitectureFile, BehaviourFile, BlockFile

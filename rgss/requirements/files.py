@@ -1,4 +1,4 @@
-"""What the YAML files of requirements look like; those of the architecture are in `architecture_files`."""
+"""YAML form of the requirements; that of the architecture is in `architecture_files`."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ ThresholdText = Annotated[
 
 
 class ExemptionFile(DocumentModel):
-    """An element's leave to break a rule."""
+    """Exemption of an element from a rule."""
 
     rule: Identifier
     reason: Text

@@ -59,7 +59,7 @@ def excluded_better(
 ) -> tuple[tuple[InfeasibleAlternative, ...], tuple[RequirementCount, ...], int]:
     """What the program prefers to the best feasible alternative, and the demands that exclude it.
 
-    An alternative of which the program does not know enough is not counted: no one can say that it
+    An alternative of which the program does not know enough is not counted: it is unknown whether it
     is better.
 
     Args:
@@ -128,7 +128,7 @@ def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[Flat
 
 
 def _is_flat(values: NDArray[np.float64], among: NDArray[np.bool_]) -> bool:
-    # Of a single alternative no one can say in what others differ.
+    # A single alternative has none to differ from.
     known = values[among & ~np.isnan(values)]
     return known.size > 1 and bool(np.ptp(known) <= 1e-12)
 

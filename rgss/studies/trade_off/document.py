@@ -10,12 +10,8 @@ from rgss.documents import Dimensionless, DocumentModel, Identifier, Text
 from rgss.tradeoff import AnchorField, PortfolioAim, QuantityField, RankRule, Scenarios, ShapeKeys
 
 
-class ValueEntry(ShapeKeys):
-    """Value function and weight of a measure, or a group of such entries.
-
-    Either ``measure`` with its value function or ``criterion`` with the members that it is made
-    ``of``. The weight is a ``weight``, ``points`` or a ``rank``, alike for all members of a group.
-    """
+class CriterionKeys(DocumentModel):
+    """Keys of an entry beside those of its value function."""
 
     measure: Identifier | None = None
     criterion: Identifier | None = None
@@ -26,6 +22,14 @@ class ValueEntry(ShapeKeys):
     points: Dimensionless | None = None
     rank: int | None = None
     weight_between: tuple[Dimensionless, Dimensionless] | None = None
+
+
+class ValueEntry(ShapeKeys, CriterionKeys):
+    """Value function and weight of a measure, or a group of such entries.
+
+    Either ``measure`` with its value function or ``criterion`` with the members that it is made
+    ``of``. The weight is a ``weight``, ``points`` or a ``rank``, alike for all members of a group.
+    """
 
 
 class OrderEntry(DocumentModel):

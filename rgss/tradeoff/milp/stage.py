@@ -171,13 +171,13 @@ class StageSolver:
         )
 
     def compiled(self, stage: Stage) -> tuple[Any, Selection]:
-        """A stage as a CVXPY problem, and the variables that tell what it selects."""
+        """A stage as a CVXPY problem, and the variables of its selection."""
         import cvxpy
 
         selection = self.select()
         maximised = sum(term.compile(selection) for term in stage.objective)
         constraints = [compile_constraint(one, selection) for one in (*self.constraints, *stage.constraints)]
-        # The structure is asked for last, because terms may have called for further variables.
+        # The structure is read last, because terms may have called for further variables.
         constraints += [constraint for _, constraint in selection.structure]
         return cvxpy.Problem(cvxpy.Maximize(stage.scale * maximised), constraints), selection
 

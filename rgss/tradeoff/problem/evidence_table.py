@@ -23,7 +23,7 @@ class Alternative:
         measures: What is known of it, in each measure's unit; None where the evidence does not
             tell, for instance because no trial succeeded.
         samples: What each replicate showed of a measure, in the order of their seeds, in the
-            measure's unit; None where a replicate does not tell. A measure that follows from the
+            measure's unit; None where a replicate lacks it. A measure that follows from the
             design alone needs none.
     """
 
@@ -41,7 +41,7 @@ class Samples:
     """What every replicate of every alternative showed of one measure.
 
     Attributes:
-        values: Quantities, shape (n, r); NaN where a replicate does not tell or was not run.
+        values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
         ran: Which replicates were run, shape (n, r).
     """
 
@@ -78,7 +78,7 @@ class EvidenceTable(Sequence[Alternative]):
         Args:
             variants: Ids, shape (n,), in any order.
             columns: The quantities of each measure, shape (n,).
-            known: Where the evidence tells a measure, shape (n,); everywhere by default. What
+            known: Where a measure is known, shape (n,); everywhere by default. What
                 stands elsewhere in the column is not looked at.
 
         Raises:
@@ -107,7 +107,7 @@ class EvidenceTable(Sequence[Alternative]):
         return EvidenceTable(variants=ids[order], measures=tuple(columns), quantities=quantities)
 
     def column(self, measure: str) -> NDArray[np.float64]:
-        """The quantities of one measure, shape (n,); NaN where the evidence does not tell."""
+        """The quantities of one measure, shape (n,); NaN where unknown."""
         return self.quantities[:, self.measures.index(measure)]
 
     def replicates(self, measure: str) -> Samples:

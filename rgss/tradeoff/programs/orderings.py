@@ -139,7 +139,7 @@ class Step:
     reported: float = 1.0
 
     def keeps(self, rows: Rows, *, exactly: bool) -> Rows:
-        """Which of some rows are good enough; the tolerance is 0 where exactly is asked for."""
+        """Which of some rows are good enough; with ``exactly`` the tolerance is 0."""
         if not rows.size:
             return rows
         column = self.column[rows]
@@ -195,7 +195,7 @@ class SequenceOrdering:
         other, given = np.ones(size, dtype=np.bool_), np.ones(size, dtype=np.bool_)
         for place, step in enumerate(self.steps):
             best = np.fmax(np.where(other, step.column, -np.inf), np.where(given, step.column[row], -np.inf))
-            # Of a pair of which neither is in any more, it does not matter what is best.
+            # A pair of which neither is left needs no best.
             best = np.where(np.isfinite(best), best, 0.0)
             last = place == len(self.steps) - 1
             given_up = 0.0 if last else step.absolute + step.relative * np.abs(best)

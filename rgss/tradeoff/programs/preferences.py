@@ -1,4 +1,7 @@
-"""What is wanted of a choice, whatever there is to choose from: demands, values, weights, program."""
+"""Preferences and decision programs: demands, values, weights, and the program that they are handed to.
+
+The two protocols refer to each other, so they share a file.
+"""
 
 from __future__ import annotations
 
@@ -58,14 +61,14 @@ class Program(Protocol):
         ...
 
     def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
-        """Solve its stages, each standing on the answers of those before; ends where one is infeasible."""
+        """Solve its stages, each given the answers of those before; ends where one is infeasible."""
         ...
 
 
 class Preferences(ABC):
-    """What every trade-off has, as a base of the frozen values that state one.
+    """Base of the frozen trade-off problems: demands, values, weights, program.
 
-    A measure that matters and is unknown makes an alternative infeasible. Where a threshold bounds
+    A measure that decides and is unknown makes an alternative infeasible. Where a threshold bounds
     the measure, that requirement counts as violated; elsewhere the pseudo requirement
     ``evidence:<measure>`` does. Nothing is imputed.
 
@@ -102,7 +105,7 @@ class Preferences(ABC):
 
     @property
     def evidence_needs(self) -> Mapping[str, bool]:
-        """The measures of the pseudo requirements, and whether every replicate must tell them."""
+        """The measures of the pseudo requirements, and whether every replicate must have them."""
         bounded = {threshold.measure for threshold in (*self.thresholds, *self.program.limits)}
         return {
             measure: every_replicate

@@ -48,7 +48,7 @@ def price_list(
     It falls (or stays) as the threshold tightens, and jumps only at quantities of alternatives.
 
     Args:
-        quantities: What the threshold is on, shape (n,); NaN where the evidence does not tell, and
+        quantities: What the threshold is on, shape (n,); NaN where unknown, and
             then no threshold is met.
         totals: The weighted values, shape (n,); NaN only where not feasible.
         otherwise_feasible: Which alternatives meet everything else, shape (n,).

@@ -1,4 +1,4 @@
-"""How probable it is that the choice is right, as the replicates tell."""
+"""Posterior probability that the choice is right, given the replicates."""
 
 from __future__ import annotations
 

@@ -32,8 +32,8 @@ class ExponentialValue:
     """Exponential value function: the gain grows or shrinks steadily from worst to best.
 
     ``v(z) = (1 - exp(-ρ z)) / (1 - exp(-ρ))`` with ``z = (quantity - worst) / (best - worst)``, cut
-    to 0 and 1 outside of the anchors; ρ follows from the quantity that is worth one half, which is
-    what people can be asked for (Kirkwood, *Strategic Decision Making*, 1997, section 4.3). A
+    to 0 and 1 outside of the anchors; ρ follows from the quantity that is worth one half, which
+    people can elicit (Kirkwood, *Strategic Decision Making*, 1997, section 4.3). A
     quantity half-way in value that lies nearer to worst makes the function concave: the first
     gains count most.
 

@@ -16,8 +16,8 @@ SHAPE_KEYS = tuple(dict.fromkeys(key for shape in SHAPES for key in (*shape.requ
 """The keys of all shapes."""
 
 
-class ShapeKeys(PiecewiseKeys, ExponentialKeys, TargetKeys):
-    """Base of the document model with the keys of every shape."""
+class ShapeKeys(TargetKeys, ExponentialKeys, PiecewiseKeys):
+    """Base of the document model with the keys of every shape; editors list the last base's first."""
 
 
 def shape_of(keys: Collection[str]) -> type[AnchoredValue]:
