@@ -82,7 +82,7 @@ class _Builder:
         uses = {name: [other for other in one.names if other in expressions] for name, one in expressions.items()}
         order, cycles = evaluation_order(uses)
         for cycle in cycles:
-            message = f"measures stand on one another in a circle: {' → '.join(cycle)}"
+            message = f"measures depend on one another in a circle: {' → '.join(cycle)}"
             self._report(cycle[0], "measures.cycle", message, hint="let one of them not use the next")
         return order, transitive_use({name: one.names for name, one in expressions.items()}, order)
 

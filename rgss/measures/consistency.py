@@ -160,7 +160,7 @@ def _kind_problems(
             yield ("contribution", f"{name!r} is not a measure of effectiveness", where, hint)
         elif name in used and entry.id not in used[name]:
             hint = f"use {entry.id} in the expression of {name}, or remove it here"
-            yield ("contribution", f"{name!r} does not stand on {entry.id!r}", where, hint)
+            yield ("contribution", f"{name!r} does not depend on {entry.id!r}", where, hint)
 
 
 def _estimate_problems(entry: MeasureEntry, by_trial: bool | None) -> Iterable[_Problem]:  # noqa: FBT001

@@ -87,7 +87,7 @@ FINDINGS = [
     ),
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-005, times: 0}, best: 5 s}"),
-        "3:70: error: 0 times a threshold is no anchor",
+        "3:70: error: times must be greater than 0, got 0",
     ),
     (
         values("{measure: t_e, weight: 1, worst: {requiremnt: SYS-005}, best: 5 s}"),

@@ -39,7 +39,7 @@ def one(row, variant=1):
     [
         ([20.0, 24.0, 25.0, 26.0], Comparison.AT_MOST, 0.75),
         ([20.0, 24.0, 25.0, 26.0], Comparison.AT_LEAST, 0.5),
-        # A replicate that does not tell the time, because the task failed, does not meet it.
+        # A replicate without a time, because the task failed, does not meet it.
         ([20.0, None, None, 24.0], Comparison.AT_MOST, 0.5),
         ([25.0 * (1 + 5e-10)], Comparison.AT_MOST, 1.0),
     ],
@@ -137,9 +137,9 @@ def test_replicates_needed(probability, count):
 
 @pytest.mark.parametrize("level", [0.0, 1.0, -0.1, 1.5, math.nan])
 def test_levels_that_are_none(level):
-    with pytest.raises(TradeoffError, match="cannot be shown by replicates"):
+    with pytest.raises(TradeoffError, match="the probability must be between 0 and 1, got"):
         chance(level)
-    with pytest.raises(TradeoffError, match="are no tail"):
+    with pytest.raises(TradeoffError, match="the share of the worst replicates must be between 0 and 1, got"):
         tail(level)
 
 

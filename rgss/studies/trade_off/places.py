@@ -80,7 +80,7 @@ class TradeOffPlaces:
         if isinstance(entry, str):
             return self.quantity(entry, measure, at)
         if not (math.isfinite(entry.times) and entry.times > 0.0):
-            message = f"{entry.times:g} times a threshold is no anchor"
+            message = f"times must be greater than 0, got {entry.times:g}"
             self.report("anchor", message, (*at, "times"), hint="give a positive number")
             return None
         return entry if self.threshold(entry.requirement, measure, at) is not None else None

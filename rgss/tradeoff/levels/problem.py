@@ -271,5 +271,5 @@ def _check_table(space: LevelSpace, measure: str, table: Table) -> None:
         if entry is not None and not math.isfinite(entry):
             raise TradeoffError(
                 f"{measure!r} at {', '.join(combination)} is {entry:g}",
-                hint="an entry is a finite number, or None where the evidence does not tell",
+                hint="an entry is a finite number, or None where it is unknown",
             )

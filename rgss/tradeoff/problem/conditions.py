@@ -124,7 +124,7 @@ class ChanceBound:
         _check_comparison(self)
         if not 0.0 < self.probability < 1.0:
             raise TradeoffError(
-                f"{self.requirement}: a probability of {self.probability:g} cannot be shown by replicates",
+                f"{self.requirement}: the probability must be between 0 and 1, got {self.probability:g}",
                 hint="give a number between 0 and 1, such as 0.9",
             )
 
@@ -203,7 +203,7 @@ class TailBound:
         _check_comparison(self)
         if not 0.0 < self.share < 1.0:
             raise TradeoffError(
-                f"{self.requirement}: the worst {self.share:g} of the replicates are no tail",
+                f"{self.requirement}: the share of the worst replicates must be between 0 and 1, got {self.share:g}",
                 hint="give a share between 0 and 1, such as 0.1",
             )
 

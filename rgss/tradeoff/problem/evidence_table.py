@@ -20,8 +20,8 @@ class Alternative:
 
     Attributes:
         variant: Id of the design variant.
-        measures: What is known of it, in each measure's unit; None where the evidence does not
-            tell, for instance because no trial succeeded.
+        measures: What is known of it, in each measure's unit; None where it is
+            unknown, for instance because no trial succeeded.
         samples: What each replicate showed of a measure, in the order of their seeds, in the
             measure's unit; None where a replicate lacks it. A measure that follows from the
             design alone needs none.
@@ -56,8 +56,8 @@ class EvidenceTable(Sequence[Alternative]):
     Attributes:
         variants: Ids, shape (n,), ascending.
         measures: The m measures.
-        quantities: What is known, shape (n, m), in each measure's unit; NaN exactly where the
-            evidence does not tell.
+        quantities: What is known, shape (n, m), in each measure's unit; NaN exactly where it is
+            unknown.
         samples: The replicates of each measure that has any.
     """
 
@@ -242,5 +242,5 @@ def _given_twice(variant: int) -> TradeoffError:
 def _not_finite(measure: str, variant: int, quantity: float) -> TradeoffError:
     return TradeoffError(
         f"{measure!r} of variant {variant} is {quantity:g}",
-        hint="a measure is a finite number, or None where the evidence does not tell",
+        hint="a measure is a finite number, or None where it is unknown",
     )

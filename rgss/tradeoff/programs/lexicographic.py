@@ -50,7 +50,7 @@ class Aim:
         if self.relative >= 1.0:
             raise TradeoffError(
                 f"the relative tolerance of {self.measure!r} is {100.0 * self.relative:g} %",
-                hint="give less than 100 %, or leave the measure out: such a tolerance asks for nothing",
+                hint="give less than 100 %, or leave the measure out: such a tolerance bounds nothing",
             )
 
     def bound(self, best: float) -> float:

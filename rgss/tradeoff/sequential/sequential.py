@@ -87,7 +87,7 @@ class SequentialRule:
                 raise TradeoffError(f"the {name} is {number:g}", hint="give a number from 0 to 1, such as 0.05")
         if self.pilot < 2 or self.batch < 1:
             raise TradeoffError(
-                f"a pilot of {self.pilot} and batches of {self.batch} replicates tell nothing",
+                f"a pilot of {self.pilot} and batches of {self.batch} replicates are too small",
                 hint="give a pilot of at least 2 and batches of at least 1",
             )
         if self.cap < self.pilot or not 0 <= self.verdict_cap <= self.cap:
