@@ -12,12 +12,9 @@ from rgss.errors import QuantityError
 from rgss.findings import Finding
 from rgss.measures.consistency import check_entries, check_roles
 from rgss.measures.definitions import (
-    Assumption,
     Constant,
     Equation,
-    EstimateRule,
     Estimator,
-    InputSymbol,
     Measure,
     MeasureSet,
 )
@@ -68,8 +65,8 @@ class _Builder:
         }
         return MeasureSet(
             constants=tuple(_constant(entry, value) for entry, value in zip(entries.constants, values, strict=True)),
-            inputs=tuple(InputSymbol(**dict(entry)) for entry in entries.inputs),
-            assumptions=tuple(Assumption(**dict(entry)) for entry in entries.assumptions),
+            inputs=entries.inputs,
+            assumptions=entries.assumptions,
             equations=tuple(
                 Equation(id=entry.id, relation=entry.relation, note=entry.note or "") for entry in entries.equations
             ),
@@ -188,7 +185,6 @@ def _constant(entry: ConstantEntry, value: float) -> Constant:
 
 
 def _measure(entry: MeasureEntry, expression: Expression, length: int | None) -> Measure:
-    rule = entry.estimate
     return Measure(
         id=entry.id,
         kind=entry.kind,
@@ -201,7 +197,7 @@ def _measure(entry: MeasureEntry, expression: Expression, length: int | None) ->
         better=entry.better,
         traces=entry.traces,
         contributes_to=entry.contributes_to,
-        estimate=None if rule is None else EstimateRule(statistic=rule.statistic, over=rule.over),
+        estimate=entry.estimate,
         summary=entry.summary,
         length=length,
     )
