@@ -41,6 +41,9 @@ from rgss.tradeoff import (
     Weighting,
 )
 
+CLOSED = (Comparison.AT_LEAST, Comparison.AT_MOST)
+"""Comparisons that a program can have."""
+
 SIZES = (1, 2, 3, 8, 20, 72)
 """Numbers of alternatives."""
 
@@ -190,7 +193,7 @@ def _thresholds(rng: random.Random, measures: dict[int, Row], names: str) -> tup
             Threshold(
                 requirement=f"R-{number // rng.choice([1, 2])}",
                 measure=name,
-                comparison=rng.choice(list(Comparison)),
+                comparison=rng.choice(CLOSED),
                 value=rng.choice([rng.choice(known), rng.choice(known), max(known) * 2 + 1]),
                 unit="1",
             )
@@ -275,7 +278,7 @@ def _risks(
     found: list[ChanceBound | TailBound] = []
     for name in rng.sample(names, rng.randrange(1, len(names) + 1)):
         pool = [entry for rows in samples.values() for entry in rows.get(name, ()) if entry is not None] or [0.5]
-        limit, sense = rng.choice(pool), rng.choice(list(Comparison))
+        limit, sense = rng.choice(pool), rng.choice(CLOSED)
         count = len(sampled.get(name, (0.0,) * 10))
         if rng.random() < 0.5:
             probability = rng.choice([0.3, 0.5, 0.75, 1.0 - 1.0 / count])
@@ -325,7 +328,7 @@ def _program(
             Threshold(
                 requirement=f"limit:{other}",
                 measure=other,
-                comparison=rng.choice(list(Comparison)),
+                comparison=rng.choice(CLOSED),
                 value=rng.choice(_known(measures, other)),
                 unit="1",
             )
@@ -342,4 +345,4 @@ def _program(
 
 def _aim(rng: random.Random, name: str) -> Aim:
     absolute, relative = rng.choice([(0.0, 0.0), (0.0, 0.0), (0.25, 0.0), (0.1, 0.0), (0.0, 0.1), (0.0, 0.5)])
-    return Aim(measure=name, sense=rng.choice(list(Comparison)), absolute=absolute, relative=relative)
+    return Aim(measure=name, sense=rng.choice(CLOSED), absolute=absolute, relative=relative)

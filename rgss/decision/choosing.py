@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from rgss.assessment import VariantMeasures, replicates_of, require_complete, requirements_with_criteria
 from rgss.decision.level_structure import level_structure
-from rgss.decision.preference_model import comparison_of, program_of, risks_of, value_function_of
+from rgss.decision.preference_model import program_of, risks_of, threshold_of, value_function_of
 from rgss.measures import Estimate
 from rgss.requirements import Criterion, Statistic
 from rgss.studies import Project
@@ -16,7 +16,6 @@ from rgss.tradeoff import (
     Overlap,
     SharedPart,
     SolverRun,
-    Threshold,
     TradeProblem,
     decide,
     overlapping_measures,
@@ -43,24 +42,17 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
         for requirement in requirements_with_criteria(project)
         if requirement.criterion is not None
     }
-    units = {measure.id: measure.unit for measure in project.measures.measures}
     trade_off = project.study.trade_off
     thresholds = tuple(
-        Threshold(
-            requirement=requirement,
-            measure=_column(criterion),
-            comparison=comparison_of(requirement, criterion),
-            value=criterion.threshold_in(units[criterion.measure]),
-            unit=units[criterion.measure],
-        )
+        threshold_of(project, requirement, criterion, column=_column(criterion))
         for requirement, criterion in criteria.items()
     )
     functions = tuple(value_function_of(project, valued) for valued in trade_off.valued)
     program = program_of(project, functions)
     risks = risks_of(project)
     wanted = [*trade_off.weighting.weights, *(risk.measure for risk in risks)]
-    wanted += [aim.measure for aim in trade_off.program.aims]
-    wanted += [limit.measure for limit in trade_off.program.limits]
+    wanted += program.aimed_measures
+    wanted += [limit.measure for limit in program.limits]
     columns = {measure: (measure, Statistic.VALUE) for measure in wanted}
     columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
     return TradeProblem(

@@ -9,7 +9,7 @@ from rgss.decision.choosing import trade_problem
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
 from rgss.studies import Project, load_project
-from rgss.studies.trade_off import PortfolioChoice
+from rgss.studies.trade_off import PortfolioEntry
 from rgss.tradeoff import PortfolioDecision, PortfolioProblem, PortfolioTask, SolverRun, decide_portfolio
 
 COMPONENT = "component."
@@ -23,7 +23,7 @@ def portfolio_projects(project: Project) -> Mapping[str, Project]:
         DefinitionError: The study asks for no fleet.
         DocumentError: A study's file is wrong.
     """
-    return {study: load_project(project.folder, study) for study, _ in _fleet(project).studies}
+    return {each.study: load_project(project.folder, each.study) for each in _fleet(project).studies}
 
 
 def choose_portfolio(
@@ -59,8 +59,8 @@ def choose_portfolio(
     return decide_portfolio(
         PortfolioProblem(
             tasks=tuple(
-                PortfolioTask(name=study, weight=weight, problem=trade_problem(*measured[study]))
-                for study, weight in choice.studies
+                PortfolioTask(name=each.study, weight=each.weight, problem=trade_problem(*measured[each.study]))
+                for each in choice.studies
             ),
             at_most=choice.at_most,
             groups=None
@@ -73,7 +73,7 @@ def choose_portfolio(
     )
 
 
-def _fleet(project: Project) -> PortfolioChoice:
+def _fleet(project: Project) -> PortfolioEntry:
     fleet = project.study.trade_off.fleet
     if fleet is None:
         raise DefinitionError(

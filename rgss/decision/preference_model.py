@@ -1,4 +1,4 @@
-"""What a study wants of its choice, with the thresholds of the requirements as they are now."""
+"""Preferences of a study, with the thresholds of the requirements as they are now."""
 
 from __future__ import annotations
 
@@ -8,24 +8,12 @@ from rgss.errors import DefinitionError
 from rgss.measures import Direction
 from rgss.requirements import Criterion
 from rgss.studies import Project
-from rgss.studies.trade_off import Anchor, RequirementAnchor, RiskChoice, ValuedMeasure, as_aim
-from rgss.tradeoff import (
-    AdditiveValue,
-    ChanceBound,
-    Comparison,
-    EpsilonConstraint,
-    Lexicographic,
-    MinimaxRegret,
-    Program,
-    Risk,
-    TailBound,
-    Tchebycheff,
-    Threshold,
-    ValueFunction,
-)
+from rgss.studies.trade_off import AnchoredProgram, BoundChoice, RequirementBound
+from rgss.tradeoff import Anchor, AnchoredValue, Program, RequirementAnchor, Risk, Threshold, ValueFunction
+from rgss.tradeoff.problem import LIMIT_PREFIX
 
 
-def threshold_of(project: Project, anchor: Anchor, measure: str) -> float:
+def quantity_of(project: Project, anchor: Anchor, measure: str) -> float:
     """The quantity of an anchor, in the measure's unit.
 
     Raises:
@@ -41,7 +29,7 @@ def threshold_of(project: Project, anchor: Anchor, measure: str) -> float:
     return anchor.times * criterion.threshold_in(project.measures.measure(measure).unit)
 
 
-def value_function_of(project: Project, valued: ValuedMeasure) -> ValueFunction:
+def value_function_of(project: Project, valued: AnchoredValue) -> ValueFunction:
     """The value function of a measure.
 
     Raises:
@@ -50,7 +38,7 @@ def value_function_of(project: Project, valued: ValuedMeasure) -> ValueFunction:
             worse would be worth more; or it is anchored on one that does not bound the measure.
     """
     measure = project.measures.measure(valued.measure)
-    function = valued.function(lambda anchor: threshold_of(project, anchor, valued.measure))
+    function = valued.function(lambda anchor: quantity_of(project, anchor, valued.measure))
     better = None if measure.better is Direction.NONE else measure.better is Direction.HIGHER
     if None not in (better, function.more_is_better) and better is not function.more_is_better:
         raise DefinitionError(
@@ -62,18 +50,52 @@ def value_function_of(project: Project, valued: ValuedMeasure) -> ValueFunction:
     return function
 
 
-def comparison_of(requirement: str, criterion: Criterion) -> Comparison:
-    """The comparison of a criterion.
+def threshold_of(project: Project, requirement: str, criterion: Criterion, *, column: str | None = None) -> Threshold:
+    """The threshold of a requirement's criterion, in the measure's unit.
+
+    Args:
+        project: The project.
+        requirement: The requirement's id.
+        criterion: Its criterion.
+        column: The column that is compared; None for the measure itself.
 
     Raises:
-        DefinitionError: It is strict, which no program can have.
+        DefinitionError: The comparison is strict, which no program can have.
     """
-    for comparison in Comparison:
-        if comparison.value == criterion.comparison.value:
-            return comparison
-    raise DefinitionError(
-        f"{requirement}: a program cannot have the strict comparison {criterion.comparison.value!r}",
-        hint="write >= or <=",
+    if criterion.comparison.is_strict:
+        raise DefinitionError(
+            f"{requirement}: a program cannot have the strict comparison {criterion.comparison.value!r}",
+            hint="write >= or <=",
+        )
+    unit = project.measures.measure(criterion.measure).unit
+    return Threshold(
+        requirement=requirement,
+        measure=column or criterion.measure,
+        comparison=criterion.comparison,
+        value=criterion.threshold_in(unit),
+        unit=unit,
+    )
+
+
+def bound_of(project: Project, name: str, bound: BoundChoice | RequirementBound) -> Threshold:
+    """The threshold of a bound that a study sets.
+
+    Args:
+        project: The project.
+        name: Id of the demand.
+        bound: The bound.
+
+    Raises:
+        DefinitionError: It names a requirement that has no criterion, or none on the measure.
+    """
+    if isinstance(bound, RequirementBound):
+        return threshold_of(project, bound.requirement, _criterion(project, bound.requirement))
+    return Threshold(
+        requirement=name,
+        measure=bound.measure,
+        comparison=bound.comparison,
+        value=quantity_of(project, bound.value, bound.measure),
+        unit=project.measures.measure(bound.measure).unit,
     )
 
 
@@ -88,74 +110,24 @@ def program_of(project: Project, functions: Sequence[ValueFunction]) -> Program:
         TradeoffError: The program contradicts itself.
         DefinitionError: It is anchored on a requirement that has no criterion on the measure.
     """
-    choice = project.study.trade_off.program
-    if choice.name == "lexicographic":
-        return Lexicographic(aims=tuple(as_aim(aim) for aim in choice.aims))
-    if choice.name == "epsilon_constraint":
-        (aim,) = choice.aims
-        return EpsilonConstraint(
-            aim=as_aim(aim),
-            bounds=tuple(
-                Threshold(
-                    requirement=f"limit:{bound.measure}",
-                    measure=bound.measure,
-                    comparison=bound.comparison,
-                    value=threshold_of(project, bound.value, bound.measure),
-                    unit=project.measures.measure(bound.measure).unit,
-                )
-                for bound in choice.limits
-            ),
-        )
-    if choice.name == "tchebycheff":
-        by_measure = {function.measure: function for function in functions}
-        return Tchebycheff(
-            reference={
-                measure: by_measure[measure].value_at(threshold_of(project, anchor, measure))
-                for measure, anchor in choice.reference
-            },
-            augmentation=choice.augmentation,
-        )
-    if choice.name == "minimax_regret":
-        return MinimaxRegret(scenarios=choice.scenarios)
-    return AdditiveValue()
+    stated = project.study.trade_off.program
+    if not isinstance(stated, AnchoredProgram):
+        return stated
+    return stated.resolved(
+        lambda limit: bound_of(project, f"{LIMIT_PREFIX}{limit.measure}", limit),
+        lambda anchor, measure: quantity_of(project, anchor, measure),
+        {function.measure: function for function in functions}.__getitem__,
+    )
 
 
 def risks_of(project: Project) -> tuple[Risk, ...]:
-    """What a study demands of the replicates.
+    """Demands of a study on the replicates.
 
     Raises:
-        TradeoffError: A probability or a share is none.
+        TradeoffError: A probability or a share is not between 0 and 1.
         DefinitionError: A requirement that is named has no criterion.
     """
-    return tuple(_risk(project, choice) for choice in project.study.trade_off.risks)
-
-
-def _risk(project: Project, choice: RiskChoice) -> Risk:
-    if choice.bound is not None:
-        measure, comparison = choice.bound.measure, choice.bound.comparison
-        value = threshold_of(project, choice.bound.value, measure)
-    else:
-        criterion = _criterion(project, choice.requirement or "")
-        measure, comparison = criterion.measure, comparison_of(choice.requirement or "", criterion)
-        value = criterion.threshold_in(project.measures.measure(measure).unit)
-    unit = project.measures.measure(measure).unit
-    if choice.probability is not None:
-        return ChanceBound(
-            requirement=choice.id,
-            measure=measure,
-            comparison=comparison,
-            value=value,
-            unit=unit,
-            probability=choice.probability,
-        )
-    return TailBound(
-        requirement=choice.id,
-        measure=measure,
-        comparison=comparison,
-        value=value,
-        unit=unit,
-        share=choice.worst_share or 0.0,
-    )
+    return tuple(choice.risk(bound_of(project, choice.id, choice.bound)) for choice in project.study.trade_off.risks)
 
 
 def _criterion(project: Project, requirement: str) -> Criterion:

@@ -21,14 +21,14 @@ from rgss.assessment import (
     measure_variants,
     requirements_with_criteria,
 )
-from rgss.decision.preference_model import threshold_of
+from rgss.decision.preference_model import quantity_of
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore
 from rgss.measures import Verdict, judge
 from rgss.requirements import Criterion
 from rgss.studies import Project, Promotion, Screening, trial_specs
-from rgss.tradeoff import TargetValue, ValueFunction
+from rgss.tradeoff import ValueFunction
 from rgss.tradeoff.problem import TIE_TOLERANCE
 from rgss.trials import TrialSpec
 
@@ -277,7 +277,7 @@ def _value_functions(project: Project) -> dict[str, tuple[float, ValueFunction]]
     trade_off = project.study.trade_off
     found: dict[str, tuple[float, ValueFunction]] = {}
     for valued in trade_off.valued:
-        function = valued.function(lambda anchor, measure=valued.measure: threshold_of(project, anchor, measure))  # type: ignore[misc]
+        function = valued.function(lambda anchor, measure=valued.measure: quantity_of(project, anchor, measure))  # type: ignore[misc]
         found[valued.measure] = (trade_off.weighting.weights[valued.measure], function)
     return found
 
@@ -287,7 +287,7 @@ def _best(function: ValueFunction, outlook: EstimateBounds) -> float:
     if not outlook.bounded:
         return 1.0
     quantities = [one.value for one in outlook.estimates if one.value is not None]
-    if isinstance(function, TargetValue) and quantities and min(quantities) <= function.target <= max(quantities):
+    if function.peak is not None and quantities and min(quantities) <= function.peak <= max(quantities):
         return 1.0
     return max((function.value_at(quantity) for quantity in quantities), default=0.0)
 

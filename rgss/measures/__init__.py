@@ -21,12 +21,11 @@ from rgss.measures.evaluation import COMPLETE, design_values, evaluate, trial_va
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
-from rgss.measures.verdicts import RELATIVE_TOLERANCE, StaleCause, Verdict, judge, meets
+from rgss.measures.verdicts import StaleCause, Verdict, judge, meets
 
 __all__ = [
     "COMPLETE",
     "FUNCTIONS",
-    "RELATIVE_TOLERANCE",
     "Assumption",
     "Binary",
     "Call",

@@ -12,12 +12,9 @@ from rgss.errors import QuantityError
 from rgss.findings import Finding
 from rgss.measures.consistency import check_entries, check_roles
 from rgss.measures.definitions import (
-    Assumption,
     Constant,
     Equation,
-    EstimateRule,
     Estimator,
-    InputSymbol,
     Measure,
     MeasureSet,
 )
@@ -59,7 +56,7 @@ class _Builder:
         self._check_symbols(expressions)
         order, used = self._order(expressions)
         lengths = self._check_kinds(expressions, order)
-        by_trial = {name: told for name in order if (told := self._differs(used[name], {*order})) is not None}
+        by_trial = {name: known for name in order if (known := self._differs(used[name], {*order})) is not None}
         self._findings += check_roles(self._document, entries, used, by_trial, lengths)
         if self._findings:
             return self._findings
@@ -68,8 +65,8 @@ class _Builder:
         }
         return MeasureSet(
             constants=tuple(_constant(entry, value) for entry, value in zip(entries.constants, values, strict=True)),
-            inputs=tuple(InputSymbol(**dict(entry)) for entry in entries.inputs),
-            assumptions=tuple(Assumption(**dict(entry)) for entry in entries.assumptions),
+            inputs=entries.inputs,
+            assumptions=entries.assumptions,
             equations=tuple(
                 Equation(id=entry.id, relation=entry.relation, note=entry.note or "") for entry in entries.equations
             ),
@@ -82,12 +79,12 @@ class _Builder:
         uses = {name: [other for other in one.names if other in expressions] for name, one in expressions.items()}
         order, cycles = evaluation_order(uses)
         for cycle in cycles:
-            message = f"measures stand on one another in a circle: {' → '.join(cycle)}"
+            message = f"measures depend on one another in a circle: {' → '.join(cycle)}"
             self._report(cycle[0], "measures.cycle", message, hint="let one of them not use the next")
         return order, transitive_use({name: one.names for name, one in expressions.items()}, order)
 
     def _differs(self, used: frozenset[str], sound: set[str]) -> bool | None:
-        """Whether what stands on these symbols differs from trial to trial; None if it cannot be told."""
+        """Tell whether a measure of these symbols differs from trial to trial; None if that is unknown."""
         inputs = {entry.id: entry.source.startswith("trial.") for entry in self._entries.inputs}
         if any(inputs.get(name, False) for name in used):
             return True
@@ -128,7 +125,7 @@ class _Builder:
                     self._report(name, "measures.unknown-symbol", message, offset=offset, hint=hint)
 
     def _check_kinds(self, expressions: dict[str, Expression], order: tuple[str, ...]) -> dict[str, int | None]:
-        """Check every unit; the number of entries of each measure of which it can be told."""
+        """Check every unit; the number of entries of each measure where it is known."""
         kinds: dict[str, Kind | None] = {}
         for constant in self._entries.constants:
             kinds[constant.id] = Kind(dimension=dimension(constant.unit))
@@ -147,7 +144,7 @@ class _Builder:
             if kind.dimension != declared:
                 message = f"the expression gives {si_unit(kind.dimension)}, the measure's unit is {entry.unit}"
                 self._report(name, "measures.unit", message, hint="correct the expression or the unit")
-            # What stands on this measure is checked against what it is declared to be.
+            # Dependent measures are checked against the declared kind.
             kinds[name] = Kind(dimension=declared, length=kind.length)
             lengths[name] = kind.length
             proportion = entry.estimate is not None and entry.estimate.statistic is Estimator.PROPORTION
@@ -188,7 +185,6 @@ def _constant(entry: ConstantEntry, value: float) -> Constant:
 
 
 def _measure(entry: MeasureEntry, expression: Expression, length: int | None) -> Measure:
-    rule = entry.estimate
     return Measure(
         id=entry.id,
         kind=entry.kind,
@@ -201,7 +197,7 @@ def _measure(entry: MeasureEntry, expression: Expression, length: int | None) ->
         better=entry.better,
         traces=entry.traces,
         contributes_to=entry.contributes_to,
-        estimate=None if rule is None else EstimateRule(statistic=rule.statistic, over=rule.over),
+        estimate=entry.estimate,
         summary=entry.summary,
         length=length,
     )

@@ -44,7 +44,7 @@ def check_roles(
     Args:
         document: The positions.
         entries: The file's entries.
-        used: What each measure stands on, directly or not.
+        used: Symbols that each measure depends on, directly or not.
         by_trial: Whether each measure differs from trial to trial.
         lengths: The number of entries of each measure; None for a single number.
     """
@@ -160,7 +160,7 @@ def _kind_problems(
             yield ("contribution", f"{name!r} is not a measure of effectiveness", where, hint)
         elif name in used and entry.id not in used[name]:
             hint = f"use {entry.id} in the expression of {name}, or remove it here"
-            yield ("contribution", f"{name!r} does not stand on {entry.id!r}", where, hint)
+            yield ("contribution", f"{name!r} does not depend on {entry.id!r}", where, hint)
 
 
 def _estimate_problems(entry: MeasureEntry, by_trial: bool | None) -> Iterable[_Problem]:  # noqa: FBT001

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
+from typing import Annotated
 
+from pydantic import Field
+
+from rgss.documents import DocumentModel, Identifier, Text, UnitText
 from rgss.errors import DefinitionError
 from rgss.measures.expressions import Expression
 
@@ -38,7 +42,7 @@ class Estimator(str, Enum):
 
 
 class Population(str, Enum):
-    """Which trials an estimate stands on: those that succeeded, or every one."""
+    """Population of an estimate: the trials that succeeded, or every one."""
 
     SUCCESSFUL = "successful"
     ALL = "all"
@@ -71,24 +75,14 @@ class Constant:
     source: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class InputSymbol:
-    """A symbol whose value comes from a design, a component or a trial.
+class InputSymbol(DocumentModel):
+    """A symbol whose value comes from a design, a component or a trial; values arrive in SI."""
 
-    Attributes:
-        id: Its symbol.
-        source: Where its value comes from: ``design.fingers``, ``component.gripper.cost`` or
-            ``trial.path_length_m``. Values arrive in SI.
-        unit: What it measures.
-        length: The number of its entries; None for a single number.
-        definition: What it is.
-    """
-
-    id: str
-    source: str
-    unit: str
-    length: int | None
-    definition: str
+    id: Identifier
+    source: Identifier
+    unit: UnitText
+    length: Annotated[int, Field(ge=1, le=1000)] | None = None
+    definition: Text
 
     @property
     def from_trial(self) -> bool:
@@ -101,21 +95,13 @@ class InputSymbol:
         return self.source.split(".", 1)[1]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Assumption:
-    """A decision on something that the sources leave open.
+class Assumption(DocumentModel):
+    """A decision on something that the sources leave open."""
 
-    Attributes:
-        id: Its id.
-        statement: What is assumed.
-        rationale: Why.
-        concerns: The constants, inputs, measures and equations that rest on it.
-    """
-
-    id: str
-    statement: str
-    rationale: str
-    concerns: tuple[str, ...]
+    id: Identifier
+    statement: Text
+    rationale: Text
+    concerns: tuple[Text, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -133,9 +119,8 @@ class Equation:
     note: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EstimateRule:
-    """How the values of trials become an estimate."""
+class EstimateRule(DocumentModel):
+    """Estimator of a measure and the trials that it takes."""
 
     statistic: Estimator
     over: Population
@@ -193,9 +178,9 @@ class MeasureSet:
         assumptions: The assumptions, in the order of the file.
         equations: The equations, in the order of the file.
         measures: The measures, in the order of the file.
-        evaluation_order: The measures, each after those that it stands on.
+        evaluation_order: The measures, each after those that it depends on.
         used: For each measure, the ids of all measures and the symbols of all inputs and
-            constants that it stands on, directly or not.
+            constants that it depends on, directly or not.
     """
 
     constants: tuple[Constant, ...]
@@ -224,7 +209,7 @@ class MeasureSet:
         return tuple(measure for measure in self.measures if measure.kind is kind)
 
     def dependencies(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
-        """Ids of all measures that a measure stands on, directly or not, in evaluation order.
+        """Ids of all measures that a measure depends on, directly or not, in evaluation order.
 
         Two measures of which one is among the other's dependencies count the same thing twice
         when both are valued.
@@ -236,7 +221,7 @@ class MeasureSet:
         return tuple(other.id for other in self.evaluation_order if other.id in used)
 
     def sources(self, id: str) -> tuple[str, ...]:  # noqa: A002 - the domain's word
-        """The sources that a measure stands on, directly or not, such as ``design.tool_speed``.
+        """The sources that a measure depends on, directly or not, such as ``design.tool_speed``.
 
         Raises:
             DefinitionError: There is no such measure.

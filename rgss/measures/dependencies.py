@@ -1,4 +1,4 @@
-"""The graph of what stands on what: evaluation order, cycles, transitive use."""
+"""Dependency graph of the measures: evaluation order, cycles, transitive use."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def kind_of(
         kinds: What each of its symbols is; None for a symbol of which that is not known.
 
     Returns:
-        What it gives, or None if that cannot be told; and every contradiction in it.
+        Its kind, or None if that is unknown; and every contradiction in it.
     """
     analysis = _Analysis(kinds)
     kind = analysis.kind(expression.root)

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
-from rgss.measures.definitions import Direction, Estimator, MeasureKind, Population, Summary
+from rgss.measures.definitions import Assumption, Direction, EstimateRule, InputSymbol, MeasureKind, Summary
 
 
 def _as_text(value: Any) -> Any:
@@ -35,38 +35,12 @@ class ConstantEntry(DocumentModel):
     source: Text | None = None
 
 
-class InputEntry(DocumentModel):
-    """A symbol whose value comes from a design, a component or a trial."""
-
-    id: Identifier
-    source: Identifier
-    unit: UnitText
-    length: Annotated[int, Field(ge=1, le=1000)] | None = None
-    definition: Text
-
-
-class AssumptionEntry(DocumentModel):
-    """A decision on something that the sources leave open."""
-
-    id: Identifier
-    statement: Text
-    rationale: Text
-    concerns: tuple[Text, ...]
-
-
 class EquationEntry(DocumentModel):
     """A numbered relation; its number is quoted, since 4.10 would be a number."""
 
     id: Text
     relation: Text
     note: Text | None = None
-
-
-class EstimateEntry(DocumentModel):
-    """How the values of trials become an estimate."""
-
-    statistic: Estimator
-    over: Population
 
 
 class MeasureEntry(DocumentModel):
@@ -82,7 +56,7 @@ class MeasureEntry(DocumentModel):
     better: Direction
     traces: tuple[Identifier, ...] = ()
     contributes_to: tuple[Identifier, ...] = ()
-    estimate: EstimateEntry | None = None
+    estimate: EstimateRule | None = None
     summary: Summary | None = None
 
 
@@ -91,7 +65,7 @@ class MeasuresDocument(DocumentModel):
 
     title: Text
     constants: tuple[ConstantEntry, ...] = ()
-    inputs: tuple[InputEntry, ...] = ()
-    assumptions: tuple[AssumptionEntry, ...] = ()
+    inputs: tuple[InputSymbol, ...] = ()
+    assumptions: tuple[Assumption, ...] = ()
     equations: tuple[EquationEntry, ...] = ()
     measures: Annotated[tuple[MeasureEntry, ...], Field(min_length=1)]

@@ -33,7 +33,7 @@ class Estimate:
         unit: Its unit.
         low: Lower end of the interval; None where it is unknown.
         high: Upper end of the interval; None where it is unknown.
-        n: Trials that it stands on; 0 when it follows from the design alone (then low, high
+        n: Trials behind it; 0 when it follows from the design alone (then low, high
             and value are equal) or when there is no value.
     """
 

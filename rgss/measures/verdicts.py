@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from enum import Enum
 
 from rgss.errors import DefinitionError, QuantityError
 from rgss.measures.estimates import Estimate
 from rgss.requirements import Criterion, Statistic
 
-RELATIVE_TOLERANCE = 1e-9
-
 
 class Verdict(str, Enum):
-    """What the evidence says about a requirement."""
+    """Verdict of the evidence on a requirement."""
 
     MET = "met"
     NOT_MET = "not_met"
@@ -23,7 +20,7 @@ class Verdict(str, Enum):
 
 
 class StaleCause(str, Enum):
-    """What changed since the evidence was made, so that it is evidence for something else."""
+    """Cause of staleness: the input that changed since the evidence was made."""
 
     REQUIREMENT = "requirement"
     """The requirement: its sentence, its criterion or how it is verified."""
@@ -40,8 +37,7 @@ class StaleCause(str, Enum):
 def meets(criterion: Criterion, value: float, unit: str) -> bool:
     """Tell whether one value satisfies a criterion, whatever its statistic.
 
-    A value that differs from the threshold by less than one part in 10⁹ counts as equal to it,
-    so that binary rounding never decides.
+    A value within `rgss.requirements.RELATIVE_TOLERANCE` of the threshold counts as equal to it.
 
     Args:
         criterion: The criterion.
@@ -57,8 +53,7 @@ def meets(criterion: Criterion, value: float, unit: str) -> bool:
         raise DefinitionError(
             f"criterion {criterion} cannot judge a value in {unit!r}", hint="correct the threshold's unit"
         ) from error
-    equal = math.isclose(value, threshold, rel_tol=RELATIVE_TOLERANCE)
-    return criterion.comparison.holds(threshold if equal else value, threshold)
+    return criterion.comparison.holds(value, threshold)
 
 
 def judge(criterion: Criterion, estimate: Estimate, *, stale: bool = False) -> Verdict:
@@ -71,7 +66,7 @@ def judge(criterion: Criterion, estimate: Estimate, *, stale: bool = False) -> V
     Args:
         criterion: The criterion.
         estimate: The estimate of its measure from the evidence that holds now.
-        stale: Whether there is evidence that the verdict should stand on, but something that it
+        stale: Whether there is evidence for the verdict, but something that it
             depends on changed since; see `StaleCause`. Such a verdict is stale, whatever else
             is known; without any evidence, old or new, it is not run.
 

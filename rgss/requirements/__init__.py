@@ -1,4 +1,4 @@
-"""Needs, requirements, criteria and architecture: what is asked for, and what is to satisfy it."""
+"""Needs, requirements, criteria, and the architecture that is to satisfy them."""
 
 from rgss.requirements.architecture import Architecture, Behaviour, BehaviourKind, Block, BlockLevel, BlockRelation
 from rgss.requirements.architecture_files import ArchitectureFile, BehaviourFile, BlockFile
@@ -23,8 +23,9 @@ from rgss.requirements.behaviour import (
     TimingConstraint,
     Transition,
 )
+from rgss.requirements.comparison import RELATIVE_TOLERANCE, Comparison
 from rgss.requirements.content import Element, content_digest_of
-from rgss.requirements.criterion import Comparison, Criterion, Statistic
+from rgss.requirements.criterion import Criterion, Statistic
 from rgss.requirements.exemption import Exemption
 from rgss.requirements.files import NeedFile, RequirementFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.requirements.links import LinkKind, TraceLink
@@ -36,6 +37,7 @@ from rgss.requirements.review import Review
 from rgss.requirements.rule_settings import RuleSetting
 
 __all__ = [
+    "RELATIVE_TOLERANCE",
     "Architecture",
     "ArchitectureFile",
     "Behaviour",

@@ -1,4 +1,4 @@
-"""From what the files say to the values that the program works with."""
+"""Conversion of the documents into the domain types."""
 
 from __future__ import annotations
 

@@ -2,35 +2,20 @@
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
-from types import MappingProxyType
 
 from rgss.quantities import conversion_factor
+from rgss.requirements.comparison import Comparison
 
 
 class Statistic(str, Enum):
-    """Which number of an estimate is compared: its value, or an end of its interval."""
+    """Compared number of an estimate: its value, or an end of its interval."""
 
     VALUE = "value"
     LOW = "low"
     HIGH = "high"
-
-
-class Comparison(str, Enum):
-    """How the statistic must stand to the threshold."""
-
-    AT_LEAST = ">="
-    AT_MOST = "<="
-    ABOVE = ">"
-    BELOW = "<"
-
-    def holds(self, value: float, threshold: float) -> bool:
-        """Tell whether the value stands to the threshold as it must; both in one unit."""
-        return _OPERATORS[self](value, threshold)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,7 +25,7 @@ class Criterion:
     Attributes:
         measure: Id of the measure, such as ``P_max``.
         statistic: Which number of the measure's estimate is compared.
-        comparison: How it must stand to the threshold.
+        comparison: Relation that the statistic must have to the threshold.
         threshold: The bound, in ``unit``.
         unit: The unit in which the file gives the bound; ``"1"`` for a pure number.
     """
@@ -65,13 +50,3 @@ class Criterion:
         plain = self.statistic is Statistic.VALUE
         number = self.measure if plain else f"{self.statistic.value}({self.measure})"
         return f"{number} {self.comparison.value} {self.threshold:g}{unit}"
-
-
-_OPERATORS: Mapping[Comparison, Callable[[float, float], bool]] = MappingProxyType(
-    {
-        Comparison.AT_LEAST: operator.ge,
-        Comparison.AT_MOST: operator.le,
-        Comparison.ABOVE: operator.gt,
-        Comparison.BELOW: operator.lt,
-    }
-)

@@ -1,4 +1,4 @@
-"""Leave to break a rule, with the reason for it."""
+"""Exemptions of elements from rules, with their reasons."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Exemption:
-    """One element's leave to break one rule.
+    """Exemption of one element from one rule.
 
     Attributes:
         rule: Id of the rule, such as ``wording.R7``.

@@ -1,4 +1,4 @@
-"""What the YAML files of requirements look like; those of the architecture are in `architecture_files`."""
+"""YAML form of the requirements; that of the architecture is in `architecture_files`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from rgss.requirements.attributes import (
     VerificationMethod,
     VerificationPhase,
 )
-from rgss.requirements.criterion import Comparison, Statistic
+from rgss.requirements.comparison import Comparison
+from rgss.requirements.criterion import Statistic
 
 _Entry = TypeVar("_Entry")
 
@@ -81,7 +82,7 @@ ThresholdText = Annotated[
 
 
 class ExemptionFile(DocumentModel):
-    """An element's leave to break a rule."""
+    """Exemption of an element from a rule."""
 
     rule: Identifier
     reason: Text

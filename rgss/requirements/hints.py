@@ -1,4 +1,4 @@
-"""Hints that name what was probably meant, for no longer than anybody would wait for them."""
+"""Hints that name the nearest known id, with a bound on the comparisons."""
 
 from __future__ import annotations
 

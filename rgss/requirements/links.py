@@ -27,7 +27,7 @@ class LinkKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
 class TraceLink:
-    """One directed link; it points from the later element to the one that it rests on.
+    """One directed link; it points from the later element to the one that it depends on.
 
     Attributes:
         source: Id of the element that states or makes the link.

@@ -1,4 +1,4 @@
-"""What the stakeholders ask for."""
+"""Needs of the stakeholders."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class StakeholderNeed:
         id: Its id, such as ``STK-006``.
         kind: The part of the system that it speaks of.
         text: The sentence, in EARS form.
-        rationale: Why it is asked for.
+        rationale: Reason for it.
         source: Where it comes from.
         priority: How much it matters.
         status: How far it has come.

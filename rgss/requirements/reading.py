@@ -61,7 +61,7 @@ class FolderReader:
             self._report(name, "missing", "the folder has no .yaml file", "add one")
         for each in names:
             if not each.endswith(".yaml"):
-                # Passed over in silence, its requirements would be missed by nobody.
+                # If the file were skipped silently, its requirements would be lost.
                 self._report(each, "name", "a file of requirements ends in .yaml", "rename it")
         loaded = [self._load(each, model) for each in names if each.endswith(".yaml")]
         documents = tuple(document for document in loaded if document is not None)

@@ -1,4 +1,4 @@
-"""What the system shall do or be."""
+"""System requirements."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ class Requirement:
 
     Attributes:
         id: Its id, such as ``SYS-012``.
-        group: The subsystem that it speaks of.
+        group: The subsystem that it concerns.
         text: The sentence, in EARS form.
-        rationale: Why it is asked for.
+        rationale: Reason for it.
         source: Where it comes from.
         derived_from: Ids of the requirements that it derives from, its parents.
         satisfied_by: Ids of the blocks and behaviours that satisfy it, its allocation.
         verification: How it is verified; None while that is open.
         criterion: The bound that decides whether it is met; None if there is none.
         criterion_exemption: Why it is analysed without a criterion; empty unless it is.
-        priority: How much it matters.
+        priority: Its priority.
         status: How far it has come.
         owner: The role that answers for it.
         parent: Id of the system requirement that contains it; None at the top.

@@ -57,7 +57,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequirementSet:
-    """What a project asks for, and the model that is to satisfy it.
+    """Requirements of a project, and the model that is to satisfy them.
 
     A set from `load_requirements` has unique ids, no reference to an id that is not there, and
     no element that rests on itself.

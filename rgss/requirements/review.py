@@ -1,4 +1,4 @@
-"""Reviews: what was read, by whom, and what it rested on then."""
+"""Reviews: the content that was read, by whom, and the content that it depended on then."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class Review:
     Attributes:
         id: The element.
         digest: Content digest of the element when it was reviewed.
-        upstream: Content digests, at that time, of the elements that it rests on.
+        upstream: Content digests, at that time, of the elements that it depends on.
         reviewer: Who reviewed it.
     """
 

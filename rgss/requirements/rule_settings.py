@@ -1,4 +1,4 @@
-"""How a project wants a rule to be applied."""
+"""Configuration of rules by a project."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from rgss.findings import Severity
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RuleSetting:
-    """One rule as a project wants it.
+    """Configuration of one rule.
 
     Attributes:
         rule: Id of the rule, such as ``wording.R19``.
-        severity: How much a breach matters; None as the rule itself says.
+        severity: Severity of a violation; None for the rule's own.
         enabled: The rule is applied at all.
         terms_added: Terms that the rule looks for beside its own.
         terms_removed: Terms of its own that the rule passes over.

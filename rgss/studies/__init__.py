@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rgss.studies.scene_findings import check_scene
     from rgss.studies.schema_headers import write_headers, write_schemas
     from rgss.studies.source_text import invisible_findings
-    from rgss.studies.study import ValueAnchors
+    from rgss.studies.study import ValueAnchors, value_anchors
     from rgss.studies.unread_files import unread_findings
     from rgss.studies.unused_parameters import unused_findings
 else:
@@ -60,6 +60,7 @@ __all__ = [
     "trial_specs",
     "unread_findings",
     "unused_findings",
+    "value_anchors",
     "without_consequences",
     "write_headers",
     "write_scaffold",

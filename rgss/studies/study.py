@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
@@ -19,6 +19,7 @@ from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression_section import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
+from rgss.tradeoff import Anchor
 from rgss.tradeoff.sequential import SequentialRule
 
 
@@ -49,7 +50,7 @@ class PlanningChoice:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ValueAnchors:
-    """What a measure is worth in the comparison, in the measure's unit.
+    """Ends of a value function, in the measure's unit.
 
     Attributes:
         measure: The measure.
@@ -187,7 +188,7 @@ def read_study(
         ),
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
-        values=_values(trade_off, places),
+        values=value_anchors(trade_off, places.quantity_of),
         trade_off=trade_off,
         screening=screening,
         regression=regression,
@@ -235,21 +236,23 @@ def _requirements(project: Path) -> RequirementSet | None:
         return None
 
 
-def _values(trade_off: TradeOff, places: TradeOffPlaces) -> tuple[ValueAnchors, ...]:
+def value_anchors(trade_off: TradeOff, quantity_of: Callable[[Anchor, str], float]) -> tuple[ValueAnchors, ...]:
+    """The ends of the value function of every measure, in the order of the file.
+
+    Args:
+        trade_off: The trade-off.
+        quantity_of: Quantity of an anchor, in the unit of a measure.
+    """
     weights = trade_off.weighting.weights
-    found = []
-    for valued in trade_off.valued:
-        worst, best = (valued.too_low, valued.target) if valued.target is not None else (valued.worst, valued.best)
-        if worst is not None and best is not None:
-            found.append(
-                ValueAnchors(
-                    measure=valued.measure,
-                    weight=weights[valued.measure],
-                    worst=places.quantity_of(worst, valued.measure),
-                    best=places.quantity_of(best, valued.measure),
-                )
-            )
-    return tuple(found)
+    return tuple(
+        ValueAnchors(
+            measure=valued.measure,
+            weight=weights[valued.measure],
+            worst=quantity_of(valued.worst_anchor, valued.measure),
+            best=quantity_of(valued.best_anchor, valued.measure),
+        )
+        for valued in trade_off.valued
+    )
 
 
 def _coarse_contact(entry: StudyDocument, document: Document) -> list[Finding]:

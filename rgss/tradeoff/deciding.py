@@ -41,7 +41,7 @@ def decide(
 ) -> Decision:
     """Choose the best feasible alternative, prove it, and explain it.
 
-    The mixed-integer programs are solved to optimality and the answer is held against enumeration.
+    The mixed-integer programs are solved to optimality and the answer is compared with exhaustive enumeration.
     Of tied alternatives the solver may return any; the decision is the smallest id.
 
     Args:

@@ -52,7 +52,7 @@ class Contribution:
     Attributes:
         measure: The measure.
         quantity: The alternative's evidence, in the measure's unit; None only where the weight is
-            0 and the evidence does not tell.
+            0 and it is unknown.
         value: Its value, from 0 to 1; None where the quantity is.
         weight: The weight of the measure.
         contribution: Weight times value; the contributions of all measures sum to the weighted value.

@@ -8,7 +8,6 @@ import numpy as np
 
 from rgss.tradeoff.decision import LONGEST_LIST, Contribution, FlatMeasure, InfeasibleAlternative, RankedAlternative
 from rgss.tradeoff.infeasibility import RequirementCount, excluded_counts
-from rgss.tradeoff.programs import value_column
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -60,7 +59,7 @@ def excluded_better(
 ) -> tuple[tuple[InfeasibleAlternative, ...], tuple[RequirementCount, ...], int]:
     """What the program prefers to the best feasible alternative, and the demands that exclude it.
 
-    An alternative of which the program does not know enough is not counted: no one can say that it
+    An alternative of which the program does not know enough is not counted: it is unknown whether it
     is better.
 
     Args:
@@ -112,7 +111,7 @@ def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[Flat
     everyone = np.ones(len(enumeration.table), dtype=np.bool_)
     for measure in problem.weighting.deciding_measures:
         column = enumeration.table.column(measure)
-        values = value_column(problem.value_function(measure), column)
+        values = problem.value_function(measure).values_at(column)
         among_all = _is_flat(values, everyone)
         if among_all or _is_flat(values, enumeration.feasible):
             known = column[~np.isnan(column) & (everyone if among_all else enumeration.feasible)]
@@ -129,7 +128,7 @@ def flat_measures(problem: TradeProblem, enumeration: Enumeration) -> tuple[Flat
 
 
 def _is_flat(values: NDArray[np.float64], among: NDArray[np.bool_]) -> bool:
-    # Of a single alternative no one can say in what others differ.
+    # A single alternative has none to differ from.
     known = values[among & ~np.isnan(values)]
     return known.size > 1 and bool(np.ptp(known) <= 1e-12)
 

@@ -61,5 +61,5 @@ def test_an_example(shipped, measured, tmp_path, example):
     assert decision.status is DecisionStatus.OPTIMAL
     assert decision.certificate.enumeration_agrees
     if study.trade_off.fleet is not None:
-        fleet = choose_portfolio(project, {name: (project, measured) for name, _ in study.trade_off.fleet.studies})
+        fleet = choose_portfolio(project, {one.study: (project, measured) for one in study.trade_off.fleet.studies})
         assert fleet.members

@@ -106,8 +106,8 @@ def test_a_near_symbol_is_suggested(load_entries: Loader, entry: Writer, finding
 def test_cycles_are_named_in_the_direction_of_use(load_entries: Loader, entry: Writer, findings_of: Finder) -> None:
     findings = findings_of(load_entries, entry("a", "c"), entry("b", "a"), entry("c", "b + m"), entry("d", "d"))
     assert [(finding.line, finding.rule, finding.message) for finding in findings] == [
-        (FIRST_LINE, "measures.cycle", "measures stand on one another in a circle: a → c → b → a"),
-        (FIRST_LINE + 3, "measures.cycle", "measures stand on one another in a circle: d → d"),
+        (FIRST_LINE, "measures.cycle", "measures depend on one another in a circle: a → c → b → a"),
+        (FIRST_LINE + 3, "measures.cycle", "measures depend on one another in a circle: d → d"),
     ]
 
 
@@ -171,7 +171,7 @@ def test_a_proportion_of_a_row_is_refused(load_entries: Loader, entry: Writer, f
     [
         ("moe", {}, "measures.trace", "measure of effectiveness 'x' traces to no stakeholder need"),
         ("mop", {}, "measures.contribution", "measure of performance 'x' contributes to no measure of effectiveness"),
-        ("mop", {"contributes_to": "[y]"}, "measures.contribution", "'y' does not stand on 'x'"),
+        ("mop", {"contributes_to": "[y]"}, "measures.contribution", "'y' does not depend on 'x'"),
         ("mop", {"contributes_to": "[z]"}, "measures.contribution", "'z' is not a measure of effectiveness"),
         (
             "supplementary",
@@ -228,7 +228,7 @@ def test_ids_are_symbols_and_stand_once(load: Loader, findings_of: Finder) -> No
         (10, "'nowhere' is not a constant, an input, a measure or an equation"),
         (13, "id '1.1' stands already in line 12"),
         (15, "id 'g' stands already in line 3"),
-        (15, "measures stand on one another in a circle: g → g"),
+        (15, "measures depend on one another in a circle: g → g"),
         (16, "'x.y' cannot be a symbol"),
     ]
 

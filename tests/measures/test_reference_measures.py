@@ -226,7 +226,7 @@ def test_the_published_payload_of_ten_newtons_at_rest(reference: MeasureSet) -> 
 
 def _input_like(reference: MeasureSet, name: str, source: str) -> Any:
     symbol = reference.inputs[0]
-    return type(symbol)(id=name, source=source, unit="m/s^2", length=None, definition="")
+    return type(symbol)(id=name, source=source, unit="m/s^2", length=None, definition="as drawn")
 
 
 def test_the_manipulator_binds_where_the_gripper_is_strong(reference: MeasureSet) -> None:

@@ -34,7 +34,7 @@ def build_problem():
                 Threshold(
                     requirement=requirement,
                     measure=measure,
-                    comparison=Comparison.parse(comparison),
+                    comparison=Comparison(comparison),
                     value=value,
                     unit="kg",
                 )

@@ -20,7 +20,7 @@ from rgss.tradeoff import (
     decision_to_json,
 )
 from rgss.tradeoff.milp.stage import StageSolution
-from rgss.tradeoff.programs.program import AdditiveValue
+from rgss.tradeoff.programs.additive import AdditiveValue
 
 TIE = Fraction(1, 10**9)
 

@@ -14,7 +14,7 @@ from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.decision.robustness.rules import allowed_variants, rule_kinks
 from rgss.decision.what_if import COST, ModelNumber, assumed_numbers, simulated_numbers, symbols_of
 from rgss.errors import DefinitionError
-from rgss.tradeoff.problem import Comparison, EvidenceTable, PiecewiseValue, Samples, TargetValue, Threshold
+from rgss.tradeoff.problem import Comparison, EvidenceTable, Samples, Threshold
 from rgss.tradeoff.programs import Preferences, violations, weighted_values
 from rgss.tradeoff.robustness import (
     AssumptionRange,
@@ -124,7 +124,7 @@ def cost_box(remeasuring: Remeasuring, preferences: Preferences, chosen: int) ->
     conditions = [condition for condition in preferences.conditions if condition.measure == column]
     if measures.measure(measure).from_trials or not is_affine(measures, measure, symbols):
         return f"{column} is not a sum of assumed costs"
-    if not isinstance(function, (PiecewiseValue, TargetValue)):
+    if function is None or function.breakpoints is None:
         return f"the value of {column} is not piecewise linear"
     if not all(isinstance(condition, Threshold) for condition in conditions):
         return f"there are demands on replicates of {column}"
@@ -136,7 +136,7 @@ def cost_box(remeasuring: Remeasuring, preferences: Preferences, chosen: int) ->
         moved = remeasuring.table_with(number, number.value + step).column(column)
         coefficients[:, place] = (moved - quantities) / step
     weight = preferences.weighting.weights[column]
-    points = np.array(sorted(function.points), dtype=np.float64)
+    points = np.array(function.breakpoints, dtype=np.float64)
     totals = weighted_values(preferences, table)
     bounds = _bounds([condition for condition in conditions if isinstance(condition, Threshold)])
     others = [
@@ -242,7 +242,7 @@ class _Follower:
         weighted = column in self.preferences.weighting.deciding_measures
         return (
             is_affine(measures, measure, symbols_of(measures, number))
-            and (not weighted or isinstance(function, (PiecewiseValue, TargetValue)))
+            and (not weighted or (function is not None and function.breakpoints is not None))
             and all(
                 isinstance(condition, Threshold)
                 for condition in self.preferences.conditions
@@ -254,8 +254,8 @@ class _Follower:
         """Where a quantity meets a point of its value function or a threshold."""
         levels: dict[str, set[float]] = {column: set() for column in columns}
         for function in self.preferences.value_functions:
-            if function.measure in levels and isinstance(function, (PiecewiseValue, TargetValue)):
-                levels[function.measure].update(quantity for quantity, _ in function.points)
+            if function.measure in levels:
+                levels[function.measure].update(quantity for quantity, _ in function.breakpoints or ())
         for condition in self.preferences.conditions:
             if condition.measure in levels:
                 levels[condition.measure].add(condition.limit)

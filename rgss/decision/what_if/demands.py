@@ -1,4 +1,4 @@
-"""Other bounds of a study's own demands: chances, tails, and the limits of its program."""
+"""Numbers of a study's own demands that can be supposed: chances, tails, and limits of its program."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from dataclasses import dataclass, replace
 from rgss.decision.preference_model import program_of, risks_of
 from rgss.errors import DefinitionError
 from rgss.studies import Project
-from rgss.studies.trade_off import BoundChoice, ProgramChoice, RiskChoice, TradeOff
+from rgss.studies.trade_off import AnchoredEpsilonConstraint, BoundChoice, RiskChoice, TradeOff
 from rgss.tradeoff import Comparison
 
-THRESHOLD, PROBABILITY, WORST_SHARE = "threshold", "probability", "worst_share"
-LIMIT_PREFIX = "limit:"
+THRESHOLD = "threshold"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,12 +47,12 @@ def demand_numbers(project: Project) -> Mapping[str, DemandNumber]:
                 id=f"{choice.id}.{THRESHOLD}", value=risk.value, unit=risk.unit, changed=_risk_bound(choice.id, place)
             )
         )
-        for name, share in ((PROBABILITY, choice.probability), (WORST_SHARE, choice.worst_share)):
-            if share is not None:
-                found.append(
-                    DemandNumber(id=f"{choice.id}.{name}", value=share, unit="1", changed=_risk_share(choice.id, name))
-                )
-    if trade_off.program.limits:
+        found.append(
+            DemandNumber(
+                id=f"{choice.id}.{choice.share_key}", value=choice.share, unit="1", changed=_risk_share(choice.id)
+            )
+        )
+    if isinstance(trade_off.program, AnchoredEpsilonConstraint):
         found += [
             DemandNumber(
                 id=f"{limit.requirement}.{THRESHOLD}",
@@ -82,17 +81,12 @@ def share_checked(name: str, value: float) -> float:
 def _risk_bound(risk: str, place: BoundChoice) -> Callable[[TradeOff, float], TradeOff]:
     # A bound of its own takes the place of a requirement's, which stays as it is.
     return lambda trade_off, value: _with_risk(
-        trade_off, risk, lambda one: replace(one, requirement=None, bound=replace(place, value=value))
+        trade_off, risk, lambda one: one.changed(bound=replace(place, value=value))
     )
 
 
-def _risk_share(risk: str, name: str) -> Callable[[TradeOff, float], TradeOff]:
-    def changed(trade_off: TradeOff, value: float) -> TradeOff:
-        if name == PROBABILITY:
-            return _with_risk(trade_off, risk, lambda one: replace(one, probability=value))
-        return _with_risk(trade_off, risk, lambda one: replace(one, worst_share=value))
-
-    return changed
+def _risk_share(risk: str) -> Callable[[TradeOff, float], TradeOff]:
+    return lambda trade_off, value: _with_risk(trade_off, risk, lambda one: one.changed(**{one.share_key: value}))
 
 
 def _with_risk(trade_off: TradeOff, risk: str, change: Callable[[RiskChoice], RiskChoice]) -> TradeOff:
@@ -101,7 +95,9 @@ def _with_risk(trade_off: TradeOff, risk: str, change: Callable[[RiskChoice], Ri
 
 def _program_limit(measure: str, comparison: Comparison) -> Callable[[TradeOff, float], TradeOff]:
     def changed(trade_off: TradeOff, value: float) -> TradeOff:
-        program: ProgramChoice = trade_off.program
+        program = trade_off.program
+        if not isinstance(program, AnchoredEpsilonConstraint):
+            return trade_off
         limits = tuple(
             replace(bound, value=value) if (bound.measure, bound.comparison) == (measure, comparison) else bound
             for bound in program.limits

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import partial
 
 from rgss.assessment import VariantMeasures
+from rgss.decision.preference_model import quantity_of
 from rgss.decision.what_if.demands import THRESHOLD, demand_numbers, share_checked
 from rgss.decision.what_if.numbers import CATALOGUE, MEASURES, model_numbers, symbols_of, variant_with, with_number
 from rgss.decision.what_if.simulated import simulated_numbers
@@ -18,13 +19,11 @@ from rgss.errors import DefinitionError, EvidenceError, QuantityError
 from rgss.findings import shown
 from rgss.measures import Estimate, design_values, evaluate
 from rgss.quantities import parse_quantity
-from rgss.studies import Project, ValueAnchors
-from rgss.studies.trade_off import Anchor, RequirementAnchor, ValuedMeasure
+from rgss.studies import Project, value_anchors
 from rgss.tradeoff import weights_of_criteria
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
 
 WEIGHT, VALUE = "weight", "value"
-ANCHORS = ("worst", "best", "halfway", "target", "too_low", "too_high")
 EXAMPLE = 'weight.t_e=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
 
 
@@ -114,7 +113,13 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
             for measure in after
             if measure not in weights and not math.isclose(before[measure], after[measure], abs_tol=1e-12)
         )
-    changed = replace(changed, study=replace(changed.study, values=_value_anchors(changed)))
+    changed = replace(
+        changed,
+        study=replace(
+            changed.study,
+            values=value_anchors(changed.study.trade_off, partial(quantity_of, changed)),
+        ),
+    )
     there = {variant.id for variant in changed.designs.expand()}
     was_there = {variant.id for variant in project.designs.expand()}
     if there - was_there:
@@ -262,18 +267,17 @@ def _anchor(project: Project, name: str, rest: str, text: str) -> tuple[Change, 
     known = {
         f"{VALUE}.{valued.measure}.{anchor}": (valued, anchor)
         for valued in trade_off.valued
-        for anchor in ANCHORS
-        if getattr(valued, anchor) is not None
+        for anchor in valued.anchors
     }
     if name not in known:
         raise _unknown(name, known, rest)
     valued, anchor = known[name]
     unit = project.measures.measure(valued.measure).unit
     after = _quantity(name, text, unit)
-    moved: dict[str, Any] = {anchor: after}
-    changed = tuple(replace(one, **moved) if one.measure == valued.measure else one for one in trade_off.valued)
-    change = Change(id=name, before=_quantity_of(project, valued, anchor), after=after, unit=unit)
-    return change, replace(project, study=replace(project.study, trade_off=replace(trade_off, valued=changed)))
+    before = quantity_of(project, valued.anchors[anchor], valued.measure)
+    moved = tuple(one.with_anchor(anchor, after) if one is valued else one for one in trade_off.valued)
+    change = Change(id=name, before=before, after=after, unit=unit)
+    return change, replace(project, study=replace(project.study, trade_off=replace(trade_off, valued=moved)))
 
 
 def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
@@ -303,33 +307,3 @@ def _unknown(name: str, known: Iterable[str], near_to: str) -> DefinitionError:
     near = difflib.get_close_matches(name, names, n=3) or [one for one in names if near_to and near_to in one][:3]
     hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(names[:4])}"
     return DefinitionError(f"--what-if: there is no {shown(name)}", hint=hint)
-
-
-def _quantity_of(project: Project, valued: ValuedMeasure, anchor: str) -> float:
-    written: Anchor = getattr(valued, anchor)
-    return _in_unit(project, written, valued.measure)
-
-
-def _in_unit(project: Project, written: Anchor, measure: str) -> float:
-    from rgss.decision.preference_model import threshold_of
-
-    return threshold_of(project, written, measure) if isinstance(written, RequirementAnchor) else written
-
-
-def _value_anchors(project: Project) -> tuple[ValueAnchors, ...]:
-    """What a study's file says of worst and best, as the suppositions make it."""
-    weights = project.study.trade_off.weighting.weights
-    resolve: Callable[[Anchor, str], float] = lambda written, measure: _in_unit(project, written, measure)  # noqa: E731
-    found = []
-    for valued in project.study.trade_off.valued:
-        worst, best = (valued.too_low, valued.target) if valued.target is not None else (valued.worst, valued.best)
-        if worst is not None and best is not None:
-            found.append(
-                ValueAnchors(
-                    measure=valued.measure,
-                    weight=weights[valued.measure],
-                    worst=resolve(worst, valued.measure),
-                    best=resolve(best, valued.measure),
-                )
-            )
-    return tuple(found)

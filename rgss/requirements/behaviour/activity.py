@@ -25,7 +25,7 @@ class FlowNode:
     Attributes:
         id: Its id, unique within the flow.
         kind: What control does there.
-        text: What is done or asked; empty where the kind says it all.
+        text: The action or the question; empty where the kind says it all.
         does: Id of the behaviour that an action calls; None if it calls none.
     """
 

@@ -13,7 +13,7 @@ class Message:
         id: Its id, unique within the interaction.
         source: Id of the block that sends it.
         target: Id of the block that receives it.
-        text: What is asked for or answered.
+        text: The request or the reply.
         does: Id of the behaviour that it sets off; None if none.
         reply: It answers an earlier message.
     """

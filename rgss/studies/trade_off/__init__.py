@@ -5,34 +5,27 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.studies.trade_off.document import TradeOffEntry
+    from rgss.studies.trade_off.anchored_programs import AnchoredEpsilonConstraint, AnchoredProgram, AnchoredTchebycheff
+    from rgss.studies.trade_off.demands import BoundChoice, ChanceChoice, RequirementBound, RiskChoice, TailChoice
+    from rgss.studies.trade_off.document import PortfolioEntry, TradeOffEntry
     from rgss.studies.trade_off.places import TradeOffPlaces
-    from rgss.studies.trade_off.programs import as_aim
     from rgss.studies.trade_off.reading import read_trade_off
-    from rgss.studies.trade_off.sections import (
-        Anchor,
-        BoundChoice,
-        PortfolioChoice,
-        ProgramChoice,
-        RequirementAnchor,
-        RiskChoice,
-        TradeOff,
-        ValuedMeasure,
-    )
+    from rgss.studies.trade_off.sections import TradeOff
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
-    "Anchor",
+    "AnchoredEpsilonConstraint",
+    "AnchoredProgram",
+    "AnchoredTchebycheff",
     "BoundChoice",
-    "PortfolioChoice",
-    "ProgramChoice",
-    "RequirementAnchor",
+    "ChanceChoice",
+    "PortfolioEntry",
+    "RequirementBound",
     "RiskChoice",
+    "TailChoice",
     "TradeOff",
     "TradeOffEntry",
     "TradeOffPlaces",
-    "ValuedMeasure",
-    "as_aim",
     "read_trade_off",
 ]

@@ -2,84 +2,34 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, StringConstraints, Tag, WithJsonSchema
+from pydantic import Field
 
 from rgss.documents import Dimensionless, DocumentModel, Identifier, Text
-
-RankRuleName = Literal["rank_order_centroid", "rank_sum", "rank_reciprocal"]
-
-
-def _as_text(value: Any) -> Any:
-    # A pure number may be written bare.
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+from rgss.tradeoff import AnchorField, PortfolioAim, QuantityField, RankRule, Scenarios, ShapeKeys
 
 
-def _kind_of_anchor(value: Any) -> str:
-    return "anchor" if isinstance(value, (dict, AnchorEntry)) else "quantity"
-
-
-class AnchorEntry(DocumentModel):
-    """A quantity that is a requirement's threshold, or a multiple of it."""
-
-    requirement: Identifier
-    times: Dimensionless = 1.0
-
-
-QuantityField = Annotated[
-    str,
-    BeforeValidator(_as_text),
-    StringConstraints(min_length=1, max_length=60),
-    WithJsonSchema(
-        {
-            "type": ["string", "number"],
-            "minLength": 1,
-            "maxLength": 60,
-            "description": "A quantity in a unit of the measure's dimension.",
-        }
-    ),
-]
-"""A quantity whose unit the measure decides."""
-
-AnchorField = Annotated[
-    Annotated[AnchorEntry, Tag("anchor")] | Annotated[QuantityField, Tag("quantity")],
-    Discriminator(_kind_of_anchor),
-]
-"""A quantity, or ``{requirement: SYS-005}`` for the threshold of a requirement."""
-
-
-class PointEntry(DocumentModel):
-    """A point of a piecewise linear value."""
-
-    at: AnchorField
-    worth: Dimensionless
-
-
-class ValueEntry(DocumentModel):
-    """What a measure is worth and how much it weighs, or a group of such entries.
-
-    Either ``measure`` with its value function or ``criterion`` with the members that it is made
-    ``of``. The weight is a ``weight``, ``points`` or a ``rank``, alike for all members of a group.
-    """
+class CriterionKeys(DocumentModel):
+    """Keys of an entry beside those of its value function."""
 
     measure: Identifier | None = None
     criterion: Identifier | None = None
     of: Annotated[tuple[ValueEntry, ...], Field(min_length=1)] | None = None
-    rank_rule: RankRuleName | None = None
+    rank_rule: RankRule | None = None
 
     weight: Dimensionless | None = None
     points: Dimensionless | None = None
     rank: int | None = None
     weight_between: tuple[Dimensionless, Dimensionless] | None = None
 
-    worst: AnchorField | None = None
-    best: AnchorField | None = None
-    between: Annotated[tuple[PointEntry, ...], Field(min_length=1)] | None = None
-    halfway: AnchorField | None = None
-    target: AnchorField | None = None
-    too_low: AnchorField | None = None
-    too_high: AnchorField | None = None
+
+class ValueEntry(ShapeKeys, CriterionKeys):
+    """Value function and weight of a measure, or a group of such entries.
+
+    Either ``measure`` with its value function or ``criterion`` with the members that it is made
+    ``of``. The weight is a ``weight``, ``points`` or a ``rank``, alike for all members of a group.
+    """
 
 
 class OrderEntry(DocumentModel):
@@ -139,7 +89,7 @@ class MinimaxRegretEntry(DocumentModel):
     """The smallest largest regret."""
 
     program: Literal["minimax_regret"]
-    over: Literal["weights", "replicates"]
+    over: Scenarios
 
 
 ProgramField = Annotated[
@@ -148,23 +98,24 @@ ProgramField = Annotated[
 ]
 
 
-class ChanceEntry(DocumentModel):
-    """How often a requirement, or a bound on a measure, must be met."""
+class RiskEntry(DocumentModel):
+    """Keys that chances and tails share: a requirement, or a bound on a measure."""
 
     requirement: Identifier | None = None
     measure: Identifier | None = None
     at_most: AnchorField | None = None
     at_least: AnchorField | None = None
+
+
+class ChanceEntry(RiskEntry):
+    """Chance constraint: how often a requirement, or a bound on a measure, must be met."""
+
     probability: Dimensionless
 
 
-class TailEntry(DocumentModel):
-    """What the mean of the worst replicates must be: a requirement's threshold, or a bound on a measure."""
+class TailEntry(RiskEntry):
+    """Bound on the mean of the worst replicates: a requirement's threshold, or a bound on a measure."""
 
-    requirement: Identifier | None = None
-    measure: Identifier | None = None
-    at_most: AnchorField | None = None
-    at_least: AnchorField | None = None
     worst_share: Dimensionless
 
 
@@ -176,10 +127,10 @@ class FleetStudyEntry(DocumentModel):
 
 
 class PortfolioEntry(DocumentModel):
-    """A portfolio of designs that serves several studies."""
+    """Portfolio of designs that serves several studies."""
 
     at_most: Annotated[int, Field(ge=1)]
-    aim: Literal["mean", "worst"] = "mean"
+    aim: PortfolioAim = PortfolioAim.MEAN
     member: Identifier | None = None
     studies: Annotated[tuple[FleetStudyEntry, ...], Field(min_length=1)]
 
@@ -188,7 +139,7 @@ class TradeOffEntry(DocumentModel):
     """How designs are compared."""
 
     values: Annotated[tuple[ValueEntry, ...], Field(min_length=1)]
-    rank_rule: RankRuleName | None = None
+    rank_rule: RankRule | None = None
     weight_order: tuple[OrderEntry, ...] = ()
     decide_by: ProgramField = AdditiveEntry(program="additive")
     chance: tuple[ChanceEntry, ...] = ()

@@ -1,4 +1,4 @@
-"""What the readers of a study's trade-off share: findings, quantities, and anchors on requirements."""
+"""Findings, quantities and anchors at their places in a study's trade-off."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from rgss.findings import Finding
 from rgss.measures import Direction, MeasureSet
 from rgss.quantities import parse_quantity
 from rgss.requirements import RequirementSet
-from rgss.studies.trade_off.document import AnchorEntry
-from rgss.studies.trade_off.sections import Anchor, RequirementAnchor
+from rgss.tradeoff import Anchor, RequirementAnchor
 
 Place = tuple[str | int, ...]
 
@@ -22,10 +21,10 @@ SECTION: Place = ("trade_off",)
 
 
 class TradeOffPlaces:
-    """Reads quantities and names of the section at their places, and collects what is wrong with them.
+    """Resolves quantities and names of the section at their places, and collects findings.
 
     Attributes:
-        findings: What was found wrong.
+        findings: The findings so far.
         units: The unit of each measure.
     """
 
@@ -38,7 +37,7 @@ class TradeOffPlaces:
             document: The study's file.
             measures: The project's measures; None if they could not be read, and then no quantity
                 of them is looked at.
-            requirements: Gives the project's requirements, when they are first asked for; None if
+            requirements: Callback that loads the project's requirements when they are first needed; None if
                 they could not be read.
         """
         self.findings: list[Finding] = []
@@ -50,7 +49,7 @@ class TradeOffPlaces:
         self._requirements = cache(requirements)
 
     def report(self, rule: str, message: str, at: Place, *, hint: str = "") -> None:
-        """Take down a finding."""
+        """Record a finding."""
         self.findings.append(self._document.finding(f"study.{rule}", message, at, hint=hint))
 
     def knows(self, measure: str, at: Place) -> bool:
@@ -64,7 +63,7 @@ class TradeOffPlaces:
         return False
 
     def more_is_better(self, measure: str) -> bool | None:
-        """What the measures' file says of a measure; None if it says nothing."""
+        """Preferred direction of a measure; None if the measures' file states none."""
         better = self._better[measure]
         return None if better is Direction.NONE else better is Direction.HIGHER
 
@@ -76,16 +75,15 @@ class TradeOffPlaces:
             self.report("quantity", error.message, at, hint=error.hint)
             return None
 
-    def anchor(self, entry: AnchorEntry | str, measure: str, at: Place) -> Anchor | None:
+    def anchor(self, entry: RequirementAnchor | str, measure: str, at: Place) -> Anchor | None:
         """A quantity, or one that a requirement gives; a finding and None if it is neither."""
         if isinstance(entry, str):
             return self.quantity(entry, measure, at)
         if not (math.isfinite(entry.times) and entry.times > 0.0):
-            message = f"{entry.times:g} times a threshold is no anchor"
+            message = f"times must be greater than 0, got {entry.times:g}"
             self.report("anchor", message, (*at, "times"), hint="give a positive number")
             return None
-        anchor = RequirementAnchor(requirement=entry.requirement, times=entry.times)
-        return anchor if self.threshold(entry.requirement, measure, at) is not None else None
+        return entry if self.threshold(entry.requirement, measure, at) is not None else None
 
     def quantity_of(self, anchor: Anchor, measure: str) -> float:
         """The quantity of an anchor that was read without a finding."""
@@ -124,7 +122,7 @@ class TradeOffPlaces:
         try:
             return criterion.threshold_in(self.units[criterion.measure])
         except QuantityError:
-            # What is wrong with the requirement itself is told where it stands.
+            # The finding on the requirement is reported in its own file.
             return None
 
 

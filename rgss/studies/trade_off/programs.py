@@ -1,10 +1,13 @@
-"""Reading how a trade-off decides: its program, the demands on replicates, the fleet."""
+"""Reader of how a trade-off decides: its program, the demands on replicates, the fleet."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import TypeVar
 
 from rgss.errors import TradeoffError
+from rgss.studies.trade_off.anchored_programs import AnchoredEpsilonConstraint, AnchoredTchebycheff, StatedProgram
+from rgss.studies.trade_off.demands import BoundChoice, ChanceChoice, RequirementBound, RiskChoice, TailChoice
 from rgss.studies.trade_off.document import (
     AimEntry,
     BoundEntry,
@@ -14,59 +17,63 @@ from rgss.studies.trade_off.document import (
     MinimaxRegretEntry,
     PortfolioEntry,
     ProgramField,
+    RiskEntry,
     TailEntry,
     TchebycheffEntry,
 )
 from rgss.studies.trade_off.places import SECTION, Place, TradeOffPlaces
-from rgss.studies.trade_off.sections import (
-    AimChoice,
-    BoundChoice,
-    PortfolioChoice,
-    ProgramChoice,
-    RiskChoice,
-    ValuedMeasure,
+from rgss.tradeoff import (
+    AdditiveValue,
+    Aim,
+    AnchoredValue,
+    Comparison,
+    Lexicographic,
+    MinimaxRegret,
+    Tchebycheff,
+    Weighting,
 )
-from rgss.tradeoff import Aim, Comparison, Lexicographic, PortfolioAim, Scenarios, Tchebycheff, Weighting
+
+_Made = TypeVar("_Made")
 
 PROGRAM = (*SECTION, "decide_by")
 
 
 class ProgramReader:
-    """Reads the program of a trade-off."""
+    """Reader of the program of a trade-off."""
 
-    def __init__(self, places: TradeOffPlaces, valued: Sequence[ValuedMeasure], weights: Mapping[str, float]) -> None:
+    def __init__(self, places: TradeOffPlaces, valued: Sequence[AnchoredValue], weights: Mapping[str, float]) -> None:
         self._places = places
         self._valued = {each.measure: each for each in valued}
         self._weights = weights
 
-    def read(self, entry: ProgramField) -> ProgramChoice:
-        """Read a program; what is wrong in it is found and left out."""
+    def read(self, entry: ProgramField) -> StatedProgram | None:
+        """Read a program; findings, and None where it cannot be used."""
         if isinstance(entry, LexicographicEntry):
-            aims = [self._aim(aim, (*PROGRAM, "order", index)) for index, aim in enumerate(entry.order)]
-            sound = tuple(aim for aim in aims if aim is not None)
-            if len(sound) == len(aims):
-                self._try(lambda: Lexicographic(aims=tuple(as_aim(aim) for aim in sound)), (*PROGRAM, "order"))
-            return ProgramChoice(name=entry.program, aims=sound)
+            return self._lexicographic(entry)
         if isinstance(entry, EpsilonConstraintEntry):
-            one = self._aim(entry.optimise, (*PROGRAM, "optimise"))
-            bounds = [
-                self._places_bound(bound, (*PROGRAM, "limits", index)) for index, bound in enumerate(entry.limits)
-            ]
-            return ProgramChoice(
-                name=entry.program,
-                aims=() if one is None else (one,),
-                limits=tuple(bound for bound in bounds if bound is not None),
-            )
+            return self._epsilon_constraint(entry)
         if isinstance(entry, TchebycheffEntry):
             return self._tchebycheff(entry)
         if isinstance(entry, MinimaxRegretEntry):
-            return ProgramChoice(name=entry.program, scenarios=Scenarios(entry.over))
-        return ProgramChoice(name=entry.program)
+            return MinimaxRegret(scenarios=entry.over)
+        return AdditiveValue()
 
-    def _places_bound(self, entry: BoundEntry, at: Place) -> BoundChoice | None:
-        return read_bound(self._places, entry, entry.measure, at)
+    def _lexicographic(self, entry: LexicographicEntry) -> Lexicographic | None:
+        aims = [self._aim(aim, (*PROGRAM, "order", index)) for index, aim in enumerate(entry.order)]
+        sound = tuple(aim for aim in aims if aim is not None)
+        return self._try(lambda: Lexicographic(aims=sound), (*PROGRAM, "order")) if len(sound) == len(aims) else None
 
-    def _aim(self, entry: AimEntry, at: Place) -> AimChoice | None:
+    def _epsilon_constraint(self, entry: EpsilonConstraintEntry) -> AnchoredEpsilonConstraint | None:
+        aim = self._aim(entry.optimise, (*PROGRAM, "optimise"))
+        limits = [
+            read_bound(self._places, limit, limit.measure, (*PROGRAM, "limits", index))
+            for index, limit in enumerate(entry.limits)
+        ]
+        if aim is None:
+            return None
+        return AnchoredEpsilonConstraint(aim=aim, limits=tuple(limit for limit in limits if limit is not None))
+
+    def _aim(self, entry: AimEntry, at: Place) -> Aim | None:
         places = self._places
         if not places.knows(entry.measure, (*at, "measure")):
             return None
@@ -75,7 +82,7 @@ class ProgramReader:
             function = self._valued[entry.measure].function(lambda anchor: places.quantity_of(anchor, entry.measure))
             more = function.more_is_better
         if more is None:
-            message = f"no one says whether more or less of {entry.measure} is better"
+            message = f"measure {entry.measure} has no preferred direction"
             places.report("program", message, (*at, "measure"), hint="say so in the measures' file")
             return None
         absolute: float | None = 0.0
@@ -83,10 +90,12 @@ class ProgramReader:
             absolute = places.quantity(entry.absolute, entry.measure, (*at, "absolute"))
         if absolute is None:
             return None
-        aim = AimChoice(measure=entry.measure, more_is_better=more, absolute=absolute, relative=entry.relative or 0.0)
-        return aim if self._try(lambda: as_aim(aim), at) else None
+        sense, given_up = Comparison.AT_LEAST if more else Comparison.AT_MOST, absolute
+        return self._try(
+            lambda: Aim(measure=entry.measure, sense=sense, absolute=given_up, relative=entry.relative or 0.0), at
+        )
 
-    def _tchebycheff(self, entry: TchebycheffEntry) -> ProgramChoice:
+    def _tchebycheff(self, entry: TchebycheffEntry) -> AnchoredTchebycheff:
         reference = []
         for measure, field in entry.reference.items():
             at = (*PROGRAM, "reference", measure)
@@ -104,34 +113,17 @@ class ProgramReader:
             if anchor is not None:
                 reference.append((measure, anchor))
         self._try(lambda: Tchebycheff(augmentation=entry.augmentation), (*PROGRAM, "augmentation"))
-        return ProgramChoice(name=entry.program, reference=tuple(reference), augmentation=entry.augmentation)
+        return AnchoredTchebycheff(reference=tuple(reference), augmentation=entry.augmentation)
 
-    def _try(self, make: Callable[[], object], at: Place) -> bool:
+    def _try(self, make: Callable[[], _Made], at: Place) -> _Made | None:
         try:
-            make()
+            return make()
         except TradeoffError as error:
             self._places.report("program", error.message, at, hint=error.hint)
-            return False
-        return True
+            return None
 
 
-def as_aim(choice: AimChoice) -> Aim:
-    """The aim that a study's file states.
-
-    Raises:
-        TradeoffError: Its tolerances contradict each other or are no tolerances.
-    """
-    return Aim(
-        measure=choice.measure,
-        sense=Comparison.AT_LEAST if choice.more_is_better else Comparison.AT_MOST,
-        absolute=choice.absolute,
-        relative=choice.relative,
-    )
-
-
-def read_bound(
-    places: TradeOffPlaces, entry: BoundEntry | ChanceEntry | TailEntry, measure: str, at: Place
-) -> BoundChoice | None:
+def read_bound(places: TradeOffPlaces, entry: BoundEntry | RiskEntry, measure: str, at: Place) -> BoundChoice | None:
     """Read a bound on a measure; a finding and None if it is none."""
     if not places.knows(measure, (*at, "measure")):
         return None
@@ -153,78 +145,57 @@ def read_risks(
 ) -> tuple[RiskChoice, ...]:
     """Read the demands on replicates."""
     found: list[RiskChoice] = []
-    named: list[tuple[str, int, ChanceEntry | TailEntry]] = [("chance", *each) for each in enumerate(chances)]
-    named += [("tail", *each) for each in enumerate(tails)]
-    for kind, index, entry in named:
-        risk = _risk(places, kind, entry, (*SECTION, kind, index))
-        if risk is None:
-            continue
-        if any(risk.id == other.id for other in found):
-            places.report("repeated", f"{risk.id} is demanded twice", (*SECTION, kind, index), hint="keep one")
-            continue
-        found.append(risk)
+    kinds: tuple[tuple[str, type[RiskChoice], list[tuple[RiskEntry, float]]], ...] = (
+        ("chance", ChanceChoice, [(entry, entry.probability) for entry in chances]),
+        ("tail", TailChoice, [(entry, entry.worst_share) for entry in tails]),
+    )
+    for kind, choice, entries in kinds:
+        for index, (entry, share) in enumerate(entries):
+            at = (*SECTION, kind, index)
+            bound = _risk_bound(places, kind, entry, (choice.share_key, share), at)
+            if bound is None:
+                continue
+            id_ = f"{kind}:{entry.requirement or entry.measure}"
+            if any(id_ == other.id for other in found):
+                places.report("repeated", f"{id_} is demanded twice", at, hint="keep one")
+                continue
+            found.append(choice.of(id_, bound, share))
     return tuple(found)
 
 
-def _risk(places: TradeOffPlaces, kind: str, entry: ChanceEntry | TailEntry, at: Place) -> RiskChoice | None:
-    share, key = (
-        (entry.probability, "probability") if isinstance(entry, ChanceEntry) else (entry.worst_share, "worst_share")
-    )
+def _risk_bound(
+    places: TradeOffPlaces, kind: str, entry: RiskEntry, share: tuple[str, float], at: Place
+) -> BoundChoice | RequirementBound | None:
+    key, number = share
     sound = True
-    if not 0.0 < share < 1.0:
-        places.report("risk", f"{key} is {share:g}", (*at, key), hint="give a number between 0 and 1, such as 0.9")
+    if not 0.0 < number < 1.0:
+        places.report("risk", f"{key} is {number:g}", (*at, key), hint="give a number between 0 and 1, such as 0.9")
         sound = False
-    if (entry.requirement is None) == (entry.measure is None):
-        places.report(
-            "risk",
-            f"a {kind} is of a requirement or of a measure",
-            at,
-            hint="give 'requirement', or 'measure' and a bound",
-        )
-        return None
-    bound = None
-    if entry.measure is not None:
-        bound = read_bound(places, entry, entry.measure, at)
-        sound &= bound is not None
-    else:
+    if entry.requirement is not None and entry.measure is None:
         for end in ("at_most", "at_least"):
             if getattr(entry, end) is not None:
-                places.report(
-                    "risk",
-                    f"{entry.requirement} has its own threshold",
-                    (*at, end),
-                    hint="take it out, or name a measure",
-                )
+                message = f"{entry.requirement} has its own threshold"
+                places.report("risk", message, (*at, end), hint="take it out, or name a measure")
                 sound = False
-        sound &= places.threshold(entry.requirement or "", None, (*at, "requirement")) is not None
-    if not sound:
-        return None
-    return RiskChoice(
-        id=f"{kind}:{entry.requirement or entry.measure}",
-        requirement=entry.requirement,
-        bound=bound,
-        probability=share if isinstance(entry, ChanceEntry) else None,
-        worst_share=share if isinstance(entry, TailEntry) else None,
-    )
+        sound &= places.threshold(entry.requirement, None, (*at, "requirement")) is not None
+        return RequirementBound(requirement=entry.requirement) if sound else None
+    if entry.measure is not None and entry.requirement is None:
+        bound = read_bound(places, entry, entry.measure, at)
+        return bound if sound else None
+    message = f"a {kind} is of a requirement or of a measure"
+    places.report("risk", message, at, hint="give 'requirement', or 'measure' and a bound")
+    return None
 
 
-def read_portfolio(places: TradeOffPlaces, entry: PortfolioEntry | None) -> PortfolioChoice | None:
-    """Read a fleet; None if none is asked for."""
-    if entry is None:
-        return None
+def check_portfolio(places: TradeOffPlaces, entry: PortfolioEntry) -> None:
+    """Report studies that are named twice, and weights that do not sum to 1."""
     at = (*SECTION, "fleet", "studies")
     names = [each.study for each in entry.studies]
     for index, name in enumerate(names):
         if name in names[:index]:
             places.report("repeated", f"study {name!r} is named twice", (*at, index, "study"), hint="keep one")
-            return None
+            return
     try:
         Weighting(weights={each.study: each.weight for each in entry.studies})
     except TradeoffError as error:
         places.report("weights", error.message, at, hint=error.hint)
-    return PortfolioChoice(
-        at_most=entry.at_most,
-        aim=PortfolioAim(entry.aim),
-        member=entry.member,
-        studies=tuple((each.study, each.weight) for each in entry.studies),
-    )

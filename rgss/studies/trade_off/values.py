@@ -1,4 +1,4 @@
-"""Reading what measures are worth and what they weigh, group by group."""
+"""Reader of value functions and weights, group by group."""
 
 from __future__ import annotations
 
@@ -7,22 +7,25 @@ from collections.abc import Mapping, Sequence
 from rgss.errors import TradeoffError
 from rgss.studies.trade_off.document import OrderEntry, ValueEntry
 from rgss.studies.trade_off.places import SECTION, Place, TradeOffPlaces
-from rgss.studies.trade_off.sections import Anchor, RequirementAnchor, ValuedMeasure
 from rgss.tradeoff import (
+    SHAPE_KEYS,
+    Anchor,
+    AnchoredValue,
     CriterionNode,
     ElicitedInterval,
     ElicitedOrder,
+    PointEntry,
     RankRule,
+    RequirementAnchor,
     WeightBounds,
     Weighting,
+    shape_of,
     weighting_of,
     weights_from_points,
     weights_from_ranks,
 )
 
 _WEIGHTS = ("weight", "points", "rank")
-_SHAPES = ("worst", "best", "between", "halfway", "target", "too_low", "too_high")
-_TARGET = ("target", "too_low", "too_high")
 
 
 def name_of(entry: ValueEntry) -> str:
@@ -31,7 +34,7 @@ def name_of(entry: ValueEntry) -> str:
 
 
 class ValueReader:
-    """Reads the entries of ``values``.
+    """Reader of the entries of ``values``.
 
     Attributes:
         valued: The value functions that were read.
@@ -39,7 +42,7 @@ class ValueReader:
     """
 
     def __init__(self, places: TradeOffPlaces) -> None:
-        self.valued: list[ValuedMeasure] = []
+        self.valued: list[AnchoredValue] = []
         self.intervals: list[ElicitedInterval] = []
         self._places = places
         self._seen: set[str] = set()
@@ -52,7 +55,7 @@ class ValueReader:
         Args:
             entries: Its members.
             rank_rule: The rule by which ranks become weights.
-            at: Where the list of its members stands.
+            at: Path of the list of its members.
             top: Whether it is the outermost group.
 
         Returns:
@@ -80,7 +83,7 @@ class ValueReader:
         return nodes
 
     def orders(self, entries: Sequence[OrderEntry], nodes: Sequence[CriterionNode] | None) -> tuple[ElicitedOrder, ...]:
-        """Read which criterion weighs more than which."""
+        """Read the elicited orders of weights."""
         known = _by_name(nodes or ())
         found = []
         for index, entry in enumerate(entries):
@@ -109,7 +112,7 @@ class ValueReader:
         return tuple(found)
 
     def check_bounds(self, nodes: Sequence[CriterionNode] | None, orders: Sequence[ElicitedOrder]) -> None:
-        """Find weights that contradict what was elicited."""
+        """Report weights that contradict the elicited bounds."""
         if nodes is None:
             return
         weights = weighting_of(nodes).weights
@@ -125,7 +128,7 @@ class ValueReader:
             self._places.report("weights", error.message, at, hint=error.hint)
 
     def _named(self, entry: ValueEntry, at: Place) -> bool:
-        """Whether an entry is one thing, and a new one."""
+        """Tell whether an entry is either a measure or a criterion, and a new one."""
         if (entry.measure is None) == (entry.criterion is None):
             message = "an entry is a measure or a criterion"
             self._places.report("value", message, at, hint="give 'measure', or 'criterion' with its members in 'of'")
@@ -137,7 +140,7 @@ class ValueReader:
             return False
         self._seen.add(name)
         if entry.measure is None:
-            for each in _SHAPES:
+            for each in SHAPE_KEYS:
                 if getattr(entry, each) is not None:
                     message = f"criterion {name!r} has members, not {each!r} of its own"
                     self._places.report("value", message, (*at, each), hint="value its members")
@@ -207,54 +210,55 @@ class ValueReader:
         measure = entry.measure
         if measure is None or not self._places.knows(measure, (*at, "measure")):
             return
-        given = [key for key in _SHAPES if getattr(entry, key) is not None]
-        wanted = _TARGET if any(key in given for key in _TARGET) else ("worst", "best")
-        alien = [key for key in given if key not in wanted and (wanted == _TARGET or key not in ("between", "halfway"))]
-        missing = [key for key in wanted if key not in given]
-        needed = f"give {' and '.join(repr(each) for each in wanted)}"
+        given = [key for key in SHAPE_KEYS if getattr(entry, key) is not None]
+        shape = shape_of(given)
+        alien = [key for key in given if key not in (*shape.required, *shape.optional)]
+        missing = [key for key in shape.required if key not in given]
+        needed = f"give {' and '.join(repr(each) for each in shape.required)}"
         for key in missing:
             self._places.report("value", f"{measure!r} has no {key!r}", at, hint=needed)
-        one_kind = "keep one kind of value"
         for key in alien:
-            self._places.report("value", f"{measure!r} has a target and {key!r}", (*at, key), hint=one_kind)
-        if "between" in given and "halfway" in given:
-            message = f"{measure!r} has 'between' and 'halfway'"
-            self._places.report("value", message, (*at, "halfway"), hint=one_kind)
-            alien.append("halfway")
-        if missing or alien:
-            return
-        self._shape(entry, measure, at)
+            message = f"{measure!r} has {shape.label} and {key!r}"
+            self._places.report("value", message, (*at, key), hint="keep one kind of value")
+        if not missing and not alien:
+            self._shape(entry, shape, given, measure, at)
 
-    def _shape(self, entry: ValueEntry, measure: str, at: Place) -> None:
+    def _shape(
+        self, entry: ValueEntry, shape: type[AnchoredValue], given: Sequence[str], measure: str, at: Place
+    ) -> None:
         places = self._places
-        anchors: dict[str, Anchor | None] = {
-            key: places.anchor(field, measure, (*at, key))
-            for key in _SHAPES
-            if key != "between" and (field := getattr(entry, key)) is not None
-        }
-        points = [
-            (places.anchor(point.at, measure, (*at, "between", index, "at")), point.worth)
-            for index, point in enumerate(entry.between or ())
-        ]
-        between = tuple((quantity, worth) for quantity, worth in points if quantity is not None)
-        if None in anchors.values() or len(between) < len(points):
+        anchors = {key: self._anchors(getattr(entry, key), measure, (*at, key)) for key in given}
+        if None in anchors.values():
             return
-        valued = ValuedMeasure(measure=measure, between=between, **anchors)
+        valued = shape(measure=measure, **anchors)  # type: ignore[call-arg]
         try:
             function = valued.function(lambda anchor: places.quantity_of(anchor, measure))
         except TradeoffError as error:
-            last = next(key for key in ("target", "halfway", "between", "best") if getattr(entry, key) is not None)
+            last = next((key for key in shape.own if key in given), shape.ends[1])
             places.report("value", error.message, (*at, last), hint=error.hint)
             return
         better = places.more_is_better(measure)
         if None not in (better, function.more_is_better) and better is not function.more_is_better:
-            wanted = "more" if better else "less"
-            message = f"{wanted} {measure} is better, but this values it the other way round"
+            wanted, got = ("more", "less") if better else ("less", "more")
+            message = f"{wanted} {measure} is better, but this values {got} of it higher"
             anchored = any(isinstance(anchor, RequirementAnchor) for anchor in anchors.values())
             hint = "a requirement's threshold lies beyond the other end; move that too" if anchored else ""
-            places.report("direction", message, (*at, "best"), hint=hint or "exchange worst and best")
+            places.report("direction", message, (*at, shape.ends[1]), hint=hint or "exchange worst and best")
             return
         self.valued.append(valued)
+
+    def _anchors(
+        self, field: RequirementAnchor | str | tuple[PointEntry, ...], measure: str, at: Place
+    ) -> Anchor | tuple[tuple[Anchor, float], ...] | None:
+        """What a key of a shape holds: an anchor, or points; None where one has a finding."""
+        if not isinstance(field, tuple):
+            return self._places.anchor(field, measure, at)
+        points = [
+            (self._places.anchor(point.at, measure, (*at, index, "at")), point.worth)
+            for index, point in enumerate(field)
+        ]
+        sound = tuple((anchor, worth) for anchor, worth in points if anchor is not None)
+        return sound if len(sound) == len(points) else None
 
 
 def _by_name(nodes: Sequence[CriterionNode]) -> dict[str, CriterionNode]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from rgss.errors import QuantityError
 from rgss.findings import Severity
 from rgss.quantities import conversion_factor, same_dimension
-from rgss.requirements import Comparison, Criterion, Requirement, VerificationMethod
+from rgss.requirements import Criterion, Requirement, VerificationMethod
 from rgss.trace.model import MeasureTrace, TraceModel
 from rgss.trace.rules.rule import ModelRule, Violation
 from rgss.trace.sentences import TextQuantity, bound_of, quantities_in, response_start
@@ -89,7 +89,7 @@ def _contradicting_numbers(model: TraceModel) -> Iterator[Violation]:
 
 def _contradicting_comparisons(model: TraceModel) -> Iterator[Violation]:
     for requirement, criterion in _criteria(model):
-        is_lower_bound = criterion.comparison in (Comparison.AT_LEAST, Comparison.ABOVE)
+        is_lower_bound = criterion.comparison.is_lower_bound
         # What stands in a condition, such as 'If the force exceeds 10 N', is not what is required.
         start = response_start(requirement.text)
         for quantity in quantities_in(requirement.text):

@@ -26,7 +26,7 @@ def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Iterator[Evi
 
     The replicates of all alternatives share their seeds, so one draw of seeds serves them all and
     keeps what they have in common. A quantity moves by as much as the mean of its replicates does;
-    where no replicate of a draw tells it, it is unknown.
+    where no replicate of a draw has it, it is unknown.
 
     Args:
         table: The evidence.
@@ -109,7 +109,7 @@ def _drawn(samples: Samples, draw: NDArray[np.int64]) -> Samples:
 
 
 def _means(samples: Samples) -> NDArray[np.float64]:
-    """The mean of the replicates that tell a quantity, shape (n,); NaN where none does."""
+    """The mean of the replicates that have a quantity, shape (n,); NaN where none does."""
     known = samples.ran & ~np.isnan(samples.values)
     counts = known.sum(axis=1)
     totals = np.where(known, samples.values, 0.0).sum(axis=1)

@@ -23,7 +23,7 @@ def find_repairs(preferences: Preferences, enumeration: Enumeration) -> tuple[Re
 
     Of a requirement with one limit, the new limit is the statistic that comes nearest to the present
     one among the alternatives that violate nothing else. Of one with several, each alternative
-    asks for a change of those that it violates; the one that needs the smallest largest relative
+    needs a change of those that it violates; the one that needs the smallest largest relative
     change is taken.
 
     Args:

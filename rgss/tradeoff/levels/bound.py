@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rgss.tradeoff.levels.grid import BLOCK, Column, Designs, LevelGrid, compensated_sum
 from rgss.tradeoff.levels.stage_bounds import Intervals, stage_bound
-from rgss.tradeoff.milp import ConstraintTerm, Stage
+from rgss.tradeoff.milp import Constraint, Stage
 
 MOST_PARTIAL = 1_000_000
 """So many partial designs are kept; beyond, the bound that is reached then is the answer."""
@@ -37,7 +37,7 @@ class IntervalBound:
 def interval_bound(
     grid: LevelGrid,
     stage: Stage,
-    constraints: Sequence[ConstraintTerm],
+    constraints: Sequence[Constraint],
     *,
     known: float,
     tolerance: float,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rgss.tradeoff.levels.selection import LevelTable
 from rgss.tradeoff.levels.stage_bounds import Intervals, stage_bound
-from rgss.tradeoff.milp import ConstraintTerm, Stage
+from rgss.tradeoff.milp import Constraint, Stage
 from rgss.tradeoff.problem import EvidenceTable, LevelSpace
 
 Column = NDArray[np.float64]
@@ -89,12 +89,12 @@ class LevelGrid:
             len(designs),
         )
 
-    def scores(self, stage: Stage, constraints: Sequence[ConstraintTerm], designs: Designs) -> Column:
+    def scores(self, stage: Stage, constraints: Sequence[Constraint], designs: Designs) -> Column:
         """The objective of each design, shape (n,); minus infinity where it is not feasible."""
         scores = stage_bound(stage, constraints, DesignQuantities(self, designs))
         return np.where(self.allowed(designs), np.broadcast_to(scores, len(designs)), -np.inf)
 
-    def best(self, stage: Stage, constraints: Sequence[ConstraintTerm]) -> tuple[float, Designs] | None:
+    def best(self, stage: Stage, constraints: Sequence[Constraint]) -> tuple[float, Designs] | None:
         """The highest objective of all designs and the first design, shape (f,), that has it; None if infeasible."""
         best: tuple[float, Designs] | None = None
         for designs in self.blocks():

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.levels.selection import LevelModel, LevelSelection, LevelTable
-from rgss.tradeoff.milp import DecisionStatus, SolverRun, StageSolution, is_piecewise
+from rgss.tradeoff.milp import DecisionStatus, SolverRun, StageSolution
 from rgss.tradeoff.problem import Alternative, LevelSpace, Risk, Threshold, ValueFunction, WeightBounds, Weighting
 from rgss.tradeoff.programs import (
     AdditiveValue,
@@ -190,7 +190,7 @@ def decide_levels(problem: LevelProblem, *, independent: tuple[SolverRun, ...] =
         replicates={},
         alternative_of=problem.alternative,
         levels_of=problem.levels_of,
-        curved=frozenset(one.measure for one in problem.value_functions if not is_piecewise(one)),
+        curved=frozenset(one.measure for one in problem.value_functions if one.breakpoints is None),
     )
     exhaustive = problem.space.size <= LARGEST_ENUMERATED
     grid = LevelGrid.of(problem.space, problem.tables)
@@ -271,5 +271,5 @@ def _check_table(space: LevelSpace, measure: str, table: Table) -> None:
         if entry is not None and not math.isfinite(entry):
             raise TradeoffError(
                 f"{measure!r} at {', '.join(combination)} is {entry:g}",
-                hint="an entry is a finite number, or None where the evidence does not tell",
+                hint="an entry is a finite number, or None where it is unknown",
             )

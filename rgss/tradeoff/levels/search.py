@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from rgss.tradeoff.levels.grid import DesignQuantities, Designs, LevelGrid
 from rgss.tradeoff.levels.stage_bounds import shortfall_of
-from rgss.tradeoff.milp import ConditionConstraint, ConstraintTerm, Stage
+from rgss.tradeoff.milp import Constraint, Stage
+from rgss.tradeoff.problem import Threshold
 
 SAMPLED = 20_000
 """So many random designs are looked at; the best of them are improved."""
@@ -25,7 +26,7 @@ Merit = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def search_levels(
-    grid: LevelGrid, stage: Stage, constraints: Sequence[ConstraintTerm], starts: Sequence[Designs]
+    grid: LevelGrid, stage: Stage, constraints: Sequence[Constraint], starts: Sequence[Designs]
 ) -> tuple[float, Designs] | None:
     """Find a feasible design of high objective: random sample, then local search.
 
@@ -57,7 +58,7 @@ def search_levels(
 def _climb(
     grid: LevelGrid,
     stage: Stage,
-    constraints: Sequence[ConstraintTerm],
+    constraints: Sequence[Constraint],
     design: Designs,
     moves: Sequence[tuple[tuple[int, ...], Designs]],
 ) -> tuple[float, Designs]:
@@ -80,15 +81,13 @@ def _climb(
     return (here[1] if here[0] == 0.0 else -np.inf), design
 
 
-def _merit(grid: LevelGrid, stage: Stage, constraints: Sequence[ConstraintTerm], designs: Designs) -> Merit:
+def _merit(grid: LevelGrid, stage: Stage, constraints: Sequence[Constraint], designs: Designs) -> Merit:
     """How much each design violates, and its objective where it violates nothing."""
     scores = grid.scores(stage, constraints, designs)
     violated = (~grid.allowed(designs)).astype(np.float64)
     quantities = DesignQuantities(grid, designs)
     for constraint in (*constraints, *stage.constraints):
-        scale = 1.0
-        if isinstance(constraint, ConditionConstraint):
-            scale = _span(grid, constraint.condition.measure)
+        scale = _span(grid, constraint.measure) if isinstance(constraint, Threshold) else 1.0
         violated = violated + shortfall_of(constraint, quantities) / scale
     feasible = np.isfinite(scores)
     # What is infeasible violates something, be it by less than a number can hold.

@@ -64,7 +64,7 @@ class LevelModel:
         """The model of alternatives that are known one by one.
 
         Each measure becomes a table over as few factors as decide it, found by leaving out one
-        factor after another as long as the rest still tells every quantity.
+        factor after another as long as the rest still determines every quantity.
 
         Args:
             structure: The levels that make each alternative.
@@ -202,7 +202,7 @@ class LevelSelection:
         return cvxpy.Constant(np.array(coefficients, dtype=np.float64).T) @ self._variable(factors)
 
     def _variable(self, factors: tuple[str, ...]) -> Any:
-        """The variables of the combinations of some factors; made when they are first asked for."""
+        """The variables of the combinations of some factors; made when they are first used."""
         import cvxpy
         import numpy as np
         import scipy.sparse
@@ -245,7 +245,7 @@ class LevelSelection:
 
 
 def smallest_table(factors: tuple[str, ...], entries: Mapping[tuple[str, ...], Entry]) -> LevelTable[Entry]:
-    """The table over as few factors as still tell every entry.
+    """The table over as few factors as still determine every entry.
 
     Args:
         factors: The factors of the combinations.

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import (
-    ConditionConstraint,
-    ConstraintTerm,
+    Constraint,
     EvidenceConstraint,
     ObjectiveTerm,
     QuantityRank,
@@ -24,8 +23,8 @@ from rgss.tradeoff.milp import (
     WeightedValue,
     WorstOf,
 )
-from rgss.tradeoff.problem import Comparison, TargetValue, Threshold
-from rgss.tradeoff.programs import keeps, value_column
+from rgss.tradeoff.problem import ChanceBound, Comparison, Risk, TailBound, Threshold
+from rgss.tradeoff.programs import keeps
 
 Column = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -52,7 +51,7 @@ class Intervals:
 Quantities = Callable[[str], Intervals]
 
 
-def stage_bound(stage: Stage, constraints: Sequence[ConstraintTerm], quantities: Quantities) -> Column:
+def stage_bound(stage: Stage, constraints: Sequence[Constraint], quantities: Quantities) -> Column:
     """Upper bound on a stage's objective for each partial design.
 
     Args:
@@ -90,9 +89,10 @@ def _(term: WeightedValue, quantities: Quantities) -> Column:
     of = quantities(term.function.measure)
     # A measure that cannot be known has no value; the constraints exclude it.
     low, high = np.where(of.known, of.low, 0.0), np.where(of.known, of.high, 0.0)
-    best = np.maximum(value_column(term.function, low), value_column(term.function, high))
-    if isinstance(term.function, TargetValue):
-        best = np.where((low <= term.function.target) & (term.function.target <= high), 1.0, best)
+    best = np.maximum(term.function.values_at(low), term.function.values_at(high))
+    peak = term.function.peak
+    if peak is not None:
+        best = np.where((low <= peak) & (peak <= high), 1.0, best)
     return np.asarray(term.weight * best)
 
 
@@ -112,7 +112,7 @@ def _(term: WorstOf, quantities: Quantities) -> Column:
 
 
 @singledispatch
-def can_hold(constraint: ConstraintTerm, quantities: Quantities) -> Mask:  # noqa: ARG001 - read by the terms' own
+def can_hold(constraint: Constraint, quantities: Quantities) -> Mask:  # noqa: ARG001 - read by the terms' own
     """Whether a constraint can hold, shape (n,).
 
     Raises:
@@ -125,12 +125,16 @@ def can_hold(constraint: ConstraintTerm, quantities: Quantities) -> Mask:  # noq
 
 
 @can_hold.register
-def _(constraint: ConditionConstraint, quantities: Quantities) -> Mask:
-    of, condition = quantities(constraint.condition.measure), constraint.condition
-    if not isinstance(condition, Threshold):
-        raise TradeoffError("levels that are chosen by tables have no replicates", hint="bound the estimates")
-    end = of.high if condition.sense is Comparison.AT_LEAST else of.low
-    return np.asarray(of.known & keeps(condition.sense, np.where(of.known, end, 0.0), condition.limit))
+def _(constraint: Threshold, quantities: Quantities) -> Mask:
+    of = quantities(constraint.measure)
+    end = of.high if constraint.sense is Comparison.AT_LEAST else of.low
+    return np.asarray(of.known & keeps(constraint.sense, np.where(of.known, end, 0.0), constraint.limit))
+
+
+@can_hold.register(ChanceBound)
+@can_hold.register(TailBound)
+def _(constraint: Risk, quantities: Quantities) -> Mask:  # noqa: ARG001
+    raise TradeoffError("levels that are chosen by tables have no replicates", hint="bound the estimates")
 
 
 @can_hold.register
@@ -138,11 +142,11 @@ def _(constraint: EvidenceConstraint, quantities: Quantities) -> Mask:
     return quantities(constraint.measure).known
 
 
-def shortfall_of(constraint: ConstraintTerm, quantities: Quantities) -> Column:
+def shortfall_of(constraint: Constraint, quantities: Quantities) -> Column:
     """By how much a constraint fails at least, shape (n,), in the measure's unit; 1 where it is unknown."""
     possible = can_hold(constraint, quantities)
-    if not isinstance(constraint, ConditionConstraint):
+    if not isinstance(constraint, Threshold):
         return np.where(possible, 0.0, 1.0)
-    of, condition = quantities(constraint.condition.measure), constraint.condition
-    end = of.high if condition.sense is Comparison.AT_LEAST else of.low
-    return np.where(possible, 0.0, np.where(of.known, np.abs(np.where(of.known, end, 0.0) - condition.limit), 1.0))
+    of = quantities(constraint.measure)
+    end = of.high if constraint.sense is Comparison.AT_LEAST else of.low
+    return np.where(possible, 0.0, np.where(of.known, np.abs(np.where(of.known, end, 0.0) - constraint.limit), 1.0))

@@ -21,16 +21,16 @@ if TYPE_CHECKING:
         solve_program,
     )
     from rgss.tradeoff.milp.status import DecisionStatus
-    from rgss.tradeoff.milp.sums import LinearQuantity, is_piecewise
+    from rgss.tradeoff.milp.sums import LinearQuantity
     from rgss.tradeoff.milp.terms import (
-        ConditionConstraint,
-        ConstraintTerm,
+        Constraint,
         EvidenceConstraint,
         Exclusion,
         ObjectiveTerm,
         QuantityRank,
         WeightedValue,
         WorstOf,
+        compile_constraint,
     )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
@@ -44,8 +44,7 @@ __all__ = [
     "Agreement",
     "Check",
     "CheckKind",
-    "ConditionConstraint",
-    "ConstraintTerm",
+    "Constraint",
     "DecisionStatus",
     "EvidenceConstraint",
     "Exclusion",
@@ -62,8 +61,8 @@ __all__ = [
     "VariantSelection",
     "WeightedValue",
     "WorstOf",
+    "compile_constraint",
     "independent_run",
-    "is_piecewise",
     "proven_gap",
     "read_choice",
     "solve_linear",

@@ -11,7 +11,7 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff.milp.checks import Check
 from rgss.tradeoff.milp.selection import Selection
 from rgss.tradeoff.milp.status import DecisionStatus
-from rgss.tradeoff.milp.terms import ConstraintTerm, ObjectiveTerm
+from rgss.tradeoff.milp.terms import Constraint, ObjectiveTerm, compile_constraint
 from rgss.tradeoff.problem import Alternative
 
 OBJECTIVE_SCALE = 1e3
@@ -87,7 +87,7 @@ class Stage:
 
     name: str
     objective: tuple[ObjectiveTerm, ...]
-    constraints: tuple[ConstraintTerm, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
     scale: float = OBJECTIVE_SCALE
     sign: float = 1.0
     quantity: str | None = None
@@ -140,7 +140,7 @@ class StageSolver:
     """
 
     select: Callable[[], Selection]
-    constraints: tuple[ConstraintTerm, ...]
+    constraints: tuple[Constraint, ...]
     run: SolverRun = FIRST_RUN
 
     def solve(self, stage: Stage) -> StageSolution:
@@ -171,13 +171,13 @@ class StageSolver:
         )
 
     def compiled(self, stage: Stage) -> tuple[Any, Selection]:
-        """A stage as a CVXPY problem, and the variables that tell what it selects."""
+        """A stage as a CVXPY problem, and the variables of its selection."""
         import cvxpy
 
         selection = self.select()
         maximised = sum(term.compile(selection) for term in stage.objective)
-        constraints = [term.compile(selection) for term in (*self.constraints, *stage.constraints)]
-        # The structure is asked for last, because terms may have called for further variables.
+        constraints = [compile_constraint(one, selection) for one in (*self.constraints, *stage.constraints)]
+        # The structure is read last, because terms may have called for further variables.
         constraints += [constraint for _, constraint in selection.structure]
         return cvxpy.Problem(cvxpy.Maximize(stage.scale * maximised), constraints), selection
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeGuard
+from typing import Any
 
 from rgss.errors import TradeoffError
-from rgss.measures import RELATIVE_TOLERANCE
-from rgss.tradeoff.problem import Comparison, PiecewiseValue, TargetValue, ValueFunction
+from rgss.requirements import RELATIVE_TOLERANCE, Comparison
+from rgss.tradeoff.problem import ValueFunction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -38,11 +38,6 @@ class LinearQuantity:
         return self.high - self.low or 1.0
 
 
-def is_piecewise(function: ValueFunction) -> TypeGuard[PiecewiseValue | TargetValue]:
-    """Whether a value function is piecewise linear, so that a sum can be valued by it."""
-    return isinstance(function, (PiecewiseValue, TargetValue))
-
-
 def value_of_sum(quantity: LinearQuantity, function: ValueFunction) -> Any:
     """The value of a linear quantity, as a CVXPY expression.
 
@@ -54,21 +49,21 @@ def value_of_sum(quantity: LinearQuantity, function: ValueFunction) -> Any:
     Raises:
         TradeoffError: The function is not piecewise linear.
     """
-    if not is_piecewise(function):
+    if function.breakpoints is None:
         raise TradeoffError(
             f"{quantity.measure!r} is a sum over too many levels for a value that is not piecewise linear",
             hint="value it linearly, by points or by a target",
         )
     if function not in quantity.valued:
-        quantity.valued[function] = _piecewise(quantity, function)
+        quantity.valued[function] = _piecewise(quantity, function.breakpoints)
     return quantity.valued[function]
 
 
-def _piecewise(quantity: LinearQuantity, function: PiecewiseValue | TargetValue) -> Any:
+def _piecewise(quantity: LinearQuantity, points: Sequence[tuple[float, float]]) -> Any:
     import cvxpy
     import numpy as np
 
-    segments = _segments(sorted(function.points), quantity.low, quantity.high)
+    segments = _segments(points, quantity.low, quantity.high)
     if len(segments) == 1:
         ((start, start_value), (end, end_value)) = segments[0]
         slope = (end_value - start_value) / (end - start) if end > start else 0.0
@@ -101,7 +96,7 @@ def order_of_sum(quantity: LinearQuantity, sense: Comparison) -> Any:
 
 
 def _segments(
-    points: list[tuple[float, float]], low: float, high: float
+    points: Sequence[tuple[float, float]], low: float, high: float
 ) -> list[tuple[tuple[float, float], tuple[float, float]]]:
     """The segments of a function that lie within a range, level beyond its points."""
     (first, first_value), (last, last_value) = points[0], points[-1]

@@ -32,19 +32,6 @@ class ObjectiveTerm(Protocol):
         ...
 
 
-class ConstraintTerm(Protocol):
-    """A condition on what is selected."""
-
-    @property
-    def name(self) -> str:
-        """The condition in words, by which results refer to it."""
-        ...
-
-    def compile(self, selection: Selection) -> Any:
-        """The term as a CVXPY constraint."""
-        ...
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WeightedValue:
     """The weighted value of the selected alternative in one measure: w v(m).
@@ -139,59 +126,12 @@ class WorstOf:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ConditionConstraint:
-    """The selected alternative meets a condition: a threshold, a chance or a tail.
-
-    Of a selection of exactly one alternative, the quantity, the share of replicates met and the mean
-    of the worst replicates are those of that alternative, so the condition is linear in the
-    variables. The margins are scaled by the smallest violation and cut to [-1, 1]. That changes
-    nothing, and no violation is so small that it would pass under the solver's feasibility
-    tolerance, whatever the measure's unit (coefficient tightening).
-
-    Attributes:
-        condition: The condition.
-    """
-
-    condition: Condition
-
-    @property
-    def name(self) -> str:
-        """The constraint as people write it."""
-        return self.condition.name
-
-    def compile(self, selection: Selection) -> Any:
-        """The term as a CVXPY constraint."""
-        condition = self.condition
-        if isinstance(condition, Threshold):
-            linear = selection.linear_quantity(condition.measure)
-            if linear is not None:
-                return limit_of_sum(linear, condition.sense, condition.limit)
-            quantities = selection.quantities(condition.measure)
-            return selection.of_selected(condition.measure, self._coefficients(quantities)) >= 0.0
-        statistics = [condition.of_replicates(row) for row in selection.replicates(condition.measure)]
-        coefficients = [[entry] for entry in self._coefficients(statistics)]
-        return selection.of_selected_replicates(condition.measure, coefficients)[0] >= 0.0
-
-    def _coefficients(self, statistics: Sequence[float | None]) -> list[float]:
-        sense, limit = self.condition.sense, self.condition.limit
-        margins = []
-        for statistic in statistics:
-            margin = -1.0 if statistic is None else sense.margin(statistic, limit)
-            margins.append(max(0.0, margin) if sense.holds(statistic, limit) else margin)
-        smallest_violation = min((-margin for margin in margins if margin < 0.0), default=1.0)
-        return [
-            -1.0 if margin < 0.0 else 1.0 if margin >= smallest_violation else margin / smallest_violation
-            for margin in margins
-        ]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class EvidenceConstraint:
     """The selected alternative is known in a measure.
 
     Attributes:
         measure: The measure.
-        every_replicate: Whether each of its replicates has to tell the measure, too.
+        every_replicate: Whether each of its replicates must have the measure, too.
     """
 
     measure: str
@@ -234,3 +174,48 @@ class Exclusion:
     def compile(self, selection: Selection) -> Any:
         """The term as a CVXPY constraint."""
         return selection.exclusion(self.alternative)
+
+
+Constraint = Condition | EvidenceConstraint | Exclusion
+"""Anything that the selected alternative must keep; each has a `name` by which results refer to it."""
+
+
+def compile_constraint(constraint: Constraint, selection: Selection) -> Any:
+    """A constraint on the selected alternative, as a CVXPY constraint."""
+    if isinstance(constraint, EvidenceConstraint | Exclusion):
+        return constraint.compile(selection)
+    return _compile_condition(constraint, selection)
+
+
+def _compile_condition(condition: Condition, selection: Selection) -> Any:
+    """The row of a threshold, a chance or a tail.
+
+    Of a selection of exactly one alternative, the quantity, the share of replicates met and the mean
+    of the worst replicates are those of that alternative, so the condition is linear in the
+    variables. The margins are scaled by the smallest violation and cut to [-1, 1]. That changes
+    nothing, and no violation is so small that it would pass under the solver's feasibility
+    tolerance, whatever the measure's unit (coefficient tightening).
+    """
+    if isinstance(condition, Threshold):
+        linear = selection.linear_quantity(condition.measure)
+        if linear is not None:
+            return limit_of_sum(linear, condition.sense, condition.limit)
+        quantities = selection.quantities(condition.measure)
+        return selection.of_selected(condition.measure, row_coefficients(condition, quantities)) >= 0.0
+    statistics = [condition.of_replicates(row) for row in selection.replicates(condition.measure)]
+    coefficients = [[entry] for entry in row_coefficients(condition, statistics)]
+    return selection.of_selected_replicates(condition.measure, coefficients)[0] >= 0.0
+
+
+def row_coefficients(condition: Condition, statistics: Sequence[float | None]) -> list[float]:
+    """Tightened coefficients of a condition's row: not negative where its statistic keeps the limit."""
+    sense, limit = condition.sense, condition.limit
+    margins = []
+    for statistic in statistics:
+        margin = -1.0 if statistic is None else sense.margin(statistic, limit)
+        margins.append(max(0.0, margin) if sense.holds(statistic, limit) else margin)
+    smallest_violation = min((-margin for margin in margins if margin < 0.0), default=1.0)
+    return [
+        -1.0 if margin < 0.0 else 1.0 if margin >= smallest_violation else margin / smallest_violation
+        for margin in margins
+    ]

@@ -18,7 +18,7 @@ def raised(values: Values, size: int, start: Rows, work: TaskQueue) -> Rows:
     """A portfolio whose worst task is served better, from one that is known.
 
     The level is raised above the worst task again and again. At each level members are exchanged so
-    that the weights of the tasks that nobody serves at it fall most; the weights of those that stay
+    that the weights of the tasks that no member serves at it fall most; the weights of those that stay
     unserved grow, so that no local optimum holds the search (row weighting for set covering, as Gao et al.,
     "An efficient local search heuristic with row weighting for the unicost set covering problem", 2015).
 

@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.requirements import Comparison
     from rgss.tradeoff.problem.alternatives import Array, Mask, checked_values, checked_weights, classes
     from rgss.tradeoff.problem.conditions import (
         EVIDENCE_PREFIX,
         LIMIT_PREFIX,
         PREFIXES,
         ChanceBound,
-        Comparison,
         Condition,
         Risk,
         TailBound,
@@ -23,7 +23,22 @@ if TYPE_CHECKING:
     from rgss.tradeoff.problem.hierarchy import CriterionNode, weighting_of, weights_of_criteria
     from rgss.tradeoff.problem.level_space import Incompatibility, LevelFactor, LevelSpace, LevelStructure
     from rgss.tradeoff.problem.resampling import FEWEST_REPLICATES, Resamples, bootstrap, interval
-    from rgss.tradeoff.problem.values import TIE_TOLERANCE, ExponentialValue, PiecewiseValue, TargetValue, ValueFunction
+    from rgss.tradeoff.problem.values import (
+        SHAPE_KEYS,
+        TIE_TOLERANCE,
+        Anchor,
+        AnchoredValue,
+        AnchorField,
+        ExponentialValue,
+        PiecewiseValue,
+        PointEntry,
+        QuantityField,
+        RequirementAnchor,
+        ShapeKeys,
+        TargetValue,
+        ValueFunction,
+        shape_of,
+    )
     from rgss.tradeoff.problem.weight_bounds import ElicitedInterval, ElicitedOrder, WeightBounds
     from rgss.tradeoff.problem.weighting import RankRule, Weighting, weights_from_points, weights_from_ranks
 else:
@@ -34,8 +49,12 @@ __all__ = [
     "FEWEST_REPLICATES",
     "LIMIT_PREFIX",
     "PREFIXES",
+    "SHAPE_KEYS",
     "TIE_TOLERANCE",
     "Alternative",
+    "Anchor",
+    "AnchorField",
+    "AnchoredValue",
     "Array",
     "ChanceBound",
     "Comparison",
@@ -51,10 +70,14 @@ __all__ = [
     "LevelStructure",
     "Mask",
     "PiecewiseValue",
+    "PointEntry",
+    "QuantityField",
     "RankRule",
+    "RequirementAnchor",
     "Resamples",
     "Risk",
     "Samples",
+    "ShapeKeys",
     "TailBound",
     "TargetValue",
     "Threshold",
@@ -69,6 +92,7 @@ __all__ = [
     "interval",
     "nondominated",
     "replicates_of",
+    "shape_of",
     "tabulated",
     "weighting_of",
     "weights_from_points",

@@ -35,7 +35,7 @@ def checked_values(values: Array, *, what: str = "the values") -> Array:
         row, column = (int(index) for index in np.argwhere(wrong)[0])
         raise TradeoffError(
             f"{what} have {table[row, column]:g} in row {row}, column {column}",
-            hint="a value is a number from 0 to 1; leave out alternatives whose evidence does not tell it",
+            hint="a value is a number from 0 to 1; leave out alternatives in which it is unknown",
         )
     return table
 

@@ -1,15 +1,14 @@
-"""What a requirement demands of an alternative: a bound on a quantity, its chance, or its tail."""
+"""Conditions on an alternative: a threshold, a chance constraint, or a bound on the tail (CVaR)."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from enum import Enum
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
-from rgss.measures import RELATIVE_TOLERANCE
+from rgss.requirements import Comparison
 
 if TYPE_CHECKING:
     from rgss.tradeoff.problem.evidence_table import Alternative
@@ -29,43 +28,9 @@ LIMIT_PREFIX = "limit:"
 PREFIXES = (EVIDENCE_PREFIX, CHANCE_PREFIX, TAIL_PREFIX, LIMIT_PREFIX)
 
 
-class Comparison(str, Enum):
-    """Which side of its threshold a measure must be on; the threshold itself is good enough.
-
-    A quantity that differs from the threshold by less than one part in 10⁹ counts as equal to it,
-    as it does in verdicts, so that binary rounding never decides.
-    """
-
-    AT_LEAST = ">="
-    AT_MOST = "<="
-
-    @classmethod
-    def parse(cls, text: str) -> Comparison:
-        """Read ``">="`` or ``"<="``.
-
-        Raises:
-            TradeoffError: The text is neither.
-        """
-        for comparison in cls:
-            if comparison.value == text:
-                return comparison
-        raise TradeoffError(f"unknown comparison {text!r}", hint="write >= or <=")
-
-    def margin(self, quantity: float, limit: float) -> float:
-        """How far a quantity is on the good side of a limit; negative on the bad side."""
-        difference = quantity - limit
-        return difference if self is Comparison.AT_LEAST else -difference
-
-    def holds(self, quantity: float | None, limit: float) -> bool:
-        """Tell whether a quantity keeps a limit; an unknown one (None) does not."""
-        if quantity is None:
-            return False
-        return self.margin(quantity, limit) >= 0.0 or math.isclose(quantity, limit, rel_tol=RELATIVE_TOLERANCE)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Threshold:
-    """What a requirement demands of one measure; a requirement may have several thresholds.
+    """Threshold of a requirement on one measure; a requirement may have several.
 
     Attributes:
         requirement: Id of the requirement, such as ``SYS-012``.
@@ -73,6 +38,9 @@ class Threshold:
         comparison: At least or at most.
         value: The threshold, in the measure's unit.
         unit: That unit, for people.
+
+    Raises:
+        TradeoffError: The comparison is strict.
     """
 
     requirement: str
@@ -80,6 +48,9 @@ class Threshold:
     comparison: Comparison
     value: float
     unit: str
+
+    def __post_init__(self) -> None:
+        _check_comparison(self)
 
     @property
     def name(self) -> str:
@@ -111,7 +82,7 @@ class Threshold:
         return replace(self, value=limit)
 
     def statistic(self, alternative: Alternative) -> float | None:
-        """What is held against the limit: the quantity itself."""
+        """Compared statistic: the quantity itself."""
         return alternative.measures[self.measure]
 
     def margin(self, quantity: float) -> float:
@@ -125,9 +96,9 @@ class Threshold:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChanceBound:
-    """A share of the replicates that must meet a threshold: ``P[t_e <= 25 s] >= 0.9``.
+    """Chance constraint: the share of replicates that must meet a threshold, as in ``P[t_e <= 25 s] >= 0.9``.
 
-    The probability is the share of all replicates that were run. A replicate that does not tell the
+    The probability is the share of all replicates that were run. A replicate without the
     measure, such as the time of a task that failed, does not meet the threshold.
 
     Attributes:
@@ -139,7 +110,7 @@ class ChanceBound:
         probability: The share, between 0 and 1.
 
     Raises:
-        TradeoffError: The probability is not between 0 and 1.
+        TradeoffError: The probability is not between 0 and 1, or the comparison is strict.
     """
 
     requirement: str
@@ -150,9 +121,10 @@ class ChanceBound:
     probability: float
 
     def __post_init__(self) -> None:
+        _check_comparison(self)
         if not 0.0 < self.probability < 1.0:
             raise TradeoffError(
-                f"{self.requirement}: a probability of {self.probability:g} cannot be shown by replicates",
+                f"{self.requirement}: the probability must be between 0 and 1, got {self.probability:g}",
                 hint="give a number between 0 and 1, such as 0.9",
             )
 
@@ -191,7 +163,7 @@ class ChanceBound:
         return replace(self, probability=limit)
 
     def statistic(self, alternative: Alternative) -> float | None:
-        """What is held against the limit: the share of replicates that meet the threshold."""
+        """Compared statistic: the share of replicates that meet the threshold."""
         return self.of_replicates(replicates_of(alternative, self.measure))
 
     def of_replicates(self, row: Sequence[float | None]) -> float:
@@ -205,8 +177,8 @@ class TailBound:
 
     With n replicates and a share α, the mean is over the worst α n of them, the last one counting
     with the fraction that is left: the CVaR of Rockafellar and Uryasev ("Optimization of
-    conditional value-at-risk", 2000) of the empirical distribution. An alternative of which a
-    replicate does not tell the measure does not meet it: the worst is then unknown.
+    conditional value-at-risk", 2000) of the empirical distribution. An alternative with a
+    replicate that lacks the measure does not meet it: the worst is then unknown.
 
     Attributes:
         requirement: Id of the demand, such as ``tail:SYS-005``.
@@ -217,7 +189,7 @@ class TailBound:
         share: The share α of replicates that are the tail, above 0 and below 1.
 
     Raises:
-        TradeoffError: The share is not between 0 and 1.
+        TradeoffError: The share is not between 0 and 1, or the comparison is strict.
     """
 
     requirement: str
@@ -228,9 +200,10 @@ class TailBound:
     share: float
 
     def __post_init__(self) -> None:
+        _check_comparison(self)
         if not 0.0 < self.share < 1.0:
             raise TradeoffError(
-                f"{self.requirement}: the worst {self.share:g} of the replicates are no tail",
+                f"{self.requirement}: the share of the worst replicates must be between 0 and 1, got {self.share:g}",
                 hint="give a share between 0 and 1, such as 0.1",
             )
 
@@ -270,7 +243,7 @@ class TailBound:
         return replace(self, value=limit)
 
     def statistic(self, alternative: Alternative) -> float | None:
-        """What is held against the limit: the mean of the worst replicates; None if one is unknown."""
+        """Compared statistic: the empirical CVaR; None if a replicate is unknown."""
         return self.of_replicates(replicates_of(alternative, self.measure))
 
     def of_replicates(self, row: Sequence[float | None]) -> float | None:
@@ -296,6 +269,15 @@ def replicates_of(alternative: Alternative, measure: str) -> Sequence[float | No
     """What each replicate showed of a measure; of one that follows from the design, its quantity once."""
     row = alternative.replicates(measure)
     return (alternative.measures[measure],) if row is None else row
+
+
+def _check_comparison(condition: Condition) -> None:
+    """Refuse a strict comparison: the feasible set of a program is closed."""
+    if condition.comparison.is_strict:
+        raise TradeoffError(
+            f"{condition.requirement}: a program cannot have the strict comparison {condition.comparison.value!r}",
+            hint="write >= or <=",
+        )
 
 
 def unit_text(unit: str) -> str:

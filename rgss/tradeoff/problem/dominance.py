@@ -38,7 +38,7 @@ def nondominated(values: NDArray[np.float64]) -> NDArray[np.bool_]:
         row, column = (int(index) for index in np.argwhere(~np.isfinite(table))[0])
         raise TradeoffError(
             f"dominance needs finite numbers: row {row}, column {column} is {table[row, column]:g}",
-            hint="leave out alternatives whose evidence does not tell every measure",
+            hint="leave out alternatives with an unknown measure",
         )
     if table.shape[0] == 0:
         return np.zeros(0, dtype=np.bool_)

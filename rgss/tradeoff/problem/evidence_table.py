@@ -20,10 +20,10 @@ class Alternative:
 
     Attributes:
         variant: Id of the design variant.
-        measures: What is known of it, in each measure's unit; None where the evidence does not
-            tell, for instance because no trial succeeded.
+        measures: What is known of it, in each measure's unit; None where it is
+            unknown, for instance because no trial succeeded.
         samples: What each replicate showed of a measure, in the order of their seeds, in the
-            measure's unit; None where a replicate does not tell. A measure that follows from the
+            measure's unit; None where a replicate lacks it. A measure that follows from the
             design alone needs none.
     """
 
@@ -41,7 +41,7 @@ class Samples:
     """What every replicate of every alternative showed of one measure.
 
     Attributes:
-        values: Quantities, shape (n, r); NaN where a replicate does not tell or was not run.
+        values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
         ran: Which replicates were run, shape (n, r).
     """
 
@@ -56,8 +56,8 @@ class EvidenceTable(Sequence[Alternative]):
     Attributes:
         variants: Ids, shape (n,), ascending.
         measures: The m measures.
-        quantities: What is known, shape (n, m), in each measure's unit; NaN exactly where the
-            evidence does not tell.
+        quantities: What is known, shape (n, m), in each measure's unit; NaN exactly where it is
+            unknown.
         samples: The replicates of each measure that has any.
     """
 
@@ -78,7 +78,7 @@ class EvidenceTable(Sequence[Alternative]):
         Args:
             variants: Ids, shape (n,), in any order.
             columns: The quantities of each measure, shape (n,).
-            known: Where the evidence tells a measure, shape (n,); everywhere by default. What
+            known: Where a measure is known, shape (n,); everywhere by default. What
                 stands elsewhere in the column is not looked at.
 
         Raises:
@@ -107,7 +107,7 @@ class EvidenceTable(Sequence[Alternative]):
         return EvidenceTable(variants=ids[order], measures=tuple(columns), quantities=quantities)
 
     def column(self, measure: str) -> NDArray[np.float64]:
-        """The quantities of one measure, shape (n,); NaN where the evidence does not tell."""
+        """The quantities of one measure, shape (n,); NaN where unknown."""
         return self.quantities[:, self.measures.index(measure)]
 
     def replicates(self, measure: str) -> Samples:
@@ -242,5 +242,5 @@ def _given_twice(variant: int) -> TradeoffError:
 def _not_finite(measure: str, variant: int, quantity: float) -> TradeoffError:
     return TradeoffError(
         f"{measure!r} of variant {variant} is {quantity:g}",
-        hint="a measure is a finite number, or None where the evidence does not tell",
+        hint="a measure is a finite number, or None where it is unknown",
     )

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rgss.errors import TradeoffError
 
 FEWEST_REPLICATES = 2
-"""One replicate tells nothing of noise."""
+"""One replicate has no variance."""
 
 MOST_ENUMERATED = 2_000
 """Up to so many distinct resamples each is taken with its probability; beyond, some are drawn."""

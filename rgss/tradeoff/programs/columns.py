@@ -1,4 +1,4 @@
-"""Values and statistics of whole columns of alternatives, in NumPy."""
+"""Statistics of whole columns of alternatives, in NumPy."""
 
 from __future__ import annotations
 
@@ -7,56 +7,22 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.errors import TradeoffError
-from rgss.measures import RELATIVE_TOLERANCE
+from rgss.requirements import RELATIVE_TOLERANCE, Comparison
 from rgss.tradeoff.problem import (
     ChanceBound,
-    Comparison,
     Condition,
     EvidenceTable,
-    ExponentialValue,
-    PiecewiseValue,
     Samples,
     TailBound,
-    TargetValue,
     Threshold,
-    ValueFunction,
 )
 from rgss.tradeoff.programs.preferences import Preferences
 
 Column = NDArray[np.float64]
 
 
-def value_column(function: ValueFunction, quantities: Column) -> Column:
-    """The value of each of many quantities.
-
-    Args:
-        function: The value function.
-        quantities: Quantities of its measure, shape (n,); NaN where unknown.
-
-    Returns:
-        Values from 0 to 1, shape (n,); NaN where the quantity is.
-
-    Raises:
-        TradeoffError: The function is of a kind that has no column form.
-    """
-    if isinstance(function, (PiecewiseValue, TargetValue)):
-        points = np.array(sorted(function.points), dtype=np.float64)
-        return np.interp(quantities, points[:, 0], points[:, 1])
-    if isinstance(function, ExponentialValue):
-        share = np.clip((quantities - function.worst) / (function.best - function.worst), 0.0, 1.0)
-        half = function.exponent / 2.0
-        if abs(half) < 5e-10:
-            return np.asarray(share, dtype=np.float64)
-        # (1 - e^{-ρ z}) / (1 - e^{-ρ}), with a half of each exponent taken out.
-        return np.asarray(np.exp(half * (1.0 - share)) * np.sinh(half * share) / np.sinh(half), dtype=np.float64)
-    raise TradeoffError(
-        f"the value function of {function.measure!r} is of an unknown kind", hint="use one of rgss.tradeoff"
-    )
-
-
 def condition_column(condition: Condition, table: EvidenceTable) -> Column:
-    """The statistic that a condition holds against its limit, for every alternative.
+    """The statistic that a condition compares with its limit, for every alternative.
 
     Args:
         condition: The condition.
@@ -91,17 +57,17 @@ def tail_column(condition: TailBound, samples: Samples) -> Column:
     return np.asarray(np.where(np.isfinite(means), means, np.nan), dtype=np.float64)
 
 
-def keeps(sense: Comparison, quantities: Column, limit: float) -> NDArray[np.bool_]:
+def keeps(sense: Comparison, quantities: Column, limit: float | Column) -> NDArray[np.bool_]:
     """Which quantities keep a limit; an unknown one does not, one equal up to one part in 10⁹ does."""
     kept = quantities >= limit if sense is Comparison.AT_LEAST else quantities <= limit
-    equal = np.abs(quantities - limit) <= RELATIVE_TOLERANCE * np.maximum(np.abs(quantities), abs(limit))
+    equal = np.abs(quantities - limit) <= RELATIVE_TOLERANCE * np.maximum(np.abs(quantities), np.abs(limit))
     return np.asarray(kept | equal, dtype=np.bool_)
 
 
 def single_values(preferences: Preferences, table: EvidenceTable) -> Column:
     """The value of every alternative in each measure with a weight above 0, shape (n, m); NaN where unknown."""
     columns = [
-        value_column(preferences.value_function(measure), table.column(measure))
+        preferences.value_function(measure).values_at(table.column(measure))
         for measure in preferences.weighting.deciding_measures
     ]
     return np.stack(columns, axis=1)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.milp import ConditionConstraint, QuantityRank, Stage, StageSolution, StageSolver
+from rgss.tradeoff.milp import QuantityRank, Stage, StageSolution, StageSolver
 from rgss.tradeoff.problem import LIMIT_PREFIX, Comparison, Threshold
-from rgss.tradeoff.programs.program import additive_stage
+from rgss.tradeoff.programs.additive import additive_stage
 
 if TYPE_CHECKING:
     from rgss.tradeoff.programs.preferences import Preferences
@@ -50,7 +50,7 @@ class Aim:
         if self.relative >= 1.0:
             raise TradeoffError(
                 f"the relative tolerance of {self.measure!r} is {100.0 * self.relative:g} %",
-                hint="give less than 100 %, or leave the measure out: such a tolerance asks for nothing",
+                hint="give less than 100 %, or leave the measure out: such a tolerance bounds nothing",
             )
 
     def bound(self, best: float) -> float:
@@ -68,7 +68,7 @@ class Aim:
             unit="1",
         )
 
-    def stage(self, constraints: tuple[ConditionConstraint, ...]) -> Stage:
+    def stage(self, constraints: tuple[Threshold, ...]) -> Stage:
         """The stage that finds its best quantity."""
         return Stage(
             name=self.measure,
@@ -113,9 +113,14 @@ class Lexicographic:
         """None."""
         return ()
 
+    @property
+    def aimed_measures(self) -> tuple[str, ...]:
+        """The measures of its aims."""
+        return tuple(aim.measure for aim in self.aims)
+
     def needs(self, preferences: Preferences) -> Mapping[str, bool]:  # noqa: ARG002 - part of the protocol
         """The measures of its aims."""
-        return dict.fromkeys((aim.measure for aim in self.aims), False)
+        return dict.fromkeys(self.aimed_measures, False)
 
     def check(self, preferences: Preferences) -> None:
         """Nothing can be wrong beyond its aims."""
@@ -163,6 +168,11 @@ class EpsilonConstraint:
         """The limits on the other measures."""
         return self.bounds
 
+    @property
+    def aimed_measures(self) -> tuple[str, ...]:
+        """The measure that is optimised."""
+        return (self.aim.measure,)
+
     def needs(self, preferences: Preferences) -> Mapping[str, bool]:
         """The measure that is optimised, and those that have a weight, which break ties."""
         return dict.fromkeys((self.aim.measure, *preferences.weighting.deciding_measures), False)
@@ -177,19 +187,19 @@ class EpsilonConstraint:
             return (first,)
         best = quantity_of(first, self.aim)
         exactly = Aim(measure=self.aim.measure, sense=self.aim.sense).kept(best)
-        return first, solver.solve(additive_stage(preferences, ConditionConstraint(condition=exactly)))
+        return first, solver.solve(additive_stage(preferences, exactly))
 
 
 def solve_in_order(aims: tuple[Aim, ...], solver: StageSolver) -> tuple[StageSolution, ...]:
     """Solve a stage for each aim, keeping what was reached before within its tolerance."""
     solutions: list[StageSolution] = []
-    kept: list[ConditionConstraint] = []
+    kept: list[Threshold] = []
     for aim in aims:
         solution = solver.solve(aim.stage(tuple(kept)))
         solutions.append(solution)
         if solution.alternative is None:
             break
-        kept.append(ConditionConstraint(condition=aim.kept(quantity_of(solution, aim))))
+        kept.append(aim.kept(quantity_of(solution, aim)))
     return tuple(solutions)
 
 

@@ -48,11 +48,11 @@ class MinimaxRegret:
     The regret in a scenario is how much more value the best feasible alternative has there (Savage,
     "The theory of statistical decision", 1951). Over weights, the scenarios are the corners of the set
     of weights that agree with the elicited bounds: regret is convex in the weights, so its largest
-    value over the whole set is at a corner. Where the corners may be many, only those that matter are
+    value over the whole set is at a corner. Where the corners may be many, only the binding ones are
     generated: the worst weights of a candidate against one rival are a linear program (constraint
     generation; Kouvelis and Yu, "Robust discrete optimization and its applications", 1997). Of levels
     that is done up to `MOST_RIVALS` combinations; beyond, all corners are needed. Over
-    replicates, scenario r is the r-th seed, and every replicate has to tell every weighted measure.
+    replicates, scenario r is the r-th seed, and every replicate must have every weighted measure.
 
     Attributes:
         scenarios: Over what.
@@ -67,6 +67,11 @@ class MinimaxRegret:
 
     @property
     def limits(self) -> tuple[Threshold, ...]:
+        """None."""
+        return ()
+
+    @property
+    def aimed_measures(self) -> tuple[str, ...]:
         """None."""
         return ()
 

@@ -9,8 +9,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.measures import RELATIVE_TOLERANCE
+from rgss.requirements import Comparison
 from rgss.tradeoff.problem import TIE_TOLERANCE
+from rgss.tradeoff.programs.columns import keeps
 
 Mask = NDArray[np.bool_]
 Rows = NDArray[np.intp]
@@ -138,7 +139,7 @@ class Step:
     reported: float = 1.0
 
     def keeps(self, rows: Rows, *, exactly: bool) -> Rows:
-        """Which of some rows are good enough; the tolerance is 0 where exactly is asked for."""
+        """Which of some rows are good enough; with ``exactly`` the tolerance is 0."""
         if not rows.size:
             return rows
         column = self.column[rows]
@@ -194,7 +195,7 @@ class SequenceOrdering:
         other, given = np.ones(size, dtype=np.bool_), np.ones(size, dtype=np.bool_)
         for place, step in enumerate(self.steps):
             best = np.fmax(np.where(other, step.column, -np.inf), np.where(given, step.column[row], -np.inf))
-            # Of a pair of which neither is in any more, it does not matter what is best.
+            # A pair of which neither is left needs no best.
             best = np.where(np.isfinite(best), best, 0.0)
             last = place == len(self.steps) - 1
             given_up = 0.0 if last else step.absolute + step.relative * np.abs(best)
@@ -244,5 +245,4 @@ class SequenceOrdering:
 
 def at_least(column: Column, bound: float | Column) -> Mask:
     """Which quantities reach a bound; those that differ by less than one part in 10⁹ do."""
-    equal = np.abs(column - bound) <= RELATIVE_TOLERANCE * np.maximum(np.abs(column), np.abs(bound))
-    return np.asarray((column >= bound) | equal)
+    return keeps(Comparison.AT_LEAST, column, bound)

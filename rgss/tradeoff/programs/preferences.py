@@ -1,14 +1,17 @@
-"""What is wanted of a choice, whatever there is to choose from: demands, values, weights, program."""
+"""Preferences and decision programs: demands, values, weights, and the program that they are handed to.
+
+The two protocols refer to each other, so they share a file.
+"""
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.milp import ConditionConstraint, ConstraintTerm, EvidenceConstraint
+from rgss.tradeoff.milp import Constraint, EvidenceConstraint, StageSolution, StageSolver
 from rgss.tradeoff.problem import (
     EVIDENCE_PREFIX,
     PREFIXES,
@@ -25,13 +28,47 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from rgss.tradeoff.problem import Alternative
-    from rgss.tradeoff.programs.program import Program
+
+
+class Program(Protocol):
+    """Decision program: the objectives by which a feasible alternative is chosen, stage by stage."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        ...
+
+    @property
+    def limits(self) -> tuple[Threshold, ...]:
+        """Thresholds that it sets beside those of the requirements."""
+        ...
+
+    @property
+    def aimed_measures(self) -> tuple[str, ...]:
+        """Measures that it optimises by their quantities."""
+        ...
+
+    def needs(self, preferences: Preferences) -> Mapping[str, bool]:
+        """The measures that must be known, and whether in every replicate, too."""
+        ...
+
+    def check(self, preferences: Preferences) -> None:
+        """Make sure that it can decide a trade-off.
+
+        Raises:
+            TradeoffError: It cannot.
+        """
+        ...
+
+    def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
+        """Solve its stages, each given the answers of those before; ends where one is infeasible."""
+        ...
 
 
 class Preferences(ABC):
-    """What every trade-off has, as a base of the frozen values that state one.
+    """Base of the frozen trade-off problems: demands, values, weights, program.
 
-    A measure that matters and is unknown makes an alternative infeasible. Where a threshold bounds
+    A measure that decides and is unknown makes an alternative infeasible. Where a threshold bounds
     the measure, that requirement counts as violated; elsewhere the pseudo requirement
     ``evidence:<measure>`` does. Nothing is imputed.
 
@@ -68,18 +105,13 @@ class Preferences(ABC):
 
     @property
     def evidence_needs(self) -> Mapping[str, bool]:
-        """The measures of the pseudo requirements, and whether every replicate must tell them."""
+        """The measures of the pseudo requirements, and whether every replicate must have them."""
         bounded = {threshold.measure for threshold in (*self.thresholds, *self.program.limits)}
         return {
             measure: every_replicate
             for measure, every_replicate in self.program.needs(self).items()
             if every_replicate or measure not in bounded
         }
-
-    @property
-    def evidence_measures(self) -> tuple[str, ...]:
-        """The measures that must be known and that no threshold bounds."""
-        return tuple(self.evidence_needs)
 
     @property
     def requirements(self) -> tuple[str, ...]:
@@ -100,10 +132,10 @@ class Preferences(ABC):
         return {requirement: " and ".join(demands) for requirement, demands in found.items()}
 
     @property
-    def constraints(self) -> tuple[ConstraintTerm, ...]:
+    def constraints(self) -> tuple[Constraint, ...]:
         """The demands as terms of a program."""
         return (
-            *(ConditionConstraint(condition=condition) for condition in self.conditions),
+            *self.conditions,
             *(
                 EvidenceConstraint(measure=measure, every_replicate=every_replicate)
                 for measure, every_replicate in self.evidence_needs.items()

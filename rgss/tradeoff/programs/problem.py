@@ -19,8 +19,8 @@ from rgss.tradeoff.problem import (
     Weighting,
     check_evidence,
 )
-from rgss.tradeoff.programs.preferences import Preferences, check_preferences
-from rgss.tradeoff.programs.program import AdditiveValue, Program
+from rgss.tradeoff.programs.additive import AdditiveValue
+from rgss.tradeoff.programs.preferences import Preferences, Program, check_preferences
 
 __all__ = ["EVIDENCE_PREFIX", "Alternative", "Comparison", "Threshold", "TradeProblem"]
 

@@ -13,12 +13,11 @@ import numpy as np
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem import Comparison, EvidenceTable
-from rgss.tradeoff.programs.columns import value_column
+from rgss.tradeoff.programs.additive import AdditiveValue
 from rgss.tradeoff.programs.lexicographic import Aim, EpsilonConstraint, Lexicographic
 from rgss.tradeoff.programs.minimax_regret import MinimaxRegret, Scenarios
 from rgss.tradeoff.programs.orderings import Column, Mask, Ordering, ScoreOrdering, SequenceOrdering, Step
-from rgss.tradeoff.programs.preferences import Preferences
-from rgss.tradeoff.programs.program import AdditiveValue, Program
+from rgss.tradeoff.programs.preferences import Preferences, Program
 from rgss.tradeoff.programs.tchebycheff import Tchebycheff
 
 VALUE_DECIMALS = 12
@@ -126,7 +125,7 @@ def weighted_values(preferences: Preferences, table: EvidenceTable) -> Column:
     values = np.zeros(len(table))
     for measure in sorted(preferences.weighting.deciding_measures):
         weight = preferences.weighting.weights[measure]
-        values = values + weight * value_column(preferences.value_function(measure), table.column(measure))
+        values = values + weight * preferences.value_function(measure).values_at(table.column(measure))
     return np.round(values, VALUE_DECIMALS)
 
 
@@ -135,7 +134,7 @@ def _value_columns(preferences: Preferences, table: EvidenceTable) -> Column:
 
 
 def _columns_of(preferences: Preferences, table: EvidenceTable, measures: Sequence[str]) -> Column:
-    columns = [value_column(preferences.value_function(measure), table.column(measure)) for measure in measures]
+    columns = [preferences.value_function(measure).values_at(table.column(measure)) for measure in measures]
     return np.stack(columns, axis=1)
 
 
@@ -167,6 +166,6 @@ def _scenario_values(program: MinimaxRegret, preferences: Preferences, table: Ev
         for measure in deciding:
             rows = table.replicates(measure).values
             column = rows[:, replicate if measure in table.samples else 0]
-            values = values + weights[measure] * value_column(preferences.value_function(measure), column)
+            values = values + weights[measure] * preferences.value_function(measure).values_at(column)
         found.append(values)
     return found

@@ -56,6 +56,11 @@ class Tchebycheff:
         """None."""
         return ()
 
+    @property
+    def aimed_measures(self) -> tuple[str, ...]:
+        """None."""
+        return ()
+
     def needs(self, preferences: Preferences) -> Mapping[str, bool]:
         """The measures that have a weight."""
         return dict.fromkeys(preferences.weighting.deciding_measures, False)

@@ -14,7 +14,7 @@ MOST_CANDIDATES = 2_000_000
 """So many choices of binding bounds are looked at; more would take minutes."""
 
 FEW_CANDIDATES = 5_000
-"""Up to so many, looking at every corner is the simplest; of more, programs generate the weights that matter."""
+"""Up to so many, looking at every corner is the simplest; beyond, linear programs generate the binding weights."""
 
 _TOLERANCE = 1e-9
 _BLOCK = 20_000

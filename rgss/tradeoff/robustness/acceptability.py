@@ -193,7 +193,7 @@ def _checked_outcome(outcomes: OutcomeSource, outcome: int) -> tuple[Array, NDAr
     if not ((possible >= 0.0) & (possible <= 1.0)).all():
         raise TradeoffError(
             "an alternative that can be chosen has a value that is not a number from 0 to 1",
-            hint="an alternative whose evidence does not tell a weighted measure cannot be chosen",
+            hint="an alternative with an unknown weighted measure cannot be chosen",
         )
     return values, feasible
 

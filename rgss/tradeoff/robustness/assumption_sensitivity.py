@@ -155,7 +155,7 @@ def _first_loss(lead: Array, rate: Array, length: float) -> float | None:
     reach = np.full(len(lead), math.inf)
     reach[losing] = np.maximum(lead[losing], 0.0) / -rate[losing]
     if math.isfinite(length):
-        # A loss that is a tie up to the end of the piece is the next piece's matter.
+        # A loss that is a tie up to the end of the piece belongs to the next piece.
         reach[lead + rate * length >= -TIE_TOLERANCE] = math.inf
     nearest = float(reach.min(initial=math.inf))
     return nearest if nearest < length else None

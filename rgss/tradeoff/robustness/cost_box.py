@@ -74,7 +74,7 @@ class BoxRange:
 def box_range(problem: BoxProblem, chosen: int, *, most: float = 1.0) -> BoxRange:
     """The largest relative error of all assumed numbers together that the choice survives.
 
-    For each rival the least lead over the box is found exactly: the two quantities that matter,
+    For each rival the least lead over the box is found exactly: the two quantities of the pair,
     the choice's and the rival's, range over a zonotope, and the lead is linear on each cell that
     the kinks of the value function cut from it. It shrinks as the box grows, so that bisection
     finds where it vanishes. A rival that a lower number would make feasible counts.

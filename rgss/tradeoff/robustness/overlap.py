@@ -26,7 +26,7 @@ class Overlap:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SharedPart:
-    """Two weighted measures, neither of which contains the other, that stand on the same measures.
+    """Two weighted measures, neither of which contains the other, that depend on the same measures.
 
     Attributes:
         first: The one measure.

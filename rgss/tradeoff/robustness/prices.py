@@ -48,7 +48,7 @@ def price_list(
     It falls (or stays) as the threshold tightens, and jumps only at quantities of alternatives.
 
     Args:
-        quantities: What the threshold is on, shape (n,); NaN where the evidence does not tell, and
+        quantities: What the threshold is on, shape (n,); NaN where unknown, and
             then no threshold is met.
         totals: The weighted values, shape (n,); NaN only where not feasible.
         otherwise_feasible: Which alternatives meet everything else, shape (n,).
@@ -67,7 +67,7 @@ def price_list(
     if np.isnan(totals[rows]).any():
         raise TradeoffError(
             "a price list needs the value of every alternative that a threshold could admit",
-            hint="an alternative whose evidence does not tell a weighted measure cannot be chosen",
+            hint="an alternative with an unknown weighted measure cannot be chosen",
         )
     # Larger is looser or tighter by the sense of the threshold; as tightness, larger is tighter.
     tightness = quantities[rows] if at_least else -quantities[rows]

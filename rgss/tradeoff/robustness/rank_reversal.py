@@ -116,7 +116,7 @@ def _order(scores: Array, others: Array) -> NDArray[np.int8]:
 
 
 def _same_order(old: Array, new: Array) -> bool:
-    """Whether no pair changes its order, told from two sorted sequences instead of all pairs."""
+    """Tell whether no pair changes its order, by two sorted sequences instead of all pairs."""
     by_old, by_new = np.argsort(old, kind="stable"), np.argsort(new, kind="stable")
     worse = np.searchsorted(old[by_old], old - TIE_TOLERANCE)
     if not np.array_equal(worse, np.searchsorted(new[by_new], new - TIE_TOLERANCE)):

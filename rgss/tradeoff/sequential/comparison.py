@@ -148,7 +148,7 @@ def _gain_of_means(evidence: SequentialEvidence, row: int, rival: int, level: fl
     """An upper bound of the difference of value in all measures that are means.
 
     Each mean is expanded about its estimate: seed s adds ``w v'(m) (x_s - m) r/k`` with the slope v'
-    of the value function, r the seeds and k those that tell the measure, as the influence function
+    of the value function, r the seeds and k those that have the measure, as the influence function
     of a mean over some trials does. The sums of two alternatives are compared seed by seed.
     """
     means = [one for one in evidence.observed if not one.is_proportion and one.function is not None]

@@ -20,7 +20,7 @@ class Observed:
     Attributes:
         measure: The measure.
         is_proportion: Whether each replicate is 0 or 1; the mean of its replicates otherwise.
-        values: Quantities, shape (n, r); NaN where a replicate does not tell or was not run.
+        values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
         weight: Its weight in the value; 0 if it has none.
         function: Its value function; None if it has no weight.
         thresholds: What bounds it, by their place among all thresholds.
@@ -34,7 +34,7 @@ class Observed:
     thresholds: Mapping[int, Threshold]
 
     def known(self, row: int, *, after: int = 0) -> NDArray[np.float64]:
-        """What the replicates of one alternative tell, without the first ones.
+        """The replicates of one alternative, without the first ones.
 
         Args:
             row: The alternative.
@@ -66,7 +66,7 @@ class SequentialEvidence:
         table: The alternatives, by ascending id.
         replicates: How many replicates of each were run, shape (n,).
         thresholds: What the requirements demand.
-        observed: The measures that are observed in trials and that matter.
+        observed: The measures that are observed in trials and that decide.
         fixed_value: What the measures that follow from the design add to the value, shape (n,).
         fixed_met: Which alternatives meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.

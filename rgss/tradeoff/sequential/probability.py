@@ -1,11 +1,10 @@
-"""How probable it is that the choice is right, as the replicates tell."""
+"""Posterior probability that the choice is right, given the replicates."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.problem import PiecewiseValue, TargetValue, ValueFunction
 from rgss.tradeoff.sequential.evidence import Observed, SequentialEvidence
 
 DRAWS = 2_000
@@ -42,7 +41,7 @@ def probability_of_good_selection(
         drawn = _drawn(one, weights, groups, generator)
         known = ~np.isnan(drawn)
         if one.function is not None:
-            worth = _worth(one.function, np.where(known, drawn, 0.0))
+            worth = one.function.values_at(np.where(known, drawn, 0.0))
             values += np.where(known, one.weight * worth, np.nan)
         for threshold in one.thresholds.values():
             margins = threshold.comparison.margin(1.0, 0.0) * (drawn - threshold.value)
@@ -53,15 +52,6 @@ def probability_of_good_selection(
     row = evidence.table.row_of(chosen)
     best = np.where(feasible, values, -np.inf).max(axis=1)
     return float(np.mean(feasible[:, row] & (values[:, row] >= best - margin)))
-
-
-def _worth(function: ValueFunction, quantities: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The value of each quantity; at once where it is linear between points."""
-    if isinstance(function, PiecewiseValue | TargetValue):
-        quantity, value = np.array(sorted(function.points)).T
-        worth: NDArray[np.float64] = np.interp(quantities, quantity, value)
-        return worth
-    return np.asarray(np.vectorize(function.value_at, otypes=[np.float64])(quantities), dtype=np.float64)
 
 
 def _drawn(

@@ -10,7 +10,7 @@ under any number of looks (`rgss.tradeoff.sequential.tests`), so that the rule m
 and may leave those alone for which there is nothing left to show.
 
 What is within the margin of the choice is settled as well as what is worth less. That ends the race of
-alternatives that hardly a trial tells apart, as planning limits that seldom bind: after n replicates
+alternatives that hardly any trial separates, as planning limits that seldom bind: after n replicates
 without any difference two proportions differ by less than about ln(1/level)/n.
 
 The guarantee is one of good selection with tolerances, as procedures for ranking and selection
@@ -65,7 +65,7 @@ class SequentialRule:
         pilot: Replicates that every alternative gets.
         batch: Replicates that are added at a look.
         cap: Most replicates of an alternative.
-        verdict_cap: Most replicates of an alternative that only its verdicts ask for.
+        verdict_cap: Most replicates of an alternative that only its verdicts need.
 
     Raises:
         TradeoffError: A number is out of its range.
@@ -87,7 +87,7 @@ class SequentialRule:
                 raise TradeoffError(f"the {name} is {number:g}", hint="give a number from 0 to 1, such as 0.05")
         if self.pilot < 2 or self.batch < 1:
             raise TradeoffError(
-                f"a pilot of {self.pilot} and batches of {self.batch} replicates tell nothing",
+                f"a pilot of {self.pilot} and batches of {self.batch} replicates are too small",
                 hint="give a pilot of at least 2 and batches of at least 1",
             )
         if self.cap < self.pilot or not 0 <= self.verdict_cap <= self.cap:
@@ -103,7 +103,7 @@ class Progress:
 
     Attributes:
         looks: How often was looked.
-        rivals: The alternatives that others are held against, with their weights, which sum to 1.
+        rivals: The alternatives that others are compared with, with their weights, which sum to 1.
         dropped: The alternatives that cannot be chosen, and why.
         settled: By alternative and place of a threshold, whether it is met, where that is proven.
     """
@@ -222,7 +222,7 @@ def _best(rows: list[int], values: list[float]) -> list[int]:
 
 
 def _shares_trials(evidence: SequentialEvidence, row: int, other: int) -> bool:
-    """Whether some mean is the same in every replicate: the two stand on the same plans, or executions."""
+    """Whether some mean is the same in every replicate: the two share plans, or executions."""
     return any(
         np.array_equal(one.values[row], one.values[other], equal_nan=True)
         for one in evidence.observed

@@ -1,6 +1,6 @@
 """Tests and bounds that stay valid however often, and whenever, one looks at the data.
 
-Each stands on a nonnegative martingale M that starts at 1 where the hypothesis holds: by Ville's
+Each uses a nonnegative martingale M that starts at 1 where the hypothesis holds: by Ville's
 inequality (1939) the probability that M *ever* reaches 1/a is at most a. So a test that rejects at
 the first look at which M ≥ 1/a errs with probability at most a, whatever the rule of stopping.
 """

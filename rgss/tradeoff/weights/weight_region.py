@@ -81,7 +81,7 @@ def winning_polytope(values: Array, row: int, weights: WeightSet, rivals: Array 
         values: The single values of the alternatives, shape (n, m).
         row: The alternative.
         weights: The admitted weights.
-        rivals: What it is held against, as `rivals_of` gives it; None for all others.
+        rivals: The alternatives that it is compared with, from `rivals_of`; None for all others.
     """
     differences = (np.delete(values, row, axis=0) if rivals is None else rivals) - values[row]
     differences = differences[np.abs(differences).max(axis=1) > 0.0] if len(differences) else differences
@@ -89,7 +89,7 @@ def winning_polytope(values: Array, row: int, weights: WeightSet, rivals: Array 
 
 
 def rivals_of(values: Array) -> Array | None:
-    """The alternatives that all others have to be held against.
+    """The alternatives that all others must be compared with.
 
     What another dominates is never worth more than that one, whatever the weights.
 
@@ -116,7 +116,7 @@ def never_best(values: Array, rivals: Array | None) -> Mask:
 
 
 def shared_region_keys(values: Array, rivals: Array | None) -> tuple[bytes | None, ...]:
-    """What tells alternatives apart that can only tie: those with the same key win at the same weights.
+    """Key of alternatives that can only tie: those with the same key win at the same weights.
 
     Where a rival is equal in some measures and clearly better in all others, only weights that
     leave these others out let the alternative draw level. Of such weights all that counts is which

@@ -19,8 +19,7 @@ from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.decision.what_if.numbers import assumed_numbers, model_numbers
 from rgss.decision.what_if.what_if import measured_in, suppose
 from rgss.motion import PLANNERS
-from rgss.studies.trade_off.sections import AimChoice, ProgramChoice
-from rgss.tradeoff import ElicitedInterval
+from rgss.tradeoff import Aim, Comparison, ElicitedInterval, Lexicographic
 from rgss.tradeoff.problem.evidence_table import tabulated
 from rgss.tradeoff.problem.resampling import bootstrap
 from rgss.tradeoff.robustness.pareto import Support
@@ -225,12 +224,8 @@ def test_nothing_feasible_leaves_weights_and_assumptions_out(shipped, measured):
 
 def test_a_program_that_has_no_weighted_value(shipped, measured):
     """Prices and removals go by the program itself."""
-    choice = ProgramChoice(
-        name="lexicographic",
-        aims=(
-            AimChoice(measure="t_p", more_is_better=False, absolute=0.0, relative=0.0),
-            AimChoice(measure="C_total", more_is_better=False, absolute=0.0, relative=0.0),
-        ),
+    choice = Lexicographic(
+        aims=(Aim(measure="t_p", sense=Comparison.AT_MOST), Aim(measure="C_total", sense=Comparison.AT_MOST))
     )
     study = replace(shipped.study, trade_off=replace(shipped.study.trade_off, program=choice))
     project = replace(shipped, study=study)

@@ -11,8 +11,7 @@ from rgss.decision.choosing import choose, trade_problem
 from rgss.decision.what_if.what_if import Change, measured_in, suppose
 from rgss.errors import DefinitionError, EvidenceError, TradeoffError
 from rgss.studies.project import load_project
-from rgss.studies.trade_off.sections import RequirementAnchor
-from rgss.tradeoff import CriterionNode, ElicitedInterval
+from rgss.tradeoff import CriterionNode, ElicitedInterval, RequirementAnchor
 
 CATALOGUE, STUDY = "designs/catalogue.yaml", "studies/pick_place.yaml"
 

@@ -17,23 +17,20 @@ from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.decision.what_if.numbers import model_numbers
 from rgss.decision.what_if.what_if import suppose
 from rgss.errors import DefinitionError
-from rgss.studies.trade_off.sections import AimChoice, BoundChoice, ProgramChoice, RiskChoice
-from rgss.tradeoff import Comparison, decision_to_json
+from rgss.studies.trade_off import AnchoredEpsilonConstraint, BoundChoice, ChanceChoice, RequirementBound, TailChoice
+from rgss.tradeoff import Aim, Comparison, decision_to_json
 
 RISKS = (
-    RiskChoice(id="chance:SYS-005", requirement="SYS-005", bound=None, probability=0.6, worst_share=None),
-    RiskChoice(
+    ChanceChoice(id="chance:SYS-005", bound=RequirementBound(requirement="SYS-005"), probability=0.6),
+    ChanceChoice(
         id="chance:t_p",
-        requirement=None,
         bound=BoundChoice(measure="t_p", comparison=Comparison.AT_MOST, value=12.0),
         probability=0.5,
-        worst_share=None,
     ),
-    RiskChoice(id="tail:SYS-033", requirement="SYS-033", bound=None, probability=None, worst_share=0.4),
+    TailChoice(id="tail:SYS-033", bound=RequirementBound(requirement="SYS-033"), worst_share=0.4),
 )
-LIMITED = ProgramChoice(
-    name="epsilon_constraint",
-    aims=(AimChoice(measure="P_max", more_is_better=True, absolute=0.0, relative=0.0),),
+LIMITED = AnchoredEpsilonConstraint(
+    aim=Aim(measure="P_max", sense=Comparison.AT_LEAST),
     limits=(BoundChoice(measure="t_e", comparison=Comparison.AT_MOST, value=30.0),),
 )
 STUDIES = {

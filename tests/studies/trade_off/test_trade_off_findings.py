@@ -49,7 +49,7 @@ FINDINGS = [
     ),
     (
         values("{measure: t_e, weight: 1, worst: 5 s, best: 25 s}"),
-        "3:51: error: less t_e is better, but this values it the other way round (exchange worst and best)",
+        "3:51: error: less t_e is better, but this values more of it higher (exchange worst and best)",
     ),
     (values("{weight: 1, worst: 5 s, best: 25 s}"), "3:7: error: an entry is a measure or a criterion"),
     (
@@ -87,7 +87,7 @@ FINDINGS = [
     ),
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-005, times: 0}, best: 5 s}"),
-        "3:70: error: 0 times a threshold is no anchor",
+        "3:70: error: times must be greater than 0, got 0",
     ),
     (
         values("{measure: t_e, weight: 1, worst: {requiremnt: SYS-005}, best: 5 s}"),
@@ -95,7 +95,7 @@ FINDINGS = [
     ),
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-005}, best: 30 s}"),
-        "3:70: error: less t_e is better, but this values it the other way round (a requirement's",
+        "3:70: error: less t_e is better, but this values more of it higher (a requirement's",
     ),
     # weights
     (
@@ -183,7 +183,7 @@ FINDINGS = [
     ((*BOTH, "decide_by: {program: lexicographic, order: [{measure: x}]}"), "5:57: error: no measure 'x' is defined"),
     (
         (*BOTH, "decide_by: {program: lexicographic, order: [{measure: v_m_peak}]}"),
-        "5:57: error: no one says whether more or less of v_m_peak is better",
+        "5:57: error: measure v_m_peak has no preferred direction",
     ),
     (
         (*BOTH, "decide_by: {program: epsilon_constraint, optimise: {measure: t_e}, limits: [{measure: t_p}]}"),

@@ -17,7 +17,7 @@ from rgss.tradeoff.levels.guard import Attempt, GuardedStageSolver, Outcome
 from rgss.tradeoff.levels.search import search_levels
 from rgss.tradeoff.levels.selection import LevelModel, LevelSelection
 from rgss.tradeoff.milp.stage import FIRST_RUN, RUNS, SolverRun, StageSolver
-from rgss.tradeoff.programs.program import additive_stage
+from rgss.tradeoff.programs.additive import additive_stage
 
 PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
 

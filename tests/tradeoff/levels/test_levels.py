@@ -93,9 +93,7 @@ def by_hand(**changes):
 
 
 def threshold(measure, sense, value):
-    return Threshold(
-        requirement=f"R-{measure}", measure=measure, comparison=Comparison.parse(sense), value=value, unit="1"
-    )
+    return Threshold(requirement=f"R-{measure}", measure=measure, comparison=Comparison(sense), value=value, unit="1")
 
 
 def test_by_hand():

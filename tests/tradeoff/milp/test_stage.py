@@ -10,7 +10,7 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff import DecisionStatus
 from rgss.tradeoff.milp.selection import VariantSelection
 from rgss.tradeoff.milp.stage import StageSolver, solve_program
-from rgss.tradeoff.programs.program import additive_stage
+from rgss.tradeoff.programs.additive import additive_stage
 
 
 @pytest.fixture

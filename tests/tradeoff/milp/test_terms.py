@@ -7,7 +7,7 @@ import pytest
 
 from rgss.tradeoff import Alternative, Comparison, PiecewiseValue, Threshold
 from rgss.tradeoff.milp.selection import VariantSelection
-from rgss.tradeoff.milp.terms import ConditionConstraint, EvidenceConstraint, QuantityRank, WeightedValue, WorstOf
+from rgss.tradeoff.milp.terms import EvidenceConstraint, QuantityRank, WeightedValue, WorstOf, compile_constraint
 
 
 @pytest.fixture
@@ -42,13 +42,13 @@ def test_weighted_value(select):
     assert values_of(selection, term.compile(selection)) == [0.5, 0.375, 0.0, 0.0]
 
 
-@pytest.mark.parametrize("comparison", list(Comparison))
+@pytest.mark.parametrize("comparison", [Comparison.AT_LEAST, Comparison.AT_MOST])
 @pytest.mark.parametrize("unit", [1e-15, 1e-6, 1.0, 1e6, 1e15, 1e300])
 def test_no_violation_is_below_the_tolerance_of_the_solver_in_any_unit(select, comparison, unit):
     quantities = [unit * factor for factor in (0.0, 1.0, 1.0 - 3e-9, 1.0 + 3e-9, 1e3, -1e3)]
     threshold = Threshold(requirement="R", measure="m", comparison=comparison, value=unit, unit="1")
     selection = select([*quantities, None])
-    constraint = ConditionConstraint(condition=threshold).compile(selection)
+    constraint = compile_constraint(threshold, selection)
     violations = at_every_selection(selection, constraint, "violation")
     expected = [0.0 if threshold.is_met_by(quantity) else 1.0 for quantity in [*quantities, None]]
     assert violations == expected
@@ -57,16 +57,16 @@ def test_no_violation_is_below_the_tolerance_of_the_solver_in_any_unit(select, c
 def test_margins_that_overflow(select):
     threshold = Threshold(requirement="R", measure="m", comparison=Comparison.AT_LEAST, value=1e308, unit="1")
     selection = select([-1e308, 1.7e308, 1e308])
-    constraint = ConditionConstraint(condition=threshold).compile(selection)
+    constraint = compile_constraint(threshold, selection)
     assert at_every_selection(selection, constraint, "violation") == [1.0, 0.0, 0.0]
 
 
 def test_threshold_that_all_meet(select):
     threshold = Threshold(requirement="R", measure="m", comparison=Comparison.AT_MOST, value=5.0, unit="s")
     selection = select([5.0, 4.0, -100.0])
-    term = ConditionConstraint(condition=threshold)
-    assert at_every_selection(selection, term.compile(selection), "violation") == [0.0, 0.0, 0.0]
-    assert term.name == "R: m <= 5 s"
+    constraint = compile_constraint(threshold, selection)
+    assert at_every_selection(selection, constraint, "violation") == [0.0, 0.0, 0.0]
+    assert threshold.name == "R: m <= 5 s"
 
 
 def test_evidence(select):

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff import Comparison, PiecewiseValue, Threshold, TradeProblem
+from rgss.tradeoff import ChanceBound, Comparison, PiecewiseValue, TailBound, Threshold, TradeProblem
 
 
 @pytest.mark.parametrize(
@@ -24,18 +24,21 @@ from rgss.tradeoff import Comparison, PiecewiseValue, Threshold, TradeProblem
     ],
 )
 def test_threshold(comparison, quantity, margin, met):
-    threshold = Threshold(
-        requirement="SYS-012", measure="P", comparison=Comparison.parse(comparison), value=0.75, unit="kg"
-    )
+    threshold = Threshold(requirement="SYS-012", measure="P", comparison=Comparison(comparison), value=0.75, unit="kg")
     assert threshold.margin(quantity) == margin
     assert threshold.is_met_by(quantity) is met
     assert not threshold.is_met_by(None)
     assert threshold.name == f"SYS-012: P {comparison} 0.75 kg"
 
 
-def test_unknown_comparison():
-    with pytest.raises(TradeoffError, match="unknown comparison '=='") as error:
-        Comparison.parse("==")
+@pytest.mark.parametrize("comparison", [Comparison.ABOVE, Comparison.BELOW])
+@pytest.mark.parametrize(
+    ("condition", "more"), [(Threshold, {}), (ChanceBound, {"probability": 0.5}), (TailBound, {"share": 0.5})]
+)
+def test_a_condition_of_a_program_is_not_strict(comparison, condition, more):
+    message = f"R: a program cannot have the strict comparison '{comparison.value}'"
+    with pytest.raises(TradeoffError, match=message) as error:
+        condition(requirement="R", measure="P", comparison=comparison, value=1.0, unit="kg", **more)
     assert error.value.hint == "write >= or <="
 
 

@@ -8,7 +8,6 @@ import pytest
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff import ExponentialValue, PiecewiseValue, TargetValue, Weighting
-from rgss.tradeoff.programs.columns import value_column
 
 
 @pytest.mark.parametrize(
@@ -60,7 +59,7 @@ def test_values_agree_with_interpolation_never_fall_and_stay_in_range(seeded):
         )
         towards_best = np.linspace(quantities[0] * 2 - quantities[-1], quantities[-1] * 2 - quantities[0], 50)
         ours = [function.value_at(float(x)) for x in towards_best]
-        points = sorted(function.points)
+        points = function.breakpoints
         theirs = np.interp(towards_best, [q for q, _ in points], [v for _, v in points])
         np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-13)
         assert all(0.0 <= value <= 1.0 for value in ours)
@@ -198,13 +197,5 @@ def test_target_out_of_order(target, low, high, message):
 def test_columns_agree_with_single_values(function):
     quantities = np.linspace(-2.0, 3.0, 101)
     expected = [function.value_at(float(quantity)) for quantity in quantities]
-    np.testing.assert_allclose(value_column(function, quantities), expected, rtol=0, atol=1e-13)
-    assert np.isnan(value_column(function, np.array([math.nan]))).all()
-
-
-def test_a_column_of_an_unknown_kind_of_value():
-    class Other:
-        measure = "m"
-
-    with pytest.raises(TradeoffError, match="the value function of 'm' is of an unknown kind"):
-        value_column(Other(), np.zeros(1))
+    np.testing.assert_allclose(function.values_at(quantities), expected, rtol=0, atol=1e-13)
+    assert np.isnan(function.values_at(np.array([math.nan]))).all()

@@ -29,12 +29,12 @@ from rgss.tradeoff.problem.dominance import nondominated
 
 
 def aim(measure, sense=">=", **tolerance):
-    return Aim(measure=measure, sense=Comparison.parse(sense), **tolerance)
+    return Aim(measure=measure, sense=Comparison(sense), **tolerance)
 
 
 def limit(measure, sense, value):
     return Threshold(
-        requirement=f"limit:{measure}", measure=measure, comparison=Comparison.parse(sense), value=value, unit="1"
+        requirement=f"limit:{measure}", measure=measure, comparison=Comparison(sense), value=value, unit="1"
     )
 
 

@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import sobol_indices
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.resampling import bootstrap
@@ -179,3 +180,21 @@ def test_the_largest_complete_block_against_all_blocks(seed):
 
 def test_no_block_is_complete():
     assert largest_complete_block(np.array([[True, False], [False, False]])) is None
+
+
+def test_effects_of_the_whole_space_are_those_that_a_sample_estimates():
+    """Saltelli's estimator as the oracle: levels drawn at random, one factor mixed at a time."""
+    generator = np.random.default_rng(1)
+    table = generator.normal(size=(2, 3, 4)) + np.array([0.0, 2.0])[:, None, None]
+    first, second = (generator.integers(0, table.shape, size=(8192, table.ndim)) for _ in range(2))
+    mixed = np.repeat(first[None], table.ndim, axis=0)
+    for factor in range(table.ndim):
+        mixed[factor, :, factor] = second[:, factor]
+    values = [table[tuple(np.moveaxis(rows, -1, 0))] for rows in (first, second, mixed)]
+    sampled = sobol_indices(
+        func={"f_A": values[0][None], "f_B": values[1][None], "f_AB": values[2][:, None, :]}, n=len(first)
+    )
+    whole = factorial_effects(table, list("abc"))
+
+    assert np.ravel(sampled.first_order) == pytest.approx(list(whole.first_order.values()), abs=0.05)
+    assert np.ravel(sampled.total_order) == pytest.approx(list(whole.total_order.values()), abs=0.05)

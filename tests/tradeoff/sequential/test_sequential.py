@@ -188,7 +188,7 @@ def test_the_probability_is_that_of_a_sample_of_two_betas(evidence_of):
         ({"error_rate": 0.0}, "an error rate of 0 is none"),
         ({"margin": -0.1}, "the margin is -0.1"),
         ({"slack": 1.0}, "the slack is 1"),
-        ({"pilot": 1}, "a pilot of 1 and batches of 4 replicates tell nothing"),
+        ({"pilot": 1}, "a pilot of 1 and batches of 4 replicates are too small"),
         ({"cap": 5}, "a cap of 5, one for verdicts of 16 and a pilot of 8 do not agree"),
     ],
 )

@@ -1,0 +1,63 @@
+"""Comparison of a quantity with a limit, with the tolerance of binary rounding."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Mapping
+from enum import Enum
+from types import MappingProxyType
+
+RELATIVE_TOLERANCE = 1e-9
+"""Relative difference below which a quantity counts as equal to its limit, so that binary rounding never decides."""
+
+
+class Comparison(str, Enum):
+    """Relation that a quantity must have to a limit.
+
+    A quantity within `RELATIVE_TOLERANCE` of the limit counts as equal to it: verdicts and programs
+    share this rule.
+    """
+
+    AT_LEAST = ">="
+    AT_MOST = "<="
+    ABOVE = ">"
+    BELOW = "<"
+
+    @property
+    def is_strict(self) -> bool:
+        """Whether a quantity that equals the limit is refused."""
+        return self in (Comparison.ABOVE, Comparison.BELOW)
+
+    @property
+    def is_lower_bound(self) -> bool:
+        """Whether the good side of the limit lies above it."""
+        return self in (Comparison.AT_LEAST, Comparison.ABOVE)
+
+    def margin(self, quantity: float, limit: float) -> float:
+        """Signed distance of a quantity from a limit; negative on the bad side."""
+        difference = quantity - limit
+        return difference if self.is_lower_bound else -difference
+
+    def holds(self, quantity: float | None, limit: float) -> bool:
+        """Tell whether a quantity keeps a limit; an unknown one (None) does not.
+
+        Args:
+            quantity: The quantity, in the unit of the limit.
+            limit: The limit.
+        """
+        if quantity is None:
+            return False
+        if math.isclose(quantity, limit, rel_tol=RELATIVE_TOLERANCE):
+            return not self.is_strict
+        return _OPERATORS[self](quantity, limit)
+
+
+_OPERATORS: Mapping[Comparison, Callable[[float, float], bool]] = MappingProxyType(
+    {
+        Comparison.AT_LEAST: operator.ge,
+        Comparison.AT_MOST: operator.le,
+        Comparison.ABOVE: operator.gt,
+        Comparison.BELOW: operator.lt,
+    }
+)

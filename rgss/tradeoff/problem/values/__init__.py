@@ -1,0 +1,42 @@
+"""Value functions: linear, piecewise, exponential and target.
+
+Every function is anchored on quantities that are fixed beforehand (a requirement's threshold, a
+goal), never on the sample, so the value of one alternative does not change when another comes or
+goes, and no range of a sample is ever divided by.
+"""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry, QuantityField, RequirementAnchor
+    from rgss.tradeoff.problem.values.exponential import STEEPEST_EXPONENT, AnchoredExponential, ExponentialValue
+    from rgss.tradeoff.problem.values.piecewise import AnchoredPiecewise, PiecewiseValue
+    from rgss.tradeoff.problem.values.shapes import SHAPE_KEYS, SHAPES, ShapeKeys, shape_of
+    from rgss.tradeoff.problem.values.target import AnchoredTarget, TargetValue
+    from rgss.tradeoff.problem.values.value_function import TIE_TOLERANCE, AnchoredValue, ValueFunction
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "SHAPES",
+    "SHAPE_KEYS",
+    "STEEPEST_EXPONENT",
+    "TIE_TOLERANCE",
+    "Anchor",
+    "AnchorField",
+    "AnchoredExponential",
+    "AnchoredPiecewise",
+    "AnchoredTarget",
+    "AnchoredValue",
+    "ExponentialValue",
+    "PiecewiseValue",
+    "PointEntry",
+    "QuantityField",
+    "RequirementAnchor",
+    "ShapeKeys",
+    "TargetValue",
+    "ValueFunction",
+    "shape_of",
+]

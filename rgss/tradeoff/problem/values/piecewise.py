@@ -1,0 +1,120 @@
+"""Linear and piecewise linear value functions."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from pydantic import Field
+
+from rgss.documents import DocumentModel
+from rgss.errors import TradeoffError
+from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry
+from rgss.tradeoff.problem.values.interpolation import Points, interpolated, interpolated_column
+from rgss.tradeoff.problem.values.value_function import AnchoredValue, check_range
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class PiecewiseKeys(DocumentModel):
+    """Keys of a piecewise linear value in a study."""
+
+    worst: AnchorField | None = None
+    best: AnchorField | None = None
+    between: Annotated[tuple[PointEntry, ...], Field(min_length=1)] | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PiecewiseValue:
+    """Value function that is linear, or piecewise linear, between two anchors.
+
+    More is better where ``best > worst``, less is better where ``best < worst``. Outside the
+    anchors the value is cut to 0 and 1.
+
+    Attributes:
+        measure: The measure that is valued.
+        worst: The quantity worth 0, in the measure's unit.
+        best: The quantity worth 1, in the measure's unit.
+        interior: Further points (quantity, value) between worst and best, in that order; the
+            value is linear between neighbours and never falls towards best.
+
+    Raises:
+        TradeoffError: There is no range between worst and best, or the points are out of order.
+    """
+
+    measure: str
+    worst: float
+    best: float
+    interior: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        check_range(self.measure, self.worst, self.best)
+        for (quantity, value), (next_quantity, next_value) in itertools.pairwise(self.points):
+            towards_best = (next_quantity - quantity) / (self.best - self.worst)
+            # A NaN fails every comparison, so the conditions are stated as what must hold.
+            if not (towards_best > 0.0 and next_value >= value):
+                raise TradeoffError(
+                    f"the value function of {self.measure!r} is out of order at ({next_quantity:g}, {next_value:g})",
+                    hint="list points from worst to best, with values that do not fall and lie between 0 and 1",
+                )
+
+    @property
+    def more_is_better(self) -> bool:
+        """Whether the value rises with the quantity."""
+        return self.best > self.worst
+
+    @property
+    def peak(self) -> None:
+        """None: the function is monotone."""
+        return
+
+    @property
+    def breakpoints(self) -> Points:
+        """The points by rising quantity."""
+        return tuple(sorted(self.points))
+
+    @property
+    def points(self) -> tuple[tuple[float, float], ...]:
+        """All points (quantity, value) from worst to best, the anchors included."""
+        return ((self.worst, 0.0), *self.interior, (self.best, 1.0))
+
+    def value_at(self, quantity: float) -> float:
+        """The value of a quantity, from 0 to 1."""
+        return interpolated(self.points, quantity)
+
+    def values_at(self, quantities: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The value of each of many quantities, shape (n,)."""
+        return interpolated_column(self.breakpoints, quantities)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnchoredPiecewise(AnchoredValue):
+    """A linear value by its anchors; piecewise linear with points between.
+
+    Attributes:
+        measure: The measure.
+        worst: The quantity worth 0.
+        best: The quantity worth 1.
+        between: Points: quantities and what they are worth.
+    """
+
+    required: ClassVar[tuple[str, ...]] = ("worst", "best")
+    optional: ClassVar[tuple[str, ...]] = ("between",)
+    own: ClassVar[tuple[str, ...]] = ("between",)
+    label: ClassVar[str] = "'between'"
+    ends: ClassVar[tuple[str, str]] = ("worst", "best")
+
+    measure: str
+    worst: Anchor
+    best: Anchor
+    between: tuple[tuple[Anchor, float], ...] = ()
+
+    def function(self, quantity_of: Callable[[Anchor], float]) -> PiecewiseValue:
+        """The value function; see `AnchoredValue.function`."""
+        worst, best = quantity_of(self.worst), quantity_of(self.best)
+        interior = tuple((quantity_of(at), worth) for at, worth in self.between)
+        return PiecewiseValue(measure=self.measure, worst=worst, best=best, interior=interior)
