@@ -8,7 +8,6 @@ import pytest
 
 from rgss.assessment.estimate_bounds import IN_COMMON, bounds_by_measure
 from rgss.assessment.measuring import measure_variants, requirements_with_criteria
-from rgss.cli.sweep.screening import screening_as_json, screening_lines
 from rgss.decision.choosing import choose
 from rgss.decision.screening import (
     ScreeningOutcome,
@@ -21,6 +20,7 @@ from rgss.decision.screening import (
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Failure, Fidelity, Provenance
 from rgss.measures import Verdict, judge
+from rgss.reports.decision import screening_lines, screening_to_json
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.promotion import Promotion, Screening
@@ -351,6 +351,6 @@ def test_what_was_screened_out_is_told(screened, kept, record_of):
     )
     told = {int(number) for line in rest for number in line.split(": ")[1].split(", ")}
     assert told == {one.variant for one in result.screened_out}
-    document = screening_as_json(result)
+    document = screening_to_json(result)
     assert document["survivors"] == list(result.survivors)
     assert [one["variant"] for one in document["variants"]] == list(range(1, 73))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.decision.robustness import Robustness
 from rgss.measures import Measure, MeasureKind
-from rgss.reports.study.numbers import (
+from rgss.reports.plain_numbers import (
     FEWER_DIGITS,
     SHOWN_DIGITS,
     WORTH_DIGITS,

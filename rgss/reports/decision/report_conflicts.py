@@ -1,12 +1,14 @@
-"""Why nothing can be chosen, and what would mend it, for a report."""
+"""Conflicts that leave nothing to choose, and what would mend them, in the document of the HTML report."""
 
 from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
 
-from rgss.reports.study.numbers import Plain
-from rgss.trace.views import rounded_away, share_in_words, value_in_words
+from rgss.reports.decision.sentences import noise_sentence
+from rgss.reports.decision.words import moved_limit
+from rgss.reports.plain_numbers import Plain
+from rgss.trace.views import rounded_away, share_in_words
 from rgss.tradeoff import Conflicts, Decision, JointRepair, LimitChange
 
 MOST_CONFLICTS_LISTED = 12
@@ -55,7 +57,7 @@ def conflict_part(decision: Decision) -> Plain | None:
             for one in conflicts.excluded_by
         ],
         "example": _example(conflicts),
-        "noise": _noise(conflicts),
+        "noise": noise_sentence(conflicts.survival),
         "nearest": {"variant": conflicts.nearest.variant, "requirements": list(conflicts.nearest.requirements)},
     }
 
@@ -71,12 +73,12 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
         return
     survival = conflicts.survival
     for place, conflict in enumerate(conflicts.minimal_conflicts[:MOST_CONFLICTS_LISTED]):
-        told = f"Nothing meets {conflict[0]}" if len(conflict) == 1 else f"{_listed(conflict)} cannot be met together"
+        text = f"Nothing meets {conflict[0]}" if len(conflict) == 1 else f"{_listed(conflict)} cannot be met together"
         demands = ", ".join(decision.demands[one] for one in conflict)
         sure = (
             "" if survival is None else f"; so it still is in {share_in_words(survival.conflicts[place])} of resamples"
         )
-        yield f"{told} ({demands}){sure}."
+        yield f"{text} ({demands}){sure}."
     for repair in _easiest_first(conflicts)[:1]:
         if not repair.changes:
             continue
@@ -90,7 +92,7 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
 
 
 def _easiest_first(conflicts: Conflicts) -> list[JointRepair]:
-    """What mends everything, the smallest of the largest relative changes first; what cannot be told last."""
+    """What mends everything, the smallest of the largest relative changes first; what is unknown last."""
 
     def largest(repair: JointRepair) -> float:
         if not repair.changes:
@@ -119,7 +121,7 @@ def _change(change: LimitChange) -> Plain:
 
 
 def _needed(change: LimitChange) -> str:
-    return value_in_words(rounded_away(change.limit, change.needed, change.unit), change.unit)
+    return moved_limit(change.limit, change.needed, change.unit)
 
 
 def _example(conflicts: Conflicts) -> str:
@@ -133,17 +135,6 @@ def _example(conflicts: Conflicts) -> str:
         for one in first.changes
     ]
     return " ".join(["rgss", "trade", *(f"--what-if {shlex.quote(one)}" for one in tried)])
-
-
-def _noise(conflicts: Conflicts) -> str:
-    survival = conflicts.survival
-    if survival is None:
-        return "Whether a conflict survives the noise takes two replicates of each variant to tell."
-    draws = f"all {survival.resamples}" if survival.exact else f"{survival.resamples:,}"
-    return (
-        f"Survives: the probability that it is so still when the replicates are drawn anew, by {draws} resamples. "
-        f"Nothing is feasible in {share_in_words(survival.nothing_feasible)} of them."
-    )
 
 
 def _listed(names: Sequence[str]) -> str:

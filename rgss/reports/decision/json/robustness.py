@@ -8,10 +8,17 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.decision.robustness.assumptions import AssumptionFinding, CostBox
-from rgss.decision.robustness.effects import FactorLevels, MeasureEffects, StudyEffects
-from rgss.decision.robustness.parts import Part
-from rgss.decision.robustness.robustness import RequirementPrice, Robustness, WeightRobustness
+from rgss.decision.robustness import (
+    AssumptionFinding,
+    CostBox,
+    FactorLevels,
+    MeasureEffects,
+    Part,
+    RequirementPrice,
+    Robustness,
+    StudyEffects,
+    WeightRobustness,
+)
 from rgss.decision.what_if import Change, Scenario
 from rgss.tradeoff.robustness import Acceptability, Effect, RankReversal
 from rgss.tradeoff.weights import WeightRegion

@@ -1,11 +1,15 @@
-"""How the trade-off's pages write ids, numbers and changes of weights."""
+"""Words for the figures of a decision: ids, quantities, limits and changes of weights."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from rgss.trace.views import rounded_away, value_in_words
+
 LONGEST_IDS = 12
 """So many runs of ids are written out."""
+
+UNKNOWN = "–"
 
 
 def ids_text(variants: Iterable[int]) -> str:
@@ -30,36 +34,28 @@ def variants_text(variants: Sequence[int]) -> str:
     return f"variant{'s' if len(variants) > 1 else ''} {ids_text(variants)}"
 
 
-def percent(share: float) -> str:
-    """A share as people read it: ``46 %``, ``0.3 %``, ``< 0.1 %``; only what is certain is ``100 %``."""
-    from rgss.trace.views import share_in_words
-
-    return share_in_words(share)
-
-
-def amount(value: float, unit: str, digits: int = 4) -> str:
+def amount(value: float, unit: str) -> str:
     """A quantity with its unit; money to the dollar."""
-    from rgss.cli.output import number
-
-    if unit == "USD":
-        return f"{value:,.0f} USD"
-    return number(value, digits) if unit == "1" else f"{number(value, digits)} {unit}"
+    return f"{value:,.0f} USD" if unit == "USD" else value_in_words(value, unit)
 
 
-def moved_limit(limit: float, needed: float, unit: str, digits: int = 4) -> str:
+def moved_limit(limit: float, needed: float, unit: str) -> str:
     """What a limit has to become, rounded away from what it is, so that the number as written is enough."""
-    from rgss.trace.views import rounded_away
-
-    return amount(rounded_away(limit, needed, unit, digits), unit, digits)
+    return amount(rounded_away(limit, needed, unit), unit)
 
 
 def moves_text(before: Mapping[str, float], after: Mapping[str, float]) -> str:
     """Which weights move, the largest moves first: ``C_total 0.25 → 0.17``."""
     # Rounded, so that equal moves stay in the measures' order.
     moved = sorted(before, key=lambda measure: -round(abs(after[measure] - before[measure]), 9))
-    told = [
+    parts = [
         f"{measure} {before[measure]:.3g} → {after[measure]:.3g}"
         for measure in moved
         if abs(after[measure] - before[measure]) >= 5e-4
     ]
-    return ", ".join(told) or "no weight moves"
+    return ", ".join(parts) or "no weight moves"
+
+
+def score(value: float | None) -> str:
+    """A weighted value, or a difference of two, with four places."""
+    return UNKNOWN if value is None else f"{value:.4f}"

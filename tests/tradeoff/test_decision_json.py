@@ -4,7 +4,8 @@ import json
 
 import pytest
 
-from rgss.tradeoff import decide, decision_to_json
+from rgss.reports.decision import decision_to_json
+from rgss.tradeoff import decide
 
 
 def test_of_a_choice(payload_and_time):

@@ -5,10 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from rgss.tradeoff.decision import Contribution, Decision, InfeasibleAlternative
-from rgss.tradeoff.infeasibility import Conflicts, LimitChange, RequirementCount
-from rgss.tradeoff.milp import Check
-from rgss.tradeoff.portfolio import PortfolioDecision
+from rgss.tradeoff import Check, Conflicts, Contribution, Decision, InfeasibleAlternative, LimitChange, RequirementCount
 from rgss.tradeoff.programs import Certificate
 
 
@@ -94,30 +91,6 @@ def certificate_to_json(certificate: Certificate) -> dict[str, object]:
 def checks_to_json(checks: Iterable[Check]) -> list[dict[str, object]]:
     """Turn the independent checks of an answer into plain values."""
     return [{"kind": check.kind.value, "agrees": check.agrees, "detail": check.detail} for check in checks]
-
-
-def portfolio_to_json(decision: PortfolioDecision) -> dict[str, object]:
-    """Turn the choice of a fleet into plain values."""
-    return {
-        "status": decision.status.value,
-        "members": list(decision.members),
-        "assignments": [
-            {"task": one.task, "member": one.member, "variant": one.variant, "value": one.value}
-            for one in decision.assignments
-        ],
-        "objective": decision.objective,
-        "by_size": list(decision.by_size),
-        "by_size_gap": list(decision.by_size_gap),
-        "unserved": list(decision.unserved),
-        "certificate": {
-            "considered": decision.considered,
-            "objective_recomputed": decision.objective_recomputed,
-            "gap": decision.gap,
-            "enumeration_agrees": decision.enumeration_agrees.value,
-            "checks": checks_to_json(decision.checks),
-            "cut": None if decision.cut is None else decision.cut.value,
-        },
-    }
 
 
 def _infeasible(alternatives: Iterable[InfeasibleAlternative]) -> list[dict[str, object]]:
