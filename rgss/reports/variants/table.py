@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rgss.findings import printable
+from rgss.reports.plain_text import aligned_table
 
 if TYPE_CHECKING:
     from rgss.designs import DesignParameter, DesignSpace, DesignVariant
@@ -21,7 +22,7 @@ _HELD_SPACE = "\N{NO-BREAK SPACE}"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Column:
-    """A column: what stands above it, and its cells."""
+    """A column: its head and its cells."""
 
     head: str
     cells: list[str]
@@ -31,15 +32,15 @@ class _Column:
         return max(map(len, (printable(self.head), *map(printable, self.cells))))
 
 
-def print_variants(designs: DesignSpace, variants: Sequence[DesignVariant]) -> None:
-    """Print variants with their parameters.
+def variant_table_lines(designs: DesignSpace, variants: Sequence[DesignVariant]) -> Iterator[str]:
+    """Lines of a table of variants with their parameters.
 
     If the columns of the CSV file fit, these are shown. If they do not, what is the same in all
-    designs stands below the table, and if need be the names of the parameters too, so that the
+    designs is written below the table, and if need be the names of the parameters too, so that the
     heads are their ids; columns that still find no room go on in another table.
 
     Args:
-        designs: The design space, whose designs tell what is the same in all.
+        designs: The design space, whose designs show what is the same in all.
         variants: Those that are listed.
     """
     every = designs.expand()
@@ -47,33 +48,31 @@ def print_variants(designs: DesignSpace, variants: Sequence[DesignVariant]) -> N
     ids = _Column(head="id", cells=[str(variant.id) for variant in variants])
     whole = [_column(one, one.column, variants) for one in definitions]
     if not every or _fits(ids, whole):
-        _print_blocks(ids, whole)
+        yield from _block_lines(ids, whole)
         return
     varying = [one for one in definitions if len({variant.parameters[one.id] for variant in every}) > 1]
-    told = [f"{_name(one)} {_cell(every[0], one)}{_unit(one)}" for one in definitions if one not in varying]
+    same = [f"{_name(one)} {_cell(every[0], one)}{_unit(one)}" for one in definitions if one not in varying]
     columns = [_column(one, one.column, variants) for one in varying]
     notes = []
     if not _fits(ids, columns):
         columns = [_column(one, f"{one.id} [{one.unit}]" if _unit(one) else one.id, variants) for one in varying]
         notes = [_listed(map(_name, varying))]
-    if told:
-        notes.append(f"The same in all designs: {_listed(told)}")
-    _print_blocks(ids, columns)
-    print()
+    if same:
+        notes.append(f"The same in all designs: {_listed(same)}")
+    yield from _block_lines(ids, columns)
+    yield ""
     for note in notes:
         filled = textwrap.fill(note, WIDEST, subsequent_indent="  ", break_on_hyphens=False)
-        print(filled.replace(_HELD_SPACE, " "))
+        yield from filled.replace(_HELD_SPACE, " ").split("\n")
 
 
-def _print_blocks(ids: _Column, columns: Sequence[_Column]) -> None:
-    from rgss.cli.output import print_table
-
+def _block_lines(ids: _Column, columns: Sequence[_Column]) -> Iterator[str]:
     for number, block in enumerate(_blocks(ids, columns)):
         if number:
-            print()
+            yield ""
         shown = [ids, *block]
         rows = zip(*(column.cells for column in shown), strict=True)
-        print_table([column.head for column in shown], list(rows), right=range(len(shown)))
+        yield from aligned_table([column.head for column in shown], rows, right=range(len(shown)))
 
 
 def _blocks(ids: _Column, columns: Sequence[_Column]) -> list[list[_Column]]:
