@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rgss.decision.screening import ScreeningResult, screen, screening_specs, surviving_specs
+from rgss.decision.screening import screen, screening_specs, surviving_specs
+from rgss.decision.screening_result import ScreeningResult
 from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import EvidenceStore, Fidelity
 from rgss.findings import Finding

@@ -13,7 +13,7 @@ import pytest
 from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose, trade_problem
 from rgss.decision.robustness import robustness
-from rgss.decision.robustness.effects import MeasureEffects, StudyEffects
+from rgss.decision.robustness.effect_findings import MeasureEffects, StudyEffects
 from rgss.decision.robustness.parts import NotComputed, Part
 from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.decision.study_decision.study_decision import study_decision

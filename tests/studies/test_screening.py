@@ -10,13 +10,13 @@ from rgss.assessment.estimate_bounds import IN_COMMON, bounds_by_measure
 from rgss.assessment.measuring import measure_variants, requirements_with_criteria
 from rgss.decision.choosing import choose
 from rgss.decision.screening import (
-    ScreeningOutcome,
     measure_survivors,
     promoted,
     screen,
     screening_specs,
     surviving_specs,
 )
+from rgss.decision.screening_result import ScreeningOutcome
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Failure, Fidelity, Provenance
 from rgss.measures import Verdict, judge

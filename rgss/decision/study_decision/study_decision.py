@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
-from rgss.decision.screening import ScreeningResult
+from rgss.decision.screening_result import ScreeningResult
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
+from rgss.exchange.reqif.identifiers import type_identifier
 from rgss.exchange.reqif.prose import from_xhtml
 from rgss.exchange.reqif.vocabulary import MEASURE, TOOL, TYPE_NAMES, attribute_name
-from rgss.exchange.reqif.writing import type_identifier
 from rgss.findings import shown
 
 _MOST_NAMED = 8

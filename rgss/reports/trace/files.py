@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from rgss.reports.tables import Table
-from rgss.reports.trace.formats import Selection, trace_format
-from rgss.reports.trace.formats.selected_tables import selected_tables
+from rgss.reports.trace.formats import Selection, selected_tables, trace_format
 from rgss.reports.trace.report import TraceReport
 from rgss.trace.views import Chain, Impact
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rgss.reports.trace.formats.format import Selection, TraceFormat
-from rgss.reports.trace.formats.selected_tables import found_table, selected_tables
+from rgss.reports.trace.formats.selection_tables import found_table, selected_tables
 
 if TYPE_CHECKING:
     from rgss.reports.trace.report import TraceReport
