@@ -79,7 +79,7 @@ def _legend(found: RobustnessFindings, weighting: WeightRobustness, indices: Acc
     noise = (
         f"and {'all ' if analysis.all_resamples else ''}{analysis.resamples} resamples of the replicates"
         if weighting.with_noise
-        else "alone, without noise, which the replicates do not show"
+        else "alone (without noise)"
     )
     error = max(float(indices.rank_errors[:, 0].max()), 1e-4)
     shares = max((region.share_error for region in weighting.regions or ()), default=0.0)
