@@ -99,7 +99,7 @@ _MEASURES = FrameDescription(
         UNIT,
         Column(
             name="n",
-            meaning="trials that the estimate stands on; 0 if it follows from the design alone or is missing",
+            meaning="trials that the estimate is of; 0 if it follows from the design alone or is missing",
             unit="1",
             kind=Kind.COUNT,
         ),
@@ -148,9 +148,7 @@ _COURSE = FrameDescription(
             kind=Kind.NUMBER,
             items=0,
         ),
-        Column(
-            name="commanded_force_n", meaning="force that each finger is told to press with", unit="N", kind=Kind.NUMBER
-        ),
+        Column(name="commanded_force_n", meaning="commanded normal force of each finger", unit="N", kind=Kind.NUMBER),
         Column(name="grip_margin", meaning="friction available over friction needed", unit="1", kind=Kind.NUMBER),
     ),
 )

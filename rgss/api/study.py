@@ -49,7 +49,7 @@ class Study:
     changing one changes nothing else.
 
     Attributes:
-        project: Everything that the study stands on: requirements, measures, designs, scene.
+        project: Inputs of the study: requirements, measures, designs, scene.
     """
 
     project: Project = field(repr=False)
@@ -67,7 +67,7 @@ class Study:
         """The designs, with what the trade-off says of them as far as there is evidence."""
         rows = []
         measured = {entry.variant.id: entry for entry in self._known}
-        fates = {} if self._screened is None else {one.variant: one.fate.value for one in self._screened.variants}
+        outcomes = {} if self._screened is None else {one.variant: one.outcome.value for one in self._screened.variants}
         judged = bool(measured) and not any(entry.missing for entry in measured.values())
         enumeration = self.trade().enumeration if judged else None
         # A design that was screened out lacks nothing.
@@ -80,7 +80,7 @@ class Study:
                 **{f"level_{factor}": level for factor, level in variant.levels.items()},
                 "trials": 0 if entry is None else len(entry.records),
                 "missing": untried if entry is None else entry.missing,
-                "screening": fates.get(variant.id),
+                "screening": outcomes.get(variant.id),
             }
             if enumeration is not None and entry is not None:
                 violated = enumeration.violated_by(variant.id)

@@ -67,7 +67,7 @@ def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[Na
     for name in names:
         try:
             projects[name] = load_project(folder, name)
-        except DocumentError as error:  # noqa: PERF203 - all problems are told at once
+        except DocumentError as error:  # noqa: PERF203 - all problems are reported at once
             findings += [finding for finding in error.findings if finding not in findings]
     if findings:
         raise DocumentError(findings)

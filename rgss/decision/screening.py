@@ -34,7 +34,7 @@ from rgss.trials import TrialSpec
 
 
 def promoted(project: Project, measured: Sequence[VariantMeasures]) -> ScreeningResult:
-    """Tell which designs go on, and why the others do not.
+    """Outcome of screening for each design, with the reason.
 
     Ties at the bound of `keep` go on together, so that no id decides.
 
@@ -53,10 +53,10 @@ def promoted(project: Project, measured: Sequence[VariantMeasures]) -> Screening
         )
     functions = _value_functions(project)
     entries = [_first_look(project, entry, functions) for entry in measured]
-    if any(one.fate is ScreeningOutcome.IMPOSSIBLE for one in entries) and not any(one.goes_on for one in entries):
+    if any(one.outcome is ScreeningOutcome.IMPOSSIBLE for one in entries) and not any(one.goes_on for one in entries):
         spared = "no design can meet every requirement, so all go on"
         entries = [
-            replace(one, fate=ScreeningOutcome.SPARED, reason=f"{spared}; this one cannot: {one.reason}")
+            replace(one, outcome=ScreeningOutcome.SPARED, reason=f"{spared}; this one cannot: {one.reason}")
             for one in entries
         ]
     return ScreeningResult(screening=screening, variants=tuple(_ranked(entries, screening.promotion)))
@@ -144,7 +144,7 @@ def _first_look(
 ) -> ScreenedVariant:
     if entry.missing:
         reason = f"{entry.missing} of its trials at the screening fidelity have no evidence"
-        return ScreenedVariant(variant=entry.variant.id, fate=ScreeningOutcome.UNSCREENED, reason=reason)
+        return ScreenedVariant(variant=entry.variant.id, outcome=ScreeningOutcome.UNSCREENED, reason=reason)
     outlook = bounds_by_measure(project, entry)
     missed = {
         requirement.id: requirement.criterion
@@ -154,7 +154,7 @@ def _first_look(
     value = sum(weight * _best(function, outlook[measure]) for measure, (weight, function) in functions.items())
     return ScreenedVariant(
         variant=entry.variant.id,
-        fate=ScreeningOutcome.IMPOSSIBLE if missed else ScreeningOutcome.PROMOTED,
+        outcome=ScreeningOutcome.IMPOSSIBLE if missed else ScreeningOutcome.PROMOTED,
         reason="; ".join(_why(name, criterion, outlook) for name, criterion in missed.items())
         or "nothing that is known speaks against it",
         missed=tuple(missed),
@@ -202,7 +202,7 @@ def _best(function: ValueFunction, outlook: EstimateBounds) -> float:
 
 
 def _ranked(entries: Sequence[ScreenedVariant], promotion: Promotion) -> list[ScreenedVariant]:
-    contenders = [one for one in entries if one.fate is ScreeningOutcome.PROMOTED and one.best_value is not None]
+    contenders = [one for one in entries if one.outcome is ScreeningOutcome.PROMOTED and one.best_value is not None]
     values = sorted((one.best_value for one in contenders if one.best_value is not None), reverse=True)
     bars: list[tuple[float, str]] = []
     if values and promotion.within is not None:
@@ -215,13 +215,13 @@ def _ranked(entries: Sequence[ScreenedVariant], promotion: Promotion) -> list[Sc
         beaten = [
             words
             for bar, words in bars
-            if one.fate is ScreeningOutcome.PROMOTED
+            if one.outcome is ScreeningOutcome.PROMOTED
             and one.best_value is not None
             and one.best_value < bar - TIE_TOLERANCE
         ]
         if beaten:
             reason = f"its value is at most {one.best_value:.4g}, {' and '.join(beaten)}"
-            found.append(replace(one, fate=ScreeningOutcome.OUTRANKED, reason=reason))
+            found.append(replace(one, outcome=ScreeningOutcome.OUTRANKED, reason=reason))
         else:
             found.append(one)
     return found

@@ -13,7 +13,7 @@ _MOST_SHOWN = 72
 
 
 class ScreeningOutcome(str, Enum):
-    """What became of a design in screening."""
+    """Outcome of screening for a design."""
 
     PROMOTED = "promoted"
     """It goes on."""
@@ -29,18 +29,18 @@ class ScreeningOutcome(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScreenedVariant:
-    """A design and what became of it.
+    """A design with its outcome in screening.
 
     Attributes:
         variant: Its id.
-        fate: What became of it.
-        reason: Why, in words.
+        outcome: The outcome.
+        reason: The reason for it, in words.
         missed: The requirements that it cannot meet.
         best_value: The greatest value that it can have; None if it lacks trials.
     """
 
     variant: int
-    fate: ScreeningOutcome
+    outcome: ScreeningOutcome
     reason: str
     missed: tuple[str, ...] = ()
     best_value: float | None = None
@@ -48,12 +48,12 @@ class ScreenedVariant:
     @property
     def goes_on(self) -> bool:
         """Whether it is tried with more physics."""
-        return self.fate in (ScreeningOutcome.PROMOTED, ScreeningOutcome.UNSCREENED, ScreeningOutcome.SPARED)
+        return self.outcome in (ScreeningOutcome.PROMOTED, ScreeningOutcome.UNSCREENED, ScreeningOutcome.SPARED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScreeningResult:
-    """What became of every design.
+    """Outcome of screening for every design.
 
     Attributes:
         screening: What the study says.
@@ -85,7 +85,7 @@ def screening_summary(result: ScreeningResult) -> str:
         for requirement in one.missed:
             missed.setdefault(requirement, []).append(one.variant)
     parts += [f"{requirement} cannot be met by variants {_ids(ids)}." for requirement, ids in missed.items()]
-    outranked = [one for one in out if one.fate is ScreeningOutcome.OUTRANKED]
+    outranked = [one for one in out if one.outcome is ScreeningOutcome.OUTRANKED]
     if outranked:
         most = max(one.best_value for one in outranked if one.best_value is not None)
         parts.append(

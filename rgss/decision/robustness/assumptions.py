@@ -33,7 +33,7 @@ class AssumptionFinding:
 
     Attributes:
         number: The number.
-        columns: The measures of the trade-off that stand on it; empty where none does.
+        columns: The measures of the trade-off that depend on it; empty where none does.
         range: The values over which the choice stays best; None where it could not be followed,
             and `reason` says why.
         reason: Why there is no range; empty otherwise.

@@ -17,7 +17,7 @@ class FactorLevels:
 
     Attributes:
         id: Its id.
-        parameters: The design parameters that it sets together; their effects cannot be told apart.
+        parameters: The design parameters that it sets together; their effects cannot be separated.
         levels: The ids of its levels.
     """
 

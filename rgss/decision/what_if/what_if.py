@@ -1,4 +1,4 @@
-"""What if a weight, a threshold, an anchor of a value or a number of the model were another."""
+"""Suppositions on weights, thresholds, anchors of values and numbers of the model."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def _full_name(project: Project, name: str) -> str:
     if name.startswith(EVIDENCE_PREFIX):
         raise DefinitionError(
             f"--what-if: {shown(name)} demands that a measure is known, which is no number",
-            hint="run trials that tell it, or suppose another threshold",
+            hint="run trials that show it, or suppose another threshold",
         )
     trade_off = project.study.trade_off
     threshold = f"{name}.{THRESHOLD}"

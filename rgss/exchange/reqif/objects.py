@@ -56,7 +56,7 @@ class ObjectReader:
         Args:
             bundle: What the library has read.
             known: What the elements of the project are, by id.
-            part: What an element is that neither the file nor the project tells.
+            part: What an element is that neither the file nor the project says.
         """
         core = bundle.core_content.req_if_content
         tool = getattr(bundle.req_if_header, "req_if_tool_id", None) or ""

@@ -23,7 +23,7 @@ def conflict_part(decision: Decision) -> Plain | None:
 
     Returns:
         None where something is feasible. Otherwise the conflicts with the probability that each is
-        still there when the replicates are drawn anew (None where one replicate cannot tell), what
+        still there when the replicates are drawn anew (None with one replicate), what
         would mend all of them, what each requirement alone would have to become, and the nearest variant.
     """
     conflicts = decision.conflicts

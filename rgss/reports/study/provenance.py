@@ -1,4 +1,4 @@
-"""What a report stands on: assumptions with their reasons, files, versions, the evidence."""
+"""Provenance of a report: assumptions with their reasons, files, versions, the evidence."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ def screening_to_json(result: ScreeningResult) -> dict[str, Any]:
         "variants": [
             {
                 "variant": one.variant,
-                "fate": one.fate.value,
+                "fate": one.outcome.value,
                 "reason": one.reason,
                 "missed": list(one.missed),
                 "best_value": one.best_value,

@@ -18,7 +18,7 @@ def screening_lines(result: ScreeningResult) -> list[str]:
     lines = [f"{rule}: {len(result.survivors)} of {len(result.variants)} designs go on"]
     for reason, variants in _by_reason(result.screened_out).items():
         lines.append(f"  screened out: {', '.join(map(str, variants))}: {reason}")
-    kept = [one for one in result.variants if one.goes_on and one.fate.value != "promoted"]
+    kept = [one for one in result.variants if one.goes_on and one.outcome.value != "promoted"]
     for reason, variants in _by_reason(kept).items():
         lines.append(f"  goes on all the same: {', '.join(map(str, variants))}: {reason}")
     return lines
