@@ -89,8 +89,7 @@ def analyse_robustness(
     generator = np.random.default_rng(project.study.seed)
     resamples = _resamples(table, generator, refused)
     values = single_values(problem, table)
-    deciding = problem.weighting.deciding_measures
-    weights = np.array([problem.weighting.weights[measure] for measure in deciding])
+    weights = np.array([problem.weighting.weights[measure] for measure in problem.weighting.deciding_measures])
     chosen = None if decision.chosen is None else table.row_of(decision.chosen)
     weighting: WeightRobustness | None = None
     assumed: _Assumed = (), None
@@ -102,7 +101,7 @@ def analyse_robustness(
         refused.update(dict.fromkeys(("weights", "assumptions", "costs"), reason))
     return Robustness(
         variants=tuple(int(variant) for variant in table.variants),
-        measures=deciding,
+        measures=problem.weighting.deciding_measures,
         weights=weights,
         values=values,
         feasible=feasible,
