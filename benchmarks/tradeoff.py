@@ -17,7 +17,8 @@ import numpy as np
 
 from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose, trade_problem
-from rgss.decision.robustness.assumptions import assumption_findings, cost_box
+from rgss.decision.robustness.assumptions import assumption_findings
+from rgss.decision.robustness.cost_box import cost_box
 from rgss.decision.robustness.effects import study_effects
 from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.decision.robustness.robustness import ITERATIONS, analyse_robustness

@@ -45,7 +45,7 @@ def load_study(
 
     # By name, since this package is above all others and yet imported with each: an import statement would
     # make everything a part of whatever imports it, for the digests of the code as for the layers.
-    analysis = import_module("rgss.api.study")
+    analysis = import_module("rgss.api.load")
     drawing = import_module("rgss.api.trial").Drawing(
         figure=import_module("rgss.reports.trials.trial_plots").trial_figure,
         filmstrip=import_module("rgss.reports.trials.filmstrip").filmstrip,

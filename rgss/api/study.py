@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from numbers import Integral
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.api.column import Column, Kind
@@ -20,6 +19,8 @@ from rgss.api.frames import (
     variant_columns,
     verdicts_frame,
 )
+from rgss.api.missing_trials import sweep_hint, with_trials
+from rgss.api.suppositions import WhatIf, suppositions_of
 from rgss.api.sweep import sweep_study
 from rgss.api.trade import Trade
 from rgss.api.trade_frames import portfolio_frame
@@ -31,18 +32,12 @@ from rgss.decision.what_if import measured_in, suppose
 from rgss.designs import DesignVariant, picked
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore
-from rgss.studies import MOST_REPLICATES, Project, find_project, load_project, project_of_study
+from rgss.studies import Project
 from rgss.tradeoff import Decision
 from rgss.trials.payload_bench import PayloadResult
 
 if TYPE_CHECKING:
     import pandas as pd
-
-WhatIf = Mapping[str, float | str] | Sequence[str] | str
-"""Suppositions: ``{"weight.t_e": 0.4}``, or texts as ``--what-if`` takes them."""
-
-STUDY_SUFFIXES = (".yaml", ".yml")
-"""By these a study file is told from a project's folder."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,7 +49,7 @@ class Study:
     changing one changes nothing else.
 
     Attributes:
-        project: Everything that the study stands on: requirements, measures, designs, scene.
+        project: Inputs of the study: requirements, measures, designs, scene.
     """
 
     project: Project = field(repr=False)
@@ -72,7 +67,7 @@ class Study:
         """The designs, with what the trade-off says of them as far as there is evidence."""
         rows = []
         measured = {entry.variant.id: entry for entry in self._known}
-        fates = {} if self._screened is None else {one.variant: one.fate.value for one in self._screened.variants}
+        outcomes = {} if self._screened is None else {one.variant: one.outcome.value for one in self._screened.variants}
         judged = bool(measured) and not any(entry.missing for entry in measured.values())
         enumeration = self.trade().enumeration if judged else None
         # A design that was screened out lacks nothing.
@@ -85,7 +80,7 @@ class Study:
                 **{f"level_{factor}": level for factor, level in variant.levels.items()},
                 "trials": 0 if entry is None else len(entry.records),
                 "missing": untried if entry is None else entry.missing,
-                "screening": fates.get(variant.id),
+                "screening": outcomes.get(variant.id),
             }
             if enumeration is not None and entry is not None:
                 violated = enumeration.violated_by(variant.id)
@@ -159,7 +154,7 @@ class Study:
             DefinitionError: A supposition says nothing that is known.
             TradeoffError: Weights contradict each other.
         """
-        texts = _suppositions(what_if)
+        texts = suppositions_of(what_if)
         if not texts:
             return self._trade
         scenario = suppose(self.project, texts)
@@ -281,7 +276,7 @@ class Study:
     def _read(self) -> tuple[tuple[VariantMeasures, ...], ScreeningResult | None]:
         project = self.project
         if not project.evidence.exists():
-            raise EvidenceError(f"there is no evidence in {project.evidence}", hint=self._what_to_run)
+            raise EvidenceError(f"there is no evidence in {project.evidence}", hint=sweep_hint(project))
         with EvidenceStore.open(project.evidence, create=False) as store:
             return measure_survivors(project, store, recorded=read_record(project.folder))
 
@@ -301,67 +296,8 @@ class Study:
     @property
     def _tried(self) -> tuple[VariantMeasures, ...]:
         """Every variant with its estimates, of which at least one has a trial."""
-        measured = self._measured
-        if not any(entry.records for entry in measured):
-            outdated = sum(entry.outdated for entry in measured)
-            old = f"; {outdated} have evidence of an earlier model, code or engine" if outdated else ""
-            raise EvidenceError(
-                f"no trial of study {self.project.study.id!r} at {self.project.study.fidelity.value} fidelity has "
-                f"evidence for the project as it is now{old}",
-                hint=self._what_to_run,
-            )
-        return measured
-
-    @property
-    def _what_to_run(self) -> str:
-        study = self.project.study
-        return (
-            f"call sweep(), or run 'rgss sweep {study.label} --project {self.project.folder} "
-            f"--fidelity {study.fidelity.value} --replicates {study.replicates}'"
-        )
+        return with_trials(self.project, self._measured)
 
     @cached_property
     def _trade(self) -> Trade:
         return Trade(project=self.project, measured=self._measured)
-
-
-def load(
-    folder: Path | None, study: str | None, *, fidelity: str | None, replicates: int | None, drawing: Drawing
-) -> Study:
-    """Read a project and one of its studies; see `rgss.load_study`.
-
-    Args:
-        folder: The project's folder, or a study file in one; the nearest folder at or above the
-            current one if None.
-        study: The study file, relative to the project.
-        fidelity: How much physics a trial has, in place of what the study says.
-        replicates: Trials of each variant, in place of what the study says.
-        drawing: How trials are drawn.
-
-    Raises:
-        DocumentError: Files are wrong; with every problem in all of them.
-        DefinitionError: There is no project, or an argument is impossible.
-    """
-    if folder is not None and folder.suffix in STUDY_SUFFIXES:
-        if study is not None:
-            raise DefinitionError(
-                f"{str(folder)!r} is a study already, and {study!r} another", hint="name a folder and a study, or one"
-            )
-        folder, study = project_of_study(folder)
-    project = load_project(find_project(folder), study)
-    if replicates is not None:
-        if not 1 <= replicates <= MOST_REPLICATES:
-            raise DefinitionError(
-                f"replicates must be from 1 to {MOST_REPLICATES}", hint="leave it away for the study's number"
-            )
-        project = project.with_replicates(replicates)
-    return Study(project=project if fidelity is None else project.with_fidelity(fidelity), _drawing=drawing)
-
-
-def _suppositions(what_if: WhatIf) -> list[str]:
-    if isinstance(what_if, str):
-        return [what_if]
-    if isinstance(what_if, Mapping):
-        # A number of NumPy is written as what it is, not as how it is made.
-        return [f"{name}={value if isinstance(value, str) else repr(float(value))}" for name, value in what_if.items()]
-    return list(what_if)

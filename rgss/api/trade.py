@@ -19,8 +19,9 @@ from rgss.assessment import VariantMeasures
 from rgss.decision import choose, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.what_if import Scenario
+from rgss.reports.decision import decision_to_json
 from rgss.studies import Project
-from rgss.tradeoff import Decision, decision_to_json
+from rgss.tradeoff import Decision
 from rgss.tradeoff.programs import Enumeration, enumerate_alternatives
 
 if TYPE_CHECKING:

@@ -63,7 +63,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         options = command_line().parse_args(arguments)
         status = int(options.handler(options))
         if sys.stdout is not None:
-            # Here, where a failure can still be told, and not when the interpreter ends.
+            # Here, where a failure can still be reported, and not when the interpreter ends.
             sys.stdout.flush()
         return status
     except DocumentError as error:

@@ -23,6 +23,12 @@ def print_json(value: Any) -> None:
     print()
 
 
+def print_lines(lines: Iterable[str]) -> None:
+    """Print lines of text as they are made."""
+    for line in lines:
+        print(line)
+
+
 def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = ()) -> None:
     """Print a table as aligned text.
 
@@ -31,17 +37,9 @@ def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: 
         rows: The cells.
         right: Columns that are aligned to the right.
     """
-    cells = [[printable(text) for text in row] for row in (titles, *rows)]
-    widths = [max(len(row[column]) for row in cells) for column in range(len(titles))]
-    to_right = set(right)
-    for number, row in enumerate(cells):
-        parts = [
-            text.rjust(width) if column in to_right else text.ljust(width)
-            for column, (text, width) in enumerate(zip(row, widths, strict=True))
-        ]
-        print("  ".join(parts).rstrip())
-        if number == 0:
-            print("  ".join("─" * width for width in widths))
+    from rgss.reports import aligned_table
+
+    print_lines(aligned_table(titles, rows, right=right))
 
 
 def announce(text: str, file: Path) -> None:

@@ -1,8 +1,9 @@
-"""Where ``rgss trace`` writes, in which format, and what it refuses before it begins."""
+"""Output of ``rgss trace``: the order that its options place, and its delivery."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,24 +11,21 @@ from typing import TYPE_CHECKING
 
 from rgss.cli.safe_output import data_stream
 from rgss.errors import DefinitionError
+from rgss.reports.trace import TRACE_FORMATS, TraceFormat, trace_format
 
 if TYPE_CHECKING:
     from rgss.reports.trace import TraceReport
     from rgss.trace.views import Chain, Impact
 
-FORMATS = ("text", "html", "md", "csv", "xlsx", "json")
 TABLES = ("coverage", "gaps", "stakeholder-moe", "system-stakeholder", "system-architecture", "verification")
-
-_ENDINGS = {".txt": "text", ".html": "html", ".md": "md", ".csv": "csv", ".xlsx": "xlsx", ".json": "json"}
-_SUFFIXES = {name: ending for ending, name in _ENDINGS.items()}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TraceOrder:
-    """What is wanted.
+    """The files to write, or the text to print.
 
     Attributes:
-        file_format: One of `FORMATS`.
+        file_format: The format.
         output: The file or the folder to write; None to print.
         into_folder: Whether the output is a folder.
         table: The only table; empty for all.
@@ -36,7 +34,7 @@ class TraceOrder:
         prints: Whether anything is printed but what was written.
     """
 
-    file_format: str
+    file_format: TraceFormat
     output: Path | None
     into_folder: bool
     table: str
@@ -46,7 +44,7 @@ class TraceOrder:
 
 
 def ordered(options: argparse.Namespace) -> TraceOrder:
-    """What the options ask for.
+    """The order that the options place.
 
     Raises:
         DefinitionError: They contradict each other, or a file cannot be written.
@@ -54,15 +52,21 @@ def ordered(options: argparse.Namespace) -> TraceOrder:
     _refuse_contradictions(options)
     into_folder = options.output is not None and (options.output.is_dir() or not options.output.suffix)
     file_format = _format(options, into_folder=into_folder)
-    if file_format == "xlsx" and options.output is None:
-        raise DefinitionError("an Excel file cannot be printed", hint="name a file with -o trace.xlsx")
-    if options.table is not None and file_format in ("html", "json"):
+    if not file_format.is_printable and options.output is None:
         raise DefinitionError(
-            f"--table does not go with {file_format}, which holds everything", hint="use text, md, csv or xlsx"
+            f"{file_format.title} cannot be printed", hint=f"name a file with -o trace{file_format.suffix}"
         )
-    if file_format == "csv" and not into_folder and options.id is None and options.table is None:
+    if options.table is not None and not file_format.has_tables:
+        *others, last = (one.name for one in TRACE_FORMATS if one.has_tables)
         raise DefinitionError(
-            "a CSV file holds one table", hint=f"choose one with --table ({', '.join(TABLES)}) or name a folder with -o"
+            f"--table does not go with {file_format.name}, which holds everything",
+            hint=f"use {', '.join(others)} or {last}",
+        )
+    single = file_format.tables_of_a_file == 1
+    if single and not into_folder and options.id is None and options.table is None:
+        raise DefinitionError(
+            f"{file_format.title} holds one table",
+            hint=f"choose one with --table ({', '.join(TABLES)}) or name a folder with -o",
         )
     if options.output is not None and not into_folder:
         _check_file(options.output)
@@ -92,13 +96,14 @@ def deliver(order: TraceOrder, report: TraceReport, found: Chain | Impact | None
         DefinitionError: A package is not installed.
         OSError: A file cannot be written.
     """
-    if order.prints and order.file_format == "text":
-        _print_text(order, report, found)
-    elif order.prints:
-        ((_, content),) = _contents(order, report, found).items()
-        data_stream().write(content.decode("utf-8-sig"))
-    elif order.output is not None:
-        _write(order, _contents(order, report, found))
+    if order.prints or order.output is not None:
+        contents = _contents(order, report, found)
+        if not order.prints:
+            _write(order, contents)
+        else:
+            ((_, content),) = contents.items()
+            stream = sys.stdout if order.file_format.is_for_terminals else data_stream()
+            stream.write(content.decode("utf-8-sig"))
     if order.diagrams is not None:
         _write_diagrams(order.diagrams, report, quiet=order.prints)
 
@@ -113,24 +118,26 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
         raise DefinitionError("--json prints JSON", hint="for a file use -o FILE.json, for another format --format")
 
 
-def _format(options: argparse.Namespace, *, into_folder: bool) -> str:
+def _format(options: argparse.Namespace, *, into_folder: bool) -> TraceFormat:
     if options.json:
-        return "json"
+        return trace_format("json")
     if options.output is None:
-        return options.format or "text"
+        return TRACE_FORMATS[0] if options.format is None else trace_format(options.format)
     if into_folder:
         if options.format is None:
+            names = ", ".join(one.name for one in TRACE_FORMATS)
             raise DefinitionError(
                 f"no format is given for the folder {str(options.output)!r}",
-                hint=f"add --format with one of {', '.join(FORMATS)}, or name a file such as trace.html",
+                hint=f"add --format with one of {names}, or name a file such as trace.html",
             )
-        return str(options.format)
-    by_ending = _ENDINGS.get(options.output.suffix.lower())
-    if by_ending is None or options.format not in (None, by_ending):
+        return trace_format(options.format)
+    suffix = options.output.suffix.lower()
+    by_suffix = next((one for one in TRACE_FORMATS if one.suffix == suffix), None)
+    if by_suffix is None or options.format not in (None, by_suffix.name):
         # So that nobody writes a report over a file that is something else.
-        wanted = _SUFFIXES[options.format] if options.format else ", ".join(_ENDINGS)
+        wanted = ", ".join(one.suffix for one in TRACE_FORMATS if options.format in (None, one.name))
         raise DefinitionError(f"{str(options.output)!r} does not end in {wanted}", hint="name the file so")
-    return by_ending
+    return by_suffix
 
 
 def _check_file(path: Path) -> None:
@@ -142,29 +149,9 @@ def _check_file(path: Path) -> None:
 
 
 def _contents(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> Mapping[str, bytes]:
-    """The content of each file by its name in a folder."""
-    from rgss.reports.trace import found_file, report_file, tables_of
+    from rgss.reports.trace import trace_files
 
-    suffix = _SUFFIXES[order.file_format]
-    if order.file_format == "text":
-        return {f"{_stem(found)}{suffix}": ("\n".join(_text_lines(order, report, found)) + "\n").encode("utf-8")}
-    if found is not None:
-        return {f"{_stem(found)}{suffix}": found_file(found, report, order.file_format)}
-    if order.file_format == "csv":
-        tables = tables_of(report, "csv", gaps_only=order.gaps_only, table=order.table)
-        return {
-            f"{table.name}{suffix}": report_file(report, "csv", gaps_only=order.gaps_only, table=table.name)
-            for table in tables
-        }
-    content = report_file(report, order.file_format, gaps_only=order.gaps_only, table=order.table)
-    return {f"trace{suffix}": content}
-
-
-def _stem(found: Chain | Impact | None) -> str:
-    if found is None:
-        return "trace"
-    safe = "".join(sign if sign.isalnum() or sign in "-_." else "_" for sign in found.id)[:80]
-    return f"{type(found).__name__.lower()}-{safe}"
+    return trace_files(report, found, order.file_format.name, gaps_only=order.gaps_only, table=order.table)
 
 
 def _write(order: TraceOrder, contents: Mapping[str, bytes]) -> None:
@@ -195,20 +182,3 @@ def _write_diagrams(folder: Path, report: TraceReport, *, quiet: bool) -> None:
         notice = missing_diagrams(requirements)
         if notice:
             print(notice)
-
-
-def _print_text(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> None:
-    for line in _text_lines(order, report, found):
-        print(line)
-
-
-def _text_lines(order: TraceOrder, report: TraceReport, found: Chain | Impact | None) -> list[str]:
-    from rgss.reports.trace import chain_lines, impact_lines, table_lines, terminal_tables
-    from rgss.trace.views import Chain
-
-    if isinstance(found, Chain):
-        return chain_lines(found)
-    if found is not None:
-        return impact_lines(found)
-    tables = terminal_tables(report, gaps_only=order.gaps_only, table=order.table)
-    return [report.title, "", *table_lines(tables)]

@@ -9,15 +9,13 @@ if TYPE_CHECKING:
     from rgss.decision.named_trials import NamingStudy, asked_of, asked_trials, naming_studies
     from rgss.decision.portfolios import choose_portfolio, portfolio_projects
     from rgss.decision.screening import (
-        ScreenedVariant,
-        ScreeningResult,
         measure_survivors,
         reopened,
         screen,
         screening_specs,
-        screening_summary,
         surviving_specs,
     )
+    from rgss.decision.screening_result import ScreenedVariant, ScreeningResult, screening_summary
     from rgss.decision.staged_sweep import sweep_in_stages
     from rgss.decision.tracing import trace_evidence
     from rgss.decision.until_decided import UntilDecided, replicate_until_decided, summary

@@ -1,4 +1,4 @@
-"""From estimates to the decision."""
+"""Trade-off of a study, posed from its estimates and decided."""
 
 from __future__ import annotations
 
@@ -88,8 +88,8 @@ def choose(
         DefinitionError: As for `trade_problem`.
     """
     margin = project.study.trade_off.practical_margin
-    asked = trade_problem(project, measured) if problem is None else problem
-    return decide(asked, margin=margin, seed=project.study.seed, independent=independent)
+    posed = trade_problem(project, measured) if problem is None else problem
+    return decide(posed, margin=margin, seed=project.study.seed, independent=independent)
 
 
 def double_counting(project: Project) -> tuple[Overlap, ...]:
@@ -108,7 +108,7 @@ def double_counting(project: Project) -> tuple[Overlap, ...]:
 
 
 def shared_measures(project: Project) -> tuple[SharedPart, ...]:
-    """Valued measures neither of which contains the other, but that stand on measures in common."""
+    """Valued measures neither of which contains the other, but that depend on measures in common."""
     weights = project.study.trade_off.weighting.weights
     return shared_parts(weights, project.measures.dependencies)
 

@@ -12,7 +12,7 @@ from rgss.tradeoff import Incompatibility, LevelFactor, LevelSpace, LevelStructu
 def level_structure(designs: DesignSpace, variants: Sequence[DesignVariant]) -> LevelStructure:
     """The factors, the combinations that each rule excludes, and the levels of each variant.
 
-    A rule is put over as few factors as tell what it excludes; so one on the number of fingers and
+    A rule is put over as few factors as determine what it excludes; so one on the number of fingers and
     the gripper's mass is a condition on these two, whatever else varies.
 
     Args:

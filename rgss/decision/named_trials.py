@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rgss.decision.screening import ScreeningResult, screen, screening_specs, surviving_specs
+from rgss.decision.screening import screen, screening_specs, surviving_specs
+from rgss.decision.screening_result import ScreeningResult
 from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import EvidenceStore, Fidelity
 from rgss.findings import Finding
@@ -66,7 +67,7 @@ def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[Na
     for name in names:
         try:
             projects[name] = load_project(folder, name)
-        except DocumentError as error:  # noqa: PERF203 - all problems are told at once
+        except DocumentError as error:  # noqa: PERF203 - all problems are reported at once
             findings += [finding for finding in error.findings if finding not in findings]
     if findings:
         raise DocumentError(findings)

@@ -10,8 +10,7 @@ design alike; so nothing unknown speaks against a design.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from enum import Enum
+from dataclasses import replace
 
 from rgss.assessment import (
     EstimateBounds,
@@ -22,84 +21,20 @@ from rgss.assessment import (
     requirements_with_criteria,
 )
 from rgss.decision.preference_model import quantity_of
+from rgss.decision.screening_result import ScreenedVariant, ScreeningOutcome, ScreeningResult
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore
 from rgss.measures import Verdict, judge
 from rgss.requirements import Criterion
-from rgss.studies import Project, Promotion, Screening, trial_specs
+from rgss.studies import Project, Promotion, trial_specs
 from rgss.tradeoff import ValueFunction
 from rgss.tradeoff.problem import TIE_TOLERANCE
 from rgss.trials import TrialSpec
 
-_MOST_SHOWN = 72
-"""Ids of a sentence."""
-
-
-class ScreeningOutcome(str, Enum):
-    """What became of a design in screening."""
-
-    PROMOTED = "promoted"
-    """It goes on."""
-    UNSCREENED = "unscreened"
-    """It goes on, for it lacks trials of the screening fidelity."""
-    SPARED = "spared"
-    """It misses a requirement, but so does every design; it goes on so that the decision can say what conflicts."""
-    IMPOSSIBLE = "impossible"
-    """It misses a requirement whatever contact trials would show."""
-    OUTRANKED = "outranked"
-    """Others are better, even if all that is unknown of it is at its best."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ScreenedVariant:
-    """A design and what became of it.
-
-    Attributes:
-        variant: Its id.
-        fate: What became of it.
-        reason: Why, in words.
-        missed: The requirements that it cannot meet.
-        best_value: The greatest value that it can have; None if it lacks trials.
-    """
-
-    variant: int
-    fate: ScreeningOutcome
-    reason: str
-    missed: tuple[str, ...] = ()
-    best_value: float | None = None
-
-    @property
-    def goes_on(self) -> bool:
-        """Whether it is tried with more physics."""
-        return self.fate in (ScreeningOutcome.PROMOTED, ScreeningOutcome.UNSCREENED, ScreeningOutcome.SPARED)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ScreeningResult:
-    """What became of every design.
-
-    Attributes:
-        screening: What the study says.
-        variants: The designs, in their order.
-    """
-
-    screening: Screening
-    variants: tuple[ScreenedVariant, ...]
-
-    @property
-    def survivors(self) -> tuple[int, ...]:
-        """The ids of the designs that go on."""
-        return tuple(one.variant for one in self.variants if one.goes_on)
-
-    @property
-    def screened_out(self) -> tuple[ScreenedVariant, ...]:
-        """The designs that do not."""
-        return tuple(one for one in self.variants if not one.goes_on)
-
 
 def promoted(project: Project, measured: Sequence[VariantMeasures]) -> ScreeningResult:
-    """Tell which designs go on, and why the others do not.
+    """Outcome of screening for each design, with the reason.
 
     Ties at the bound of `keep` go on together, so that no id decides.
 
@@ -118,10 +53,10 @@ def promoted(project: Project, measured: Sequence[VariantMeasures]) -> Screening
         )
     functions = _value_functions(project)
     entries = [_first_look(project, entry, functions) for entry in measured]
-    if any(one.fate is ScreeningOutcome.IMPOSSIBLE for one in entries) and not any(one.goes_on for one in entries):
+    if any(one.outcome is ScreeningOutcome.IMPOSSIBLE for one in entries) and not any(one.goes_on for one in entries):
         spared = "no design can meet every requirement, so all go on"
         entries = [
-            replace(one, fate=ScreeningOutcome.SPARED, reason=f"{spared}; this one cannot: {one.reason}")
+            replace(one, outcome=ScreeningOutcome.SPARED, reason=f"{spared}; this one cannot: {one.reason}")
             for one in entries
         ]
     return ScreeningResult(screening=screening, variants=tuple(_ranked(entries, screening.promotion)))
@@ -204,38 +139,12 @@ def reopened(result: ScreeningResult, project: Project, measured: Sequence[Varia
     return tuple(variant for variant in promoted(project, measured).survivors if variant not in there)
 
 
-def screening_summary(result: ScreeningResult) -> str:
-    """What was screened out, by which evidence and why, in a few sentences."""
-    out = result.screened_out
-    screening = result.screening
-    trials = f"{screening.fidelity.value} trials ({screening.promotion})"
-    parts = [f"{len(out)} of {len(result.variants)} designs were screened out by {trials} and are not shown here."]
-    missed: dict[str, list[int]] = {}
-    for one in out:
-        for requirement in one.missed:
-            missed.setdefault(requirement, []).append(one.variant)
-    parts += [f"{requirement} cannot be met by variants {_ids(ids)}." for requirement, ids in missed.items()]
-    outranked = [one for one in out if one.fate is ScreeningOutcome.OUTRANKED]
-    if outranked:
-        most = max(one.best_value for one in outranked if one.best_value is not None)
-        parts.append(
-            "Others are better, even if all that is unknown is at its best (a value of at most "
-            f"{most:.4g}): variants {_ids([one.variant for one in outranked])}."
-        )
-    return " ".join(parts)
-
-
-def _ids(ids: Sequence[int]) -> str:
-    more = f" and {len(ids) - _MOST_SHOWN} more" if len(ids) > _MOST_SHOWN else ""
-    return ", ".join(map(str, ids[:_MOST_SHOWN])) + more
-
-
 def _first_look(
     project: Project, entry: VariantMeasures, functions: Mapping[str, tuple[float, ValueFunction]]
 ) -> ScreenedVariant:
     if entry.missing:
         reason = f"{entry.missing} of its trials at the screening fidelity have no evidence"
-        return ScreenedVariant(variant=entry.variant.id, fate=ScreeningOutcome.UNSCREENED, reason=reason)
+        return ScreenedVariant(variant=entry.variant.id, outcome=ScreeningOutcome.UNSCREENED, reason=reason)
     outlook = bounds_by_measure(project, entry)
     missed = {
         requirement.id: requirement.criterion
@@ -245,7 +154,7 @@ def _first_look(
     value = sum(weight * _best(function, outlook[measure]) for measure, (weight, function) in functions.items())
     return ScreenedVariant(
         variant=entry.variant.id,
-        fate=ScreeningOutcome.IMPOSSIBLE if missed else ScreeningOutcome.PROMOTED,
+        outcome=ScreeningOutcome.IMPOSSIBLE if missed else ScreeningOutcome.PROMOTED,
         reason="; ".join(_why(name, criterion, outlook) for name, criterion in missed.items())
         or "nothing that is known speaks against it",
         missed=tuple(missed),
@@ -293,7 +202,7 @@ def _best(function: ValueFunction, outlook: EstimateBounds) -> float:
 
 
 def _ranked(entries: Sequence[ScreenedVariant], promotion: Promotion) -> list[ScreenedVariant]:
-    contenders = [one for one in entries if one.fate is ScreeningOutcome.PROMOTED and one.best_value is not None]
+    contenders = [one for one in entries if one.outcome is ScreeningOutcome.PROMOTED and one.best_value is not None]
     values = sorted((one.best_value for one in contenders if one.best_value is not None), reverse=True)
     bars: list[tuple[float, str]] = []
     if values and promotion.within is not None:
@@ -306,13 +215,13 @@ def _ranked(entries: Sequence[ScreenedVariant], promotion: Promotion) -> list[Sc
         beaten = [
             words
             for bar, words in bars
-            if one.fate is ScreeningOutcome.PROMOTED
+            if one.outcome is ScreeningOutcome.PROMOTED
             and one.best_value is not None
             and one.best_value < bar - TIE_TOLERANCE
         ]
         if beaten:
             reason = f"its value is at most {one.best_value:.4g}, {' and '.join(beaten)}"
-            found.append(replace(one, fate=ScreeningOutcome.OUTRANKED, reason=reason))
+            found.append(replace(one, outcome=ScreeningOutcome.OUTRANKED, reason=reason))
         else:
             found.append(one)
     return found

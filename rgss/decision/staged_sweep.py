@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 
 from rgss.assessment import record_after_sweep
-from rgss.decision.screening import ScreeningResult, screen, screening_specs, surviving_specs
+from rgss.decision.screening import screen, screening_specs, surviving_specs
+from rgss.decision.screening_result import ScreeningResult
 from rgss.designs import DesignVariant
 from rgss.evidence import EvidenceStore
 from rgss.studies import Project, trial_specs

@@ -67,7 +67,7 @@ def replicate_until_decided(
         store: The evidence.
         run: Runs the trials that the store has not, and returns when their records are in it.
         rule: When to stop; as the study says if None.
-        on_look: Told the number of each look and of the trials so far.
+        on_look: Callback after each look, with its number and that of the trials so far.
 
     Raises:
         EvidenceError: The store is damaged, or trials were not run.
@@ -80,11 +80,7 @@ def replicate_until_decided(
     read = _Evidence(project, store, variants)
     wanted = {variant.id: rule.pilot for variant in variants}
     progress = Progress()
-    proportions = {
-        measure.id
-        for measure in project.measures.measures
-        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION
-    }
+    proportions = _proportions(project)
     while True:
         specs = read.missing(wanted)
         run(specs)
@@ -109,6 +105,15 @@ def replicate_until_decided(
         looks=progress.looks,
         rule=rule,
     )
+
+
+def _proportions(project: Project) -> set[str]:
+    """Ids of the measures that are estimated as proportions."""
+    return {
+        measure.id
+        for measure in project.measures.measures
+        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION
+    }
 
 
 def summary(result: UntilDecided) -> str:

@@ -64,7 +64,7 @@ class Wishes:
     """What the user says about elements that a file leaves open.
 
     Attributes:
-        part: What an element is where the file does not tell.
+        part: What an element is where the file does not say.
         defaults: Attributes of elements that are new, where the file has none, by name.
     """
 

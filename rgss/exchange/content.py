@@ -28,7 +28,7 @@ class Row:
     """One element as a file says it.
 
     Attributes:
-        part: What it is; None where the file does not tell.
+        part: What it is; None where the file does not say.
         cells: Its attributes as texts. What the file does not speak of is not among them.
         line: The line, or the row of a sheet, that it begins in.
         columns: The column of each attribute, where there are columns.

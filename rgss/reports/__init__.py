@@ -5,11 +5,13 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.reports.plain_text import aligned_table
     from rgss.reports.study_page import TrialPictures, study_report_to_html
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
     "TrialPictures",
+    "aligned_table",
     "study_report_to_html",
 ]

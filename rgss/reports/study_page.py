@@ -230,7 +230,7 @@ def _figure(document: Mapping[str, Any], place: int, name: str, text: str) -> di
 
 
 def _refused(reasons: Mapping[str, str]) -> dict[str, list[str]]:
-    """What was not analysed, by the reason, each of which is told once."""
+    """Names of the analyses that do not apply, by the reason."""
     names: dict[str, list[str]] = {}
     for name, reason in reasons.items():
         names.setdefault(reason, []).append(name)

@@ -9,7 +9,6 @@ from rgss.tradeoff.decision import (
     InfeasibleAlternative,
     RankedAlternative,
 )
-from rgss.tradeoff.export import certificate_to_json, checks_to_json, decision_to_json, portfolio_to_json
 from rgss.tradeoff.infeasibility import (
     Conflicts,
     ConflictSurvival,
@@ -159,15 +158,11 @@ __all__ = [
     "WeightBounds",
     "Weighting",
     "best_alternatives",
-    "certificate_to_json",
-    "checks_to_json",
     "decide",
     "decide_levels",
     "decide_portfolio",
-    "decision_to_json",
     "independent_run",
     "overlapping_measures",
-    "portfolio_to_json",
     "shape_of",
     "shared_parts",
     "smallest_table",

@@ -17,8 +17,7 @@ from selenium import webdriver
 
 from rgss.assessment.evidence_status import evidence_state
 from rgss.assessment.measuring import measure_variants
-from rgss.decision.choosing import choose
-from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.study_decision import decide_study
 from rgss.decision.tracing import trace_evidence
 from rgss.evidence import (
     PLANNED_PHASES,
@@ -126,9 +125,8 @@ def study(tmp_path_factory) -> Study:
         for spec in trial_specs(project):
             store.put(key_of(spec), made_record(spec), Provenance(inputs={}, versions={}))
         measured = measure_variants(project, store)
-        decision = choose(project, measured)
-        found = analyse_robustness(project, measured, decision)
-        document = report_document(project, measured, decision, found, store, evidence="evidence.sqlite")
+        made = decide_study(project, measured, evidence="evidence.sqlite")
+        document = report_document(project, measured, made, store)
     trace = trace_report(
         build_trace_model(project.requirements, project.measure_traces),
         trace_evidence(project, measured, evidence_state(project, measured)),

@@ -8,19 +8,19 @@ import pytest
 
 from rgss.assessment.estimate_bounds import IN_COMMON, bounds_by_measure
 from rgss.assessment.measuring import measure_variants, requirements_with_criteria
-from rgss.cli.sweep.screening import screening_as_json, screening_lines
 from rgss.decision.choosing import choose
 from rgss.decision.screening import (
-    ScreeningOutcome,
     measure_survivors,
     promoted,
     screen,
     screening_specs,
     surviving_specs,
 )
+from rgss.decision.screening_result import ScreeningOutcome
 from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Failure, Fidelity, Provenance
 from rgss.measures import Verdict, judge
+from rgss.reports.decision import screening_lines, screening_to_json
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.promotion import Promotion, Screening
@@ -217,10 +217,10 @@ def test_what_cannot_meet_a_requirement_is_screened_out_and_told_why(screened, k
     )
     result = screen(project, store)
     fates = {one.variant: one for one in result.variants}
-    assert fates[7].fate is ScreeningOutcome.IMPOSSIBLE
+    assert fates[7].outcome is ScreeningOutcome.IMPOSSIBLE
     assert fates[7].reason.startswith("SYS-")
     assert "S is 0" in fates[7].reason
-    assert fates[9].fate is ScreeningOutcome.IMPOSSIBLE
+    assert fates[9].outcome is ScreeningOutcome.IMPOSSIBLE
     assert "t_p is 45 s" in fates[9].reason
     by_hand = {
         entry.variant.id
@@ -281,14 +281,14 @@ def test_keep_takes_the_best_and_all_that_equal_the_last(screened, kept, record_
         for entry in measure_variants(project, None)
     }
     by_hand = values_by_hand(project, planning_s)
-    possible = {one.variant for one in result.variants if one.fate is not ScreeningOutcome.IMPOSSIBLE}
+    possible = {one.variant for one in result.variants if one.outcome is not ScreeningOutcome.IMPOSSIBLE}
     expected = {variant: design_only[variant] + by_hand[variant] for variant in possible}
     for one in result.variants:
         if one.variant in possible:
             assert one.best_value == pytest.approx(expected[one.variant], abs=1e-9)
     last = sorted(expected.values(), reverse=True)[4]
     assert set(result.survivors) == {variant for variant, value in expected.items() if value >= last - 1e-9}
-    outranked = [one for one in result.variants if one.fate is ScreeningOutcome.OUTRANKED]
+    outranked = [one for one in result.variants if one.outcome is ScreeningOutcome.OUTRANKED]
     assert outranked
     assert all("below those of the best 5" in one.reason for one in outranked)
 
@@ -297,7 +297,9 @@ def test_within_takes_what_is_nearly_as_good(screened, kept, record_of):
     project = screened(Promotion(within=0.02))
     store = kept(screening_specs(project), lambda spec: record_of(spec, planning_s=1 + spec.variant / 100))
     result = screen(project, store)
-    possible = {one.variant: one.best_value for one in result.variants if one.fate is not ScreeningOutcome.IMPOSSIBLE}
+    possible = {
+        one.variant: one.best_value for one in result.variants if one.outcome is not ScreeningOutcome.IMPOSSIBLE
+    }
     bar = max(possible.values()) - 0.02
     assert set(result.survivors) == {variant for variant, value in possible.items() if value >= bar - 1e-9}
     assert 0 < len(result.survivors) < len(possible)
@@ -307,7 +309,7 @@ def test_within_takes_what_is_nearly_as_good(screened, kept, record_of):
 def test_where_no_design_is_possible_all_go_on(screened, kept, record_of):
     project = screened(Promotion(keep=3))
     result = screen(project, kept(screening_specs(project), lambda spec: record_of(spec, success=False)))
-    assert {one.fate for one in result.variants} == {ScreeningOutcome.SPARED}
+    assert {one.outcome for one in result.variants} == {ScreeningOutcome.SPARED}
     assert len(result.survivors) == 72
 
 
@@ -316,7 +318,7 @@ def test_a_design_without_screening_trials_goes_on(screened, kept, record_of):
     variants = [variant for variant in project.designs.expand() if variant.id > 3]
     result = screen(project, kept(screening_specs(project, variants=variants), record_of))
     fates = {one.variant: one for one in result.variants}
-    assert [fates[number].fate for number in (1, 2, 3)] == [ScreeningOutcome.UNSCREENED] * 3
+    assert [fates[number].outcome for number in (1, 2, 3)] == [ScreeningOutcome.UNSCREENED] * 3
     assert fates[1].reason == "3 of its trials at the screening fidelity have no evidence"
     assert {1, 2, 3} < set(result.survivors)
 
@@ -351,6 +353,6 @@ def test_what_was_screened_out_is_told(screened, kept, record_of):
     )
     told = {int(number) for line in rest for number in line.split(": ")[1].split(", ")}
     assert told == {one.variant for one in result.screened_out}
-    document = screening_as_json(result)
+    document = screening_to_json(result)
     assert document["survivors"] == list(result.survivors)
     assert [one["variant"] for one in document["variants"]] == list(range(1, 73))

@@ -11,13 +11,13 @@ import pytest
 
 import rgss.tradeoff.explanation
 from rgss.errors import TradeoffError
+from rgss.reports.decision.json import decision_to_json
 from rgss.tradeoff import (
     DecisionStatus,
     InfeasibleAlternative,
     RankedAlternative,
     RequirementCount,
     decide,
-    decision_to_json,
 )
 from rgss.tradeoff.milp.stage import StageSolution
 from rgss.tradeoff.programs.additive import AdditiveValue

@@ -8,23 +8,23 @@ if TYPE_CHECKING:
     from rgss.cli.sweep.backend import ExecutionBackend, execution_backend, jobs_of
     from rgss.cli.sweep.output import dry_run_as_json, dry_run_lines, lost_line, result_as_json, result_lines
     from rgss.cli.sweep.progress import SweepProgress
-    from rgss.cli.sweep.screening import reopened_lines, screening_as_json, screening_lines
+    from rgss.cli.sweep.runner import FinishedSweep, SweepRunner, report_lost
     from rgss.cli.sweep.until_decided import sweep_until_decided
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
     "ExecutionBackend",
+    "FinishedSweep",
     "SweepProgress",
+    "SweepRunner",
     "dry_run_as_json",
     "dry_run_lines",
     "execution_backend",
     "jobs_of",
     "lost_line",
-    "reopened_lines",
+    "report_lost",
     "result_as_json",
     "result_lines",
-    "screening_as_json",
-    "screening_lines",
     "sweep_until_decided",
 ]

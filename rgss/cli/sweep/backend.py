@@ -1,4 +1,4 @@
-"""Who carries out a sweep: processes of this machine, or a Dask cluster."""
+"""Execution back ends of a sweep: processes of this machine, or a Dask cluster."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ExecutionBackend:
-    """Who carries out the tasks of a verb's sweeps.
+    """Execution back end of a verb's sweeps.
 
     Attributes:
         jobs: Number of processes, if this machine does.
@@ -41,7 +41,7 @@ class ExecutionBackend:
         return self.staff.workers(maker)
 
     def origin(self, folder: Path) -> Origin:
-        """Where trials come from that this crew runs.
+        """Origin of the trials that this back end runs.
 
         Args:
             folder: The project's folder.
@@ -78,7 +78,7 @@ def jobs_of(options: argparse.Namespace) -> int:
 
 @contextmanager
 def execution_backend(options: argparse.Namespace, limits: WorkerLimits) -> Iterator[ExecutionBackend]:
-    """Who carries out what the options ask for, for as long as the block lasts.
+    """Execution back end that the options name, for as long as the block lasts.
 
     Args:
         options: The verb's options.

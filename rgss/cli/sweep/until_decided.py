@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rgss.decision import UntilDecided
     from rgss.studies import Project
-    from rgss.sweep import FinishedTrial, LostTrials, WorkerLimits
+    from rgss.sweep import LostTrials, WorkerLimits
     from rgss.trials.pieces import TrialSpec
 
 
@@ -35,12 +34,42 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     from rgss.cli.main import CLEAN, RUN_FAILED
     from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep.backend import execution_backend
-    from rgss.cli.sweep.output import lost_line
-    from rgss.cli.sweep.progress import SweepProgress
+    from rgss.cli.sweep.runner import SweepRunner, report_lost
     from rgss.decision import replicate_until_decided, summary
-    from rgss.errors import DefinitionError, EvidenceError
+    from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
-    from rgss.sweep import sweep
+
+    _refuse_contradictions(options, project)
+    rule = project.study.until_decided
+    if options.cap is not None:
+        rule = replace(rule, cap=options.cap)
+    lost: list[LostTrials] = []
+    label = shown_path(project.evidence)
+    with execution_backend(options, limits) as backend, EvidenceStore.open(project.evidence, label=label) as store:
+        runner = SweepRunner.of(options, project, store, backend)
+
+        def run(specs: Sequence[TrialSpec]) -> None:
+            lost.extend(runner.run(specs).result.lost)
+
+        try:
+            found = replicate_until_decided(project, store, run, rule=rule, on_look=_report_look)
+        except EvidenceError as error:
+            if not lost:
+                raise
+            # What could not be run is why its evidence is missing.
+            report_lost(lost)
+            print(f"rgss: {error}", file=sys.stderr)
+            return RUN_FAILED
+    if options.json:
+        print_json(_as_json(found))
+    else:
+        print(summary(found))
+    report_lost(lost)
+    return RUN_FAILED if lost else CLEAN
+
+
+def _refuse_contradictions(options: argparse.Namespace, project: Project) -> None:
+    from rgss.errors import DefinitionError
 
     for given, option in (
         (options.only, "--only"),
@@ -53,55 +82,9 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
         raise DefinitionError(
             "--until decided and screening exclude each other", hint="name one fidelity with --fidelity"
         )
-    rule = project.study.until_decided
-    if options.cap is not None:
-        rule = replace(rule, cap=options.cap)
-    lost: list[LostTrials] = []
-
-    label = shown_path(project.evidence)
-    with execution_backend(options, limits) as crew, EvidenceStore.open(project.evidence, label=label) as store:
-
-        def run(specs: Sequence[TrialSpec]) -> None:
-            tally: Counter[str] = Counter()
-
-            def on_finished(trial: FinishedTrial) -> None:
-                tally["run" if trial.fresh else "kept"] += 1
-                tally["succeeded" if trial.record.success else "failed"] += 1
-                progress.finished(tally)
-
-            with SweepProgress(len(specs)) as progress:
-                result = sweep(
-                    specs,
-                    store,
-                    jobs=crew.jobs,
-                    on_finished=on_finished,
-                    on_state=progress.state,
-                    share=not options.no_share,
-                    origin=lambda: crew.origin(project.folder),
-                    workers_for=crew.workers,
-                )
-            lost.extend(result.lost)
-
-        try:
-            found = replicate_until_decided(project, store, run, rule=rule, on_look=_told)
-        except EvidenceError as error:
-            if not lost:
-                raise
-            # What could not be run is why its evidence is missing.
-            for trials in lost:
-                print(f"rgss: {lost_line(trials)}", file=sys.stderr)
-            print(f"rgss: {error}", file=sys.stderr)
-            return RUN_FAILED
-    if options.json:
-        print_json(_as_json(found))
-    else:
-        print(summary(found))
-    for trials in lost:
-        print(f"rgss: {lost_line(trials)}", file=sys.stderr)
-    return RUN_FAILED if lost else CLEAN
 
 
-def _told(look: int, trials: int) -> None:
+def _report_look(look: int, trials: int) -> None:
     if sys.stderr.isatty():
         print(f"look {look}: {trials} trials", file=sys.stderr)
 

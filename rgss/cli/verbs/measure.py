@@ -39,10 +39,10 @@ def run(options: argparse.Namespace) -> int:
     """Show the measures; what has no evidence is shown as not known."""
     from rgss.assessment import read_record, record_verdicts
     from rgss.cli.output import print_json, shown_path
-    from rgss.cli.sweep import screening_lines
     from rgss.decision import measure_survivors
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
+    from rgss.reports.decision import screening_lines
 
     project = chosen_project(options)
     if options.variant is not None:

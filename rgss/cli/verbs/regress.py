@@ -145,7 +145,9 @@ def _compare(
     from rgss.reports.regression import report_lines, report_to_json, report_to_junit, report_to_markdown
 
     accepted = options.accept_change or ""
-    report = compare_with_baseline(project, store, run_trials, baseline, label=label, on_look=_told, accepted=accepted)
+    report = compare_with_baseline(
+        project, store, run_trials, baseline, label=label, on_look=_report_look, accepted=accepted
+    )
     if options.junit is not None:
         write_output(options.junit, report_to_junit(report))
     if options.markdown is not None:
@@ -200,7 +202,7 @@ def _tell_lost(lost: Sequence[LostTrials]) -> None:
         print(f"rgss: {lost_line(trials)}", file=sys.stderr)
 
 
-def _told(look: int, undecided: int) -> None:
+def _report_look(look: int, undecided: int) -> None:
     if look > 1 and sys.stderr.isatty():
         print(f"look {look}: {undecided} metrics are inconclusive", file=sys.stderr)
 

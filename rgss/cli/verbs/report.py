@@ -15,16 +15,17 @@ if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures, VerdictRecord
     from rgss.reports.trace import TraceReport
     from rgss.studies import Project
+    from rgss.trace.evidence import EvidenceState
     from rgss.tradeoff import Decision
 
-HELP = "write the decision and everything that it stands on as one HTML page"
+HELP = "write the decision with its evidence as one HTML page"
 EXAMPLE = "rgss report --out report.html"
 MORE_EXAMPLES = (
     ("rgss report --no-film", "without films, for which a few trials are run again"),
     ("rgss report --film-size 640x480 --film-rate 12", "with larger and smoother films"),
 )
 LARGEST_PAGE = 15_000_000
-"""A larger page is a nuisance to open and to send, and the reader of the terminal is told."""
+"""Bytes; a larger page is slow to open and to send, which is then reported."""
 DEFAULT_FILE = Path("report.html")
 
 
@@ -58,9 +59,9 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import shown_path
     from rgss.cli.pictures import ordered_look, trial_pictures
-    from rgss.cli.verbs.trade import is_settled, portfolio_of
-    from rgss.decision import choose, measure_survivors, trade_problem
-    from rgss.decision.robustness import analyse_robustness
+    from rgss.cli.verbs.trade import portfolio_of
+    from rgss.decision import measure_survivors
+    from rgss.decision.study_decision import decide_study
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
     from rgss.reports import study_report_to_html
@@ -80,39 +81,28 @@ def run(options: argparse.Namespace) -> int:
             require_complete(measured)
         except EvidenceError as error:
             raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
-        problem = trade_problem(project, measured)
-        decision = choose(project, measured, problem=problem)
-        trace = _trace(project, measured, decision, recorded, options.junit)
-        found = analyse_robustness(project, measured, decision, problem=problem)
-        fleet = portfolio_of(project, store)
-        document = report_document(
-            project,
-            measured,
-            decision,
-            found,
-            store,
-            evidence=label,
-            screened=screened,
-            fleet=fleet,
-        )
-    notable = notable_trials(measured, decision.chosen)
+        state = _evidence_state(project, measured, recorded, options.junit)
+        portfolio = portfolio_of(project, store)
+        made = decide_study(project, measured, evidence=label, screened=screened, portfolio=portfolio)
+        document = report_document(project, measured, made, store)
+    notable = notable_trials(measured, made.decision.chosen)
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
     pictures, notice = trial_pictures(project, notable, look=look)
     page = study_report_to_html(
         document,
-        trace,
+        _trace(project, measured, made.decision, state),
         drawings=drawings_for_page(diagrams_of(project.requirements)),
         drawings_notice=missing_diagrams(project.requirements),
         pictures=pictures,
         pictures_notice=notice,
     ).encode("utf-8")
     _write(options.out, page)
-    _tell(options, document, len(page))
-    return CLEAN if is_settled(decision, fleet) and not found.not_computed else FINDINGS
+    _print_result(options, document, len(page))
+    return CLEAN if made.is_final else FINDINGS
 
 
 def _check_films(options: argparse.Namespace) -> None:
-    """Films are made last, and what is wrong with them is told first."""
+    """Check the options of films first, which are made last."""
     from rgss.cli.pictures import ordered_look
     from rgss.errors import DefinitionError
 
@@ -123,7 +113,7 @@ def _check_films(options: argparse.Namespace) -> None:
 
 
 def _sweep_command(options: argparse.Namespace) -> str:
-    """The command that makes the evidence that this report stands on."""
+    """The command that makes the evidence of this report."""
     words = ["rgss", "sweep", *([options.study] if options.study else [])]
     for name in ("project", "fidelity", "replicates"):
         value = getattr(options, name)
@@ -132,22 +122,25 @@ def _sweep_command(options: argparse.Namespace) -> str:
     return shlex.join(words)
 
 
-def _trace(
-    project: Project,
-    measured: Sequence[VariantMeasures],
-    decision: Decision,
-    recorded: VerdictRecord,
-    junit: Path | None,
-) -> TraceReport:
+def _evidence_state(
+    project: Project, measured: Sequence[VariantMeasures], recorded: VerdictRecord, junit: Path | None
+) -> EvidenceState:
     from rgss.assessment import evidence_state
-    from rgss.decision import trace_evidence
     from rgss.errors import DefinitionError
-    from rgss.reports.trace import trace_report
-    from rgss.trace.model import build_trace_model
 
     state = evidence_state(project, measured, recorded=recorded, junit=junit)
     if junit is not None and state.software is None:
         raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
+    return state
+
+
+def _trace(
+    project: Project, measured: Sequence[VariantMeasures], decision: Decision, state: EvidenceState
+) -> TraceReport:
+    from rgss.decision import trace_evidence
+    from rgss.reports.trace import trace_report
+    from rgss.trace.model import build_trace_model
+
     return trace_report(
         build_trace_model(project.requirements, project.measure_traces),
         trace_evidence(project, measured, state, decision=decision),
@@ -175,7 +168,7 @@ def _write(path: Path, page: bytes) -> None:
         part.write_bytes(page)
 
 
-def _tell(options: argparse.Namespace, document: dict[str, Any], size: int) -> None:
+def _print_result(options: argparse.Namespace, document: dict[str, Any], size: int) -> None:
     from rgss.cli.output import print_json
 
     decision = document["decision"]

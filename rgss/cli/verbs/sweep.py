@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from collections import Counter
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
 from rgss.cli.verbs.variants import ONLY_HELP
 
 if TYPE_CHECKING:
-    from rgss.cli.sweep import ExecutionBackend
+    from rgss.cli.sweep import FinishedSweep
+    from rgss.decision import ScreeningResult
     from rgss.designs import DesignVariant
-    from rgss.evidence import EvidenceStore
     from rgss.studies import Project
-    from rgss.sweep import FinishedTrial, SweepResult, WorkerLimits
+    from rgss.sweep import WorkerLimits
     from rgss.trials.pieces import TrialSpec
 
 HELP = "run every trial of a study that has no evidence yet"
@@ -62,15 +59,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run what is missing; progress and failures of the run go to standard error; 3 if there are any."""
     from rgss.cli.main import CLEAN, RUN_FAILED
-    from rgss.cli.output import print_json, shown_path
+    from rgss.cli.output import shown_path
     from rgss.cli.sweep import (
+        SweepRunner,
         execution_backend,
         jobs_of,
-        lost_line,
-        result_as_json,
-        result_lines,
-        screening_as_json,
-        screening_lines,
+        report_lost,
         sweep_until_decided,
     )
     from rgss.decision import sweep_in_stages
@@ -89,75 +83,34 @@ def run(options: argparse.Namespace) -> int:
     if options.dry_run:
         return _dry_run(options, project, variants)
     label = shown_path(project.evidence)
-    stages: list[_Swept] = []
-    with execution_backend(options, limits) as crew, EvidenceStore.open(project.evidence, label=label) as store:
+    stages: list[FinishedSweep] = []
+    with execution_backend(options, limits) as backend, EvidenceStore.open(project.evidence, label=label) as store:
+        runner = SweepRunner.of(options, project, store, backend)
 
         def stage(specs: Sequence[TrialSpec]) -> set[int]:
-            stages.append(_swept(options, project, store, specs, crew))
-            return stages[-1].run_now
+            stages.append(runner.run(specs))
+            return stages[-1].tally.run_now
 
         screened = sweep_in_stages(project, variants, store, stage)
-    swept = stages[-1]
-    trials, tally, failures, result = swept.trials, swept.tally, swept.failures, swept.result
-    if options.json:
-        document = result_as_json(trials, tally, failures, result, label)
-        print_json(document if screened is None else {**document, "screening": screening_as_json(screened)})
-    else:
-        told = [] if screened is None else screening_lines(screened)
-        print(*told, *result_lines(trials, tally, failures, result, label), sep="\n")
+    _print_result(stages[-1], screened, label, as_json=options.json)
     lost = [each for one in stages for each in one.result.lost]
-    for each in lost:
-        print(f"rgss: {lost_line(each)}", file=sys.stderr)
+    report_lost(lost)
     return RUN_FAILED if lost else CLEAN
 
 
-@dataclass(frozen=True)
-class _Swept:
-    """What came of the trials of one stage."""
+def _print_result(swept: FinishedSweep, screened: ScreeningResult | None, label: str, *, as_json: bool) -> None:
+    from rgss.cli.output import print_json, print_lines
+    from rgss.cli.sweep import result_as_json, result_lines
+    from rgss.reports.decision import screening_lines, screening_to_json
 
-    trials: int
-    tally: Counter[str]
-    failures: Counter[str]
-    run_now: set[int]
-    result: SweepResult
-
-
-def _swept(
-    options: argparse.Namespace,
-    project: Project,
-    store: EvidenceStore,
-    specs: Sequence[TrialSpec],
-    crew: ExecutionBackend,
-) -> _Swept:
-    from rgss.cli.sweep import SweepProgress
-    from rgss.sweep import sweep
-
-    tally: Counter[str] = Counter()
-    failures: Counter[str] = Counter()
-    run_now: set[int] = set()
-
-    def on_finished(trial: FinishedTrial) -> None:
-        record = trial.record
-        tally["run" if trial.fresh else "kept"] += 1
-        if trial.fresh:
-            run_now.add(record.variant)
-        tally["succeeded" if record.success else "failed"] += 1
-        if record.failure is not None and record.failed_phase is not None:
-            failures[f"{record.failure.value} at {record.failed_phase.value}"] += 1
-        progress.finished(tally)
-
-    with SweepProgress(len(specs)) as progress:
-        result = sweep(
-            specs,
-            store,
-            jobs=crew.jobs,
-            on_finished=on_finished,
-            on_state=progress.state,
-            share=not options.no_share,
-            origin=lambda: crew.origin(project.folder),
-            workers_for=crew.workers,
-        )
-    return _Swept(trials=len(specs), tally=tally, failures=failures, run_now=run_now, result=result)
+    tally = swept.tally
+    if as_json:
+        document = result_as_json(swept.trials, tally.counts, tally.failures, swept.result, label)
+        print_json(document if screened is None else {**document, "screening": screening_to_json(screened)})
+        return
+    if screened is not None:
+        print_lines(screening_lines(screened))
+    print_lines(result_lines(swept.trials, tally.counts, tally.failures, swept.result, label))
 
 
 def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[DesignVariant]) -> int:

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_fidelity, add_replicates, chosen_project
-from rgss.cli.trace_output import FORMATS, TABLES, deliver, ordered
+from rgss.cli.trace_output import TABLES, deliver, ordered
 from rgss.errors import DefinitionError
+from rgss.reports.trace import TRACE_FORMATS
 
 if TYPE_CHECKING:
     from rgss.studies import Project
@@ -33,8 +34,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--variant", type=int, metavar="N", help="show the evidence of this variant (default: the one that is chosen)"
     )
     parser.add_argument("--table", choices=TABLES, metavar="NAME", help=f"only this table: {', '.join(TABLES)}")
+    formats = [one.name for one in TRACE_FORMATS]
     parser.add_argument(
-        "--format", choices=FORMATS, metavar="FORMAT", help=f"{', '.join(FORMATS)} (default: by the ending of the file)"
+        "--format", choices=formats, metavar="FORMAT", help=f"{', '.join(formats)} (default: by the ending of the file)"
     )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write a file, or files into a folder")
     parser.add_argument("--diagrams", type=Path, metavar="DIR", help="write the diagrams as SVG files into a folder")

@@ -1,22 +1,20 @@
-"""``rgss trade``: the decision, why, what nearly won, and what would change it."""
+"""``rgss trade``: the decision, the reasons for it, what nearly won, and what would change it."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
 
 if TYPE_CHECKING:
-    from rgss.assessment import VariantMeasures
     from rgss.decision import ScreeningResult
-    from rgss.decision.robustness import Robustness
+    from rgss.decision.study_decision import StudyDecision
     from rgss.decision.what_if import Scenario
     from rgss.evidence import EvidenceStore
     from rgss.studies import Project
-    from rgss.tradeoff import Decision, PortfolioDecision, SolverRun
+    from rgss.tradeoff import PortfolioDecision, SolverRun
 
 HELP = "decide which variant is best, say why, and what would change that"
 EXAMPLE = 'rgss trade --what-if weight.t_e=0.4 --what-if "SYS-012.threshold=0.9 kg"'
@@ -66,13 +64,12 @@ def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement, a choice is not proven best, or a part is not computed."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import shown_path
-    from rgss.cli.sweep import reopened_lines, screening_lines
-    from rgss.cli.trade import decision_section, text_with_place, with_section
-    from rgss.decision import choose, measure_survivors
-    from rgss.decision.what_if import measured_in, suppose
-    from rgss.documents import write_output
+    from rgss.decision import measure_survivors
+    from rgss.decision.study_decision import decide_study
+    from rgss.decision.what_if import suppose
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
+    from rgss.reports.decision import text_with_place
     from rgss.tradeoff import SolverCheck, independent_run
 
     if options.into is not None and not options.section:
@@ -81,42 +78,46 @@ def run(options: argparse.Namespace) -> int:
         raise DefinitionError("--section is of the study as it is", hint="leave --what-if and --json away")
     time_limit = seconds_of(options.time_limit)
     independent = () if options.solver_check is None else (independent_run(SolverCheck(options.solver_check)),)
-    place = None if options.into is None else text_with_place(options.into)
+    # Read before anything is computed: it may have no place for the section.
+    text = None if options.into is None else text_with_place(options.into)
     project = chosen_project(options)
     scenario = suppose(project, options.what_if) if options.what_if else None
     label = shown_path(project.evidence)
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store)
         more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
-        fleet = portfolio_of(project, store, time_limit=time_limit, independent=independent)
-    before = (project, measured, choose(project, measured, independent=independent))
-    now = before
-    if scenario is not None:
-        supposed = measured_in(scenario, measured)
-        now = (scenario.project, supposed, choose(scenario.project, supposed, independent=independent))
-    found = None if options.brief and not options.section else _robustness(now)
-    if options.section and found is not None:
-        section = decision_section(*now, found)
-        if place is None:
-            print(section)
-        else:
-            write_output(options.into, with_section(place, section).encode("utf-8"), replace_source=True)
-            print(f"Wrote the decision into {options.into}.")
-    elif options.json:
-        _print_document(now, found, scenario, before[2], fleet, label, _screening(screened, more))
+        portfolio = portfolio_of(project, store, time_limit=time_limit, independent=independent)
+    made = decide_study(
+        project,
+        measured,
+        evidence=label,
+        analysed=options.section or not options.brief,
+        independent=independent,
+        portfolio=portfolio,
+        screened=screened,
+        scenario=scenario,
+        reopened=more,
+    )
+    _print(options, made, text)
+    return CLEAN if made.is_final else FINDINGS
+
+
+def _print(options: argparse.Namespace, made: StudyDecision, text: str | None) -> None:
+    """Print the decision, or write it into the text of the file that is named."""
+    from rgss.cli.output import print_json, print_lines
+    from rgss.documents import write_output
+    from rgss.reports.decision import decision_lines, decision_section, trade_document, with_section
+
+    if options.json:
+        print_json(trade_document(made))
+    elif not options.section:
+        print_lines(decision_lines(made, effects=options.effects))
+    elif text is None:
+        print(decision_section(made))
     else:
-        _print_page(options, before, now, scenario, found, fleet, label)
-        if screened is not None:
-            print("\n" + "\n".join([*screening_lines(screened), *reopened_lines(more)]))
-    is_whole = found is None or not found.not_computed
-    return CLEAN if is_settled(now[2], fleet) and is_whole else FINDINGS
-
-
-def is_settled(decision: Decision, fleet: PortfolioDecision | None) -> bool:
-    """Whether a variant is chosen, the fleet too where there is one, and both are proven best."""
-    from rgss.tradeoff import DecisionStatus
-
-    return decision.status is DecisionStatus.OPTIMAL and (fleet is None or fleet.status is DecisionStatus.OPTIMAL)
+        content = with_section(text, decision_section(made)).encode("utf-8")
+        write_output(options.into, content, replace_source=True)
+        print(f"Wrote the decision into {options.into}.")
 
 
 def seconds_of(text: str | None) -> float | None:
@@ -149,20 +150,8 @@ def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, s
     return reopened(screened, scenario.project, measured_in(scenario, first))
 
 
-def _screening(screened: ScreeningResult | None, more: Sequence[int]) -> dict[str, Any] | None:
-    from rgss.cli.sweep import screening_as_json
-
-    return None if screened is None else {**screening_as_json(screened), "would_go_on": list(more)}
-
-
-def _robustness(side: tuple[Project, Sequence[VariantMeasures], Decision]) -> Robustness:
-    from rgss.decision.robustness import analyse_robustness
-
-    return analyse_robustness(*side)
-
-
 def portfolio_of(
-    project: Project, store: Any, *, time_limit: float | None = None, independent: tuple[SolverRun, ...] = ()
+    project: Project, store: EvidenceStore, *, time_limit: float | None = None, independent: tuple[SolverRun, ...] = ()
 ) -> PortfolioDecision | None:
     """The portfolio of the study, from the evidence of every study that it serves; None if it has none."""
     if project.study.trade_off.fleet is None:
@@ -172,56 +161,3 @@ def portfolio_of(
     projects = portfolio_projects(project)
     measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
     return choose_portfolio(project, measured, time_limit=time_limit, independent=independent)
-
-
-def _print_page(
-    options: argparse.Namespace,
-    before: tuple[Project, Sequence[VariantMeasures], Decision],
-    now: tuple[Project, Sequence[VariantMeasures], Decision],
-    scenario: Scenario | None,
-    found: Robustness | None,
-    fleet: PortfolioDecision | None,
-    label: str,
-) -> None:
-    from rgss.cli.trade import (
-        print_cautions,
-        print_certificate,
-        print_decision,
-        print_effects,
-        print_heading,
-        print_portfolio,
-        print_robustness,
-        print_what_if,
-    )
-
-    project, measured, decision = now
-    print_heading(project, measured)
-    if scenario is not None:
-        print_what_if(scenario, before, now)
-        print("\nThe decision under these suppositions\n")
-    print_decision(project, measured, decision)
-    if found is not None:
-        print_robustness(project, decision, found)
-        if options.effects and found.effects.measures:
-            print_effects(project, found.effects)
-    if fleet is not None:
-        print_portfolio(fleet)
-    print()
-    if decision.chosen is not None:
-        print_cautions(project, decision)
-    print_certificate(decision, label)
-
-
-def _print_document(
-    now: tuple[Project, Sequence[VariantMeasures], Decision],
-    found: Robustness | None,
-    scenario: Scenario | None,
-    before: Decision,
-    fleet: PortfolioDecision | None,
-    label: str,
-    screening: dict[str, Any] | None,
-) -> None:
-    from rgss.cli.output import print_json
-    from rgss.cli.trade import trade_document
-
-    print_json({**trade_document(now[0], now[2], found, scenario, before, fleet, label), "screening": screening})

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections import Counter
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_study, chosen_project
+from rgss.reports.variants import VARIANT_FORMATS, variant_format
 
 if TYPE_CHECKING:
     from rgss.designs import DesignSpace
@@ -30,33 +32,29 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     add_study(parser)
     parser.add_argument("--only", action="append", metavar="WHICH", help=ONLY_HELP)
-    parser.add_argument("--format", choices=("table", "csv", "json"), default="table", help="how to list them")
+    parser.add_argument(
+        "--format", choices=[one.name for one in VARIANT_FORMATS], default="table", help="how to list them"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """List the variants."""
-    import sys
-
-    from rgss.cli.output import print_json
     from rgss.cli.safe_output import data_stream
-    from rgss.cli.variants_table import print_variants
-    from rgss.designs import picked, variants_csv
+    from rgss.designs import picked
 
     designs = chosen_project(options).designs
     variants = picked(designs, options.only or ())
-    if options.json or options.format == "json":
-        print_json([{"id": variant.id, "parameters": dict(variant.columns())} for variant in variants])
-    elif options.format == "csv":
-        data_stream().write(variants_csv(variants))
-    else:
-        print_variants(designs, variants)
+    chosen = variant_format("json" if options.json else options.format)
+    stream = data_stream() if chosen.is_data else sys.stdout
+    for text in chosen.write(designs, variants):
+        stream.write(text)
     for line in _left_out(designs):
         print(f"rgss: {line}", file=sys.stderr)
     return 0
 
 
 def _left_out(designs: DesignSpace) -> list[str]:
-    """What was looked at and makes no variant; nothing where all of it does."""
+    """Sampled points and combinations that make no variant; nothing where all make one."""
     lines = []
     if designs.sample is not None:
         sample = designs.sample

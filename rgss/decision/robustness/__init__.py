@@ -6,15 +6,17 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.decision.robustness.assumptions import AssumptionFinding
-    from rgss.decision.robustness.effects import FactorLevels, MeasureEffects, StudyEffects, leading_factors
-    from rgss.decision.robustness.export import assumptions_to_json, costs_to_json, robustness_to_json, scenario_to_json
+    from rgss.decision.robustness.cost_box import CostBox
+    from rgss.decision.robustness.effect_findings import FactorLevels, MeasureEffects, StudyEffects, leading_factors
+    from rgss.decision.robustness.findings import RequirementPrice, Robustness, WeightRobustness
     from rgss.decision.robustness.parts import Part, not_computed_lines
-    from rgss.decision.robustness.robustness import RequirementPrice, Robustness, WeightRobustness, analyse_robustness
+    from rgss.decision.robustness.robustness import analyse_robustness
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
     "AssumptionFinding",
+    "CostBox",
     "FactorLevels",
     "MeasureEffects",
     "Part",
@@ -23,10 +25,6 @@ __all__ = [
     "StudyEffects",
     "WeightRobustness",
     "analyse_robustness",
-    "assumptions_to_json",
-    "costs_to_json",
     "leading_factors",
     "not_computed_lines",
-    "robustness_to_json",
-    "scenario_to_json",
 ]

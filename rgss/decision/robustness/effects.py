@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rgss.assessment import VariantMeasures, replicates_of
+from rgss.decision.robustness.effect_findings import FactorLevels, MeasureEffects, StudyEffects
 from rgss.measures import Measure, MeasureKind
 from rgss.studies import Project
 from rgss.tradeoff.problem import Resamples
 from rgss.tradeoff.robustness import (
     FEWEST_PER_CLASS,
-    FactorialAnalysis,
-    SampledIndex,
     classes_of,
     factorial_effects,
     first_order_indices,
@@ -26,62 +25,6 @@ from rgss.tradeoff.robustness import (
 
 SAMPLE_RESAMPLES = 200
 """Resamples of sampled designs for the intervals of shares."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FactorLevels:
-    """A factor of the design space as effects name it.
-
-    Attributes:
-        id: Its id.
-        parameters: The design parameters that it sets together; their effects cannot be told apart.
-        levels: The ids of its levels.
-    """
-
-    id: str
-    parameters: tuple[str, ...]
-    levels: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MeasureEffects:
-    """The effects of all factors on one measure.
-
-    Attributes:
-        measure: The measure.
-        unit: Its unit.
-        factors: The factors with the levels that were analysed.
-        left_out: The levels that were left out because a design with them has no estimate, as
-            ``factor=level``; without them the design is balanced again.
-        designs: How many designs were analysed.
-        analysis: The effects; None where no balanced block of designs has estimates, and where the
-            designs are a sample.
-        sampled: Of designs that are a sample, the share of each factor alone with its interval, by
-            factor; empty otherwise, and where too few designs have estimates.
-    """
-
-    measure: str
-    unit: str
-    factors: tuple[FactorLevels, ...]
-    left_out: tuple[str, ...]
-    designs: int
-    analysis: FactorialAnalysis | None
-    sampled: Mapping[str, SampledIndex] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class StudyEffects:
-    """The effects on every measure.
-
-    Attributes:
-        factors: The factors that vary.
-        constants: The design parameters that do not, and so have no effect that could be seen.
-        measures: The effects on each measure, in the order of the file.
-    """
-
-    factors: tuple[FactorLevels, ...]
-    constants: tuple[str, ...]
-    measures: tuple[MeasureEffects, ...]
 
 
 def study_effects(project: Project, measured: Sequence[VariantMeasures], resamples: Resamples | None) -> StudyEffects:
@@ -314,22 +257,3 @@ def _effects(
 
 def _number(value: float | None) -> float:
     return float("nan") if value is None else value
-
-
-def leading_factors(effects: MeasureEffects, *, least: float = 0.01) -> Mapping[str, float]:
-    """The factors by the share of a measure's differences that they take part in, the largest first.
-
-    Of designs that are a sample it is the share that each explains alone.
-
-    Args:
-        effects: The effects on the measure.
-        least: Smaller shares are left out.
-    """
-    shares = sorted(_shares(effects).items(), key=lambda item: -item[1])
-    return {factor: share for factor, share in shares if share >= least}
-
-
-def _shares(effects: MeasureEffects) -> Mapping[str, float]:
-    if effects.analysis is not None:
-        return effects.analysis.total_order
-    return {factor: index.share for factor, index in effects.sampled.items()}

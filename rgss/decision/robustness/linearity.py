@@ -1,4 +1,4 @@
-"""Whether a measure is linear in numbers that it stands on, read off its expression."""
+"""Linearity of a measure in the numbers that it depends on, from its expression."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ class Remeasuring:
         return column if column in known else column.rpartition(".")[0]
 
     def affected(self, number: ModelNumber) -> tuple[str, ...]:
-        """The columns that stand on a number."""
+        """The columns that depend on a number."""
         measures = self.project.measures
         symbols = symbols_of(measures, number)
         return tuple(column for column in self.table.measures if symbols & measures.used[self.measure_of(column)])

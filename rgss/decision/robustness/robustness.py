@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import trade_problem
-from rgss.decision.robustness.assumptions import AssumptionFinding, CostBox, assumption_findings, cost_box
-from rgss.decision.robustness.effects import StudyEffects, study_effects
-from rgss.decision.robustness.parts import NotComputed, Part, PartComputer
+from rgss.decision.robustness.assumptions import AssumptionFinding, assumption_findings
+from rgss.decision.robustness.cost_box import CostBox, cost_box
+from rgss.decision.robustness.effect_findings import StudyEffects
+from rgss.decision.robustness.effects import study_effects
+from rgss.decision.robustness.findings import RequirementPrice, Robustness, WeightRobustness
+from rgss.decision.robustness.parts import Part, PartComputer
 from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.errors import TradeoffError
 from rgss.studies import Project
-from rgss.tradeoff import AdditiveValue, Condition, Decision, TradeProblem
+from rgss.tradeoff import AdditiveValue, Decision, TradeProblem
 from rgss.tradeoff.problem import Comparison, EvidenceTable, Resamples, bootstrap
 from rgss.tradeoff.programs import (
     condition_column,
@@ -26,15 +29,11 @@ from rgss.tradeoff.programs import (
     weighted_values,
 )
 from rgss.tradeoff.robustness import (
-    Acceptability,
     Outcomes,
     OutcomeSource,
     ParetoFront,
-    PriceStep,
     RankReversal,
     ResampledOutcomes,
-    WeightRange,
-    WeightShift,
     admitted_weights,
     condition_masks,
     pareto_front,
@@ -46,7 +45,7 @@ from rgss.tradeoff.robustness import (
     weight_ranges,
     weight_shifts,
 )
-from rgss.tradeoff.weights import WeightRegion, winning_regions
+from rgss.tradeoff.weights import winning_regions
 
 ITERATIONS = 20_000
 """Draws of weights and noise for the acceptability; its standard errors are below 0.0036."""
@@ -55,86 +54,8 @@ DRAWN_RESAMPLES = 1_000
 """Resamples of the replicates where not all can be taken."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RequirementPrice:
-    """What a requirement costs.
-
-    Attributes:
-        condition: What is demanded.
-        steps: How the choice and the feasible set change with its limit, from loose to tight; rows
-            are those of the analysis.
-    """
-
-    condition: Condition
-    steps: tuple[PriceStep, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class WeightRobustness:
-    """What other weights would do to a choice by weighted value.
-
-    Attributes:
-        elicited: Whether the weights are bounded by what was elicited; all weights otherwise.
-        regions: The weights at which each alternative wins.
-        shifts: The nearest weights at which each wins, the nearest first.
-        ranges: How far each weight may move alone.
-        acceptability: The indices of SMAA-2 over weights and noise; over weights alone where
-            there is no noise to draw from.
-        with_noise: Whether they are over noise too.
-
-    A part that could not be computed is None, and `Robustness.not_computed` says why.
-    """
-
-    elicited: bool
-    regions: tuple[WeightRegion, ...] | None
-    shifts: tuple[WeightShift, ...] | None
-    ranges: tuple[WeightRange, ...] | None
-    acceptability: Acceptability | None
-    with_noise: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Robustness:
-    """How robust a decision is.
-
-    Attributes:
-        variants: The ids of the rows of everything below, ascending.
-        measures: The measures with a weight above 0: the columns of weights.
-        weights: Their weights.
-        values: What each alternative is worth in them, shape (n, m); NaN where unknown.
-        feasible: Which alternatives meet every demand.
-        front: The Pareto front of the feasible ones.
-        weighting: What other weights would do; None where `refused` says why.
-        assumptions: How far each assumed number may be wrong; empty where `refused` says why.
-        costs: How far all assumed costs together may be wrong; None where `refused` says why.
-        prices: What each demand costs.
-        reversals: Removals of an alternative that change the order of the others, under the
-            study's program; none for values that are anchored on requirements.
-        stretched: The same had the values been stretched between the extremes of the sample.
-        effects: What each factor does to each measure.
-        resamples: How many resamples of the replicates stand for the noise; 0 without noise.
-        all_resamples: Whether these are all there are.
-        refused: Why an analysis does not apply, by its name.
-        not_computed: Why a part could not be computed; what stands for it here is empty.
-    """
-
-    variants: tuple[int, ...]
-    measures: tuple[str, ...]
-    weights: NDArray[np.float64]
-    values: NDArray[np.float64]
-    feasible: NDArray[np.bool_]
-    front: ParetoFront
-    weighting: WeightRobustness | None
-    assumptions: tuple[AssumptionFinding, ...]
-    costs: CostBox | None
-    prices: tuple[RequirementPrice, ...]
-    reversals: tuple[RankReversal, ...]
-    stretched: tuple[RankReversal, ...]
-    effects: StudyEffects
-    resamples: int
-    all_resamples: bool
-    refused: Mapping[str, str]
-    not_computed: Mapping[Part, NotComputed]
+_NO_EFFECTS = StudyEffects(factors=(), constants=(), measures=())
+_Assumed = tuple[tuple[AssumptionFinding, ...], CostBox | None]
 
 
 def analyse_robustness(
@@ -144,7 +65,7 @@ def analyse_robustness(
     *,
     problem: TradeProblem | None = None,
 ) -> Robustness:
-    """Question a decision from every side.
+    """Analyse the robustness of a decision.
 
     Nothing is simulated; randomness comes from the study's seed alone, so that the same evidence
     gives the same answers.
@@ -164,49 +85,52 @@ def analyse_robustness(
     enumeration = enumerate_alternatives(problem)
     table, feasible = enumeration.table, enumeration.feasible
     refused: dict[str, str] = {}
+    parts = PartComputer()
     generator = np.random.default_rng(project.study.seed)
     resamples = _resamples(table, generator, refused)
     values = single_values(problem, table)
-    deciding = problem.weighting.deciding_measures
-    weights = np.array([problem.weighting.weights[measure] for measure in deciding])
+    weights = np.array([problem.weighting.weights[measure] for measure in problem.weighting.deciding_measures])
     chosen = None if decision.chosen is None else table.row_of(decision.chosen)
-
-    parts = PartComputer()
     weighting: WeightRobustness | None = None
-    assumptions: tuple[AssumptionFinding, ...] = ()
-    costs: CostBox | None = None
+    assumed: _Assumed = (), None
     reason = _no_weights(problem, chosen)
     if chosen is not None and not reason:
         weighting = _weighting(problem, table, feasible, values, weights, chosen, resamples, generator, parts)
-        remeasuring = Remeasuring.of(project, measured, table)
-        assumptions = parts.compute(Part.ASSUMPTIONS, lambda: assumption_findings(remeasuring, problem, chosen), ())
-        box = parts.compute(Part.COSTS, lambda: cost_box(remeasuring, problem, chosen), None)
-        if isinstance(box, str):
-            refused["costs"] = box
-        else:
-            costs = box
+        assumed = _assumed(Remeasuring.of(project, measured, table), problem, chosen, parts, refused)
     else:
         refused.update(dict.fromkeys(("weights", "assumptions", "costs"), reason))
-    no_effects = StudyEffects(factors=(), constants=(), measures=())
     return Robustness(
         variants=tuple(int(variant) for variant in table.variants),
-        measures=deciding,
+        measures=problem.weighting.deciding_measures,
         weights=weights,
         values=values,
         feasible=feasible,
         front=parts.compute(Part.PARETO, lambda: pareto_front(values, feasible), ParetoFront(points=())),
         weighting=weighting,
-        assumptions=assumptions,
-        costs=costs,
+        assumptions=assumed[0],
+        costs=assumed[1],
         prices=parts.compute(Part.PRICES, lambda: _prices(problem, table), ()),
         reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
         stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
-        effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, measured, resamples), no_effects),
+        effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, measured, resamples), _NO_EFFECTS),
         resamples=0 if resamples is None else len(resamples.probabilities),
         all_resamples=resamples is not None and resamples.exact,
         refused=refused,
         not_computed=parts.missing,
     )
+
+
+def _assumed(
+    remeasuring: Remeasuring, problem: TradeProblem, chosen: int, parts: PartComputer, refused: dict[str, str]
+) -> _Assumed:
+    """The range of each assumed number, and of all costs together."""
+    none: tuple[AssumptionFinding, ...] = ()
+    assumptions = parts.compute(Part.ASSUMPTIONS, lambda: assumption_findings(remeasuring, problem, chosen), none)
+    box = parts.compute(Part.COSTS, lambda: cost_box(remeasuring, problem, chosen), None)
+    if isinstance(box, str):
+        refused["costs"] = box
+        return assumptions, None
+    return assumptions, box
 
 
 def _no_weights(problem: TradeProblem, chosen: int | None) -> str:
@@ -318,7 +242,7 @@ def _stretched(
 
 
 def _of_rows(reversals: Sequence[RankReversal], rows: NDArray[np.intp]) -> tuple[RankReversal, ...]:
-    """Reversals among some rows, told by the rows of the table."""
+    """Reversals among some rows, by the rows of the table."""
     return tuple(
         replace(
             one,

@@ -1,4 +1,4 @@
-"""Which variants the rules of a design space allow at another value of a number."""
+"""Variants that the rules of a design space allow at another value of a number."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Allowed = Callable[[float], NDArray[np.bool_]]
 
 
 def allowed_variants(project: Project, measured: Sequence[VariantMeasures], number: ModelNumber) -> Allowed:
-    """What tells which variants are allowed at a value of a number, shape (n,)."""
+    """Function from a value of a number to the mask of the variants that are allowed, shape (n,)."""
     rules = [rule for rule in project.designs.rules if number.component and _names(rule, number)]
 
     def allowed(value: float) -> NDArray[np.bool_]:
@@ -50,7 +50,7 @@ def rule_kinks(project: Project, measured: Sequence[VariantMeasures], number: Mo
 
 
 def _names(rule: Rule, number: ModelNumber) -> bool:
-    """Whether a rule holds against each other what a number is part of."""
+    """Whether a rule compares quantities of which a number is a part."""
     if isinstance(rule.require, Limit):
         return number.source in (*rule.require.product_of, rule.require.at_most)
     return isinstance(rule.require, Constraint) and number.source in rule.require.names

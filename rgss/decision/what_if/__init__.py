@@ -13,8 +13,10 @@ if TYPE_CHECKING:
         symbols_of,
         variant_with,
     )
+    from rgss.decision.what_if.remeasured import measured_in
+    from rgss.decision.what_if.scenario import Change, Scenario
     from rgss.decision.what_if.simulated import simulated_numbers
-    from rgss.decision.what_if.what_if import Change, Scenario, measured_in, suppose
+    from rgss.decision.what_if.what_if import suppose
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 

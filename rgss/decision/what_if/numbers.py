@@ -89,7 +89,7 @@ def symbols_of(measures: MeasureSet, number: ModelNumber) -> frozenset[str]:
 
 
 def with_number(project: Project, number: ModelNumber, value: float) -> Project:
-    """The project with another value of one number; what stands on it follows.
+    """The project with another value of one number; what depends on it follows.
 
     Args:
         project: The project.

@@ -25,7 +25,7 @@ def simulated_numbers(
         before = next((one for one in variants if variant_with(one, number, number.value + 1.0) is not one), None)
         if before is not None:
             asked.append(number)
-            # Any other value tells, for the key of a trial is a digest of all that it is made of.
+            # Any other value serves, since the key of a trial is a digest of all that it is made of.
             pairs += [before, variant_with(before, number, number.value * 1.5 + 1.0)]
     if not asked:
         return frozenset()

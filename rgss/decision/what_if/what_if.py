@@ -1,23 +1,21 @@
-"""What if a weight, a threshold, an anchor of a value or a number of the model were another."""
+"""Suppositions on weights, thresholds, anchors of values and numbers of the model."""
 
 from __future__ import annotations
 
 import difflib
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
-from rgss.assessment import VariantMeasures
 from rgss.decision.preference_model import quantity_of
 from rgss.decision.what_if.demands import THRESHOLD, demand_numbers, share_checked
-from rgss.decision.what_if.numbers import CATALOGUE, MEASURES, model_numbers, symbols_of, variant_with, with_number
+from rgss.decision.what_if.numbers import CATALOGUE, MEASURES, model_numbers, with_number
+from rgss.decision.what_if.scenario import Change, Scenario
 from rgss.decision.what_if.simulated import simulated_numbers
 from rgss.decision.what_if.weights import with_weights
-from rgss.designs import sources
 from rgss.errors import DefinitionError, EvidenceError, QuantityError
 from rgss.findings import shown
-from rgss.measures import Estimate, design_values, evaluate
 from rgss.quantities import parse_quantity
 from rgss.studies import Project, value_anchors
 from rgss.tradeoff import weights_of_criteria
@@ -25,44 +23,6 @@ from rgss.tradeoff.problem import EVIDENCE_PREFIX
 
 WEIGHT, VALUE = "weight", "value"
 EXAMPLE = 'weight.t_e=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Change:
-    """One thing that is supposed to be another.
-
-    Attributes:
-        id: What it is, such as ``weight.t_e``.
-        before: Its value.
-        after: The value that is supposed.
-        unit: The unit of both.
-    """
-
-    id: str
-    before: float
-    after: float
-    unit: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Scenario:
-    """A project under suppositions.
-
-    Attributes:
-        project: The project as it would be.
-        changes: What was asked for, in the order in which it was.
-        rescaled: The weights that follow from those that were asked for: the others keep their
-            proportions so that all sum to 1.
-        dropped: Variants that the rules of the design space would no longer allow.
-        simulated: The numbers that the trials were simulated with, by id: what trials showed is
-            held, though another value asks for other trials.
-    """
-
-    project: Project
-    changes: tuple[Change, ...]
-    rescaled: tuple[Change, ...]
-    dropped: tuple[int, ...]
-    simulated: tuple[str, ...]
 
 
 def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
@@ -104,24 +64,42 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         changes.append(change)
     rescaled: tuple[Change, ...] = ()
     if weights:
-        before = dict(project.study.trade_off.weighting.weights)
-        trade_off = with_weights(changed.study.trade_off, weights)
-        changed = replace(changed, study=replace(changed.study, trade_off=trade_off))
-        after = trade_off.weighting.weights
-        rescaled = tuple(
-            Change(id=f"{WEIGHT}.{measure}", before=before[measure], after=after[measure], unit="1")
-            for measure in after
-            if measure not in weights and not math.isclose(before[measure], after[measure], abs_tol=1e-12)
-        )
+        changed, rescaled = _reweighted(changed, weights)
     changed = replace(
         changed,
-        study=replace(
-            changed.study,
-            values=value_anchors(changed.study.trade_off, partial(quantity_of, changed)),
-        ),
+        study=replace(changed.study, values=value_anchors(changed.study.trade_off, partial(quantity_of, changed))),
     )
-    there = {variant.id for variant in changed.designs.expand()}
-    was_there = {variant.id for variant in project.designs.expand()}
+    return Scenario(
+        project=changed,
+        changes=tuple(changes),
+        rescaled=rescaled,
+        dropped=_dropped(project, changed),
+        simulated=_simulated(project, changes),
+    )
+
+
+def _reweighted(project: Project, weights: Mapping[str, float]) -> tuple[Project, tuple[Change, ...]]:
+    """The project with some weights moved, and the changes of the others that follow."""
+    before = dict(project.study.trade_off.weighting.weights)
+    trade_off = with_weights(project.study.trade_off, weights)
+    after = trade_off.weighting.weights
+    rescaled = tuple(
+        Change(id=f"{WEIGHT}.{measure}", before=before[measure], after=after[measure], unit="1")
+        for measure in after
+        if measure not in weights and not math.isclose(before[measure], after[measure], abs_tol=1e-12)
+    )
+    return replace(project, study=replace(project.study, trade_off=trade_off)), rescaled
+
+
+def _dropped(before: Project, after: Project) -> tuple[int, ...]:
+    """The variants that the rules of the design space no longer allow.
+
+    Raises:
+        EvidenceError: They allow variants that they did not allow before.
+        DefinitionError: They allow none.
+    """
+    there = {variant.id for variant in after.designs.expand()}
+    was_there = {variant.id for variant in before.designs.expand()}
     if there - was_there:
         raise EvidenceError(
             f"--what-if: variants {', '.join(map(str, sorted(there - was_there)))} would become possible, "
@@ -132,61 +110,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         raise DefinitionError(
             "--what-if: the rules of the design space would then allow no variant", hint="suppose less"
         )
-    return Scenario(
-        project=changed,
-        changes=tuple(changes),
-        rescaled=rescaled,
-        dropped=tuple(sorted(was_there - there)),
-        simulated=_simulated(project, changes),
-    )
-
-
-def measured_in(scenario: Scenario, measured: Sequence[VariantMeasures]) -> tuple[VariantMeasures, ...]:
-    """The estimates of every variant under suppositions, from the trials that there are.
-
-    Args:
-        scenario: The suppositions.
-        measured: Every variant with its estimates and records, as the project is.
-    """
-    project = scenario.project
-    numbers = {number.id: number for number in model_numbers(project)}
-    changed = [(numbers[change.id], change.after) for change in scenario.changes if change.id in numbers]
-    symbols = frozenset().union(*(symbols_of(project.measures, number) for number, _ in changed))
-    affected = frozenset(name for name, used in project.measures.used.items() if symbols & used)
-    found = []
-    for entry in measured:
-        if entry.variant.id in scenario.dropped:
-            continue
-        if not changed:
-            found.append(entry)
-            continue
-        variant = entry.variant
-        for number, value in changed:
-            variant = variant_with(variant, number, value)
-        estimates = _estimates(project, replace(entry, variant=variant), affected)
-        found.append(replace(entry, variant=variant, estimates=estimates))
-    return tuple(found)
-
-
-def _estimates(project: Project, entry: VariantMeasures, affected: frozenset[str]) -> Mapping[str, Estimate]:
-    """A variant's estimates, of which only some measures are affected."""
-    measures = project.measures
-    fixed = sources(entry.variant)
-    if any(measures.measure(name).from_trials for name in affected):
-        return evaluate(
-            measures,
-            fixed=fixed,
-            trials=[record.metrics for record in entry.records],
-            seed=project.study.seed,
-            variant=entry.variant.id,
-        )
-    # What follows from the design alone needs no interval, and the rest stays as it is.
-    values = design_values(measures, fixed=fixed, variant=entry.variant.id)
-    changed = {
-        name: Estimate.exact(values[name] / measures.measure(name).si_per_unit, measures.measure(name).unit)
-        for name in affected
-    }
-    return {name: changed.get(name, estimate) for name, estimate in entry.estimates.items()}
+    return tuple(sorted(was_there - there))
 
 
 def _simulated(project: Project, changes: Sequence[Change]) -> tuple[str, ...]:
@@ -213,7 +137,7 @@ def _full_name(project: Project, name: str) -> str:
     if name.startswith(EVIDENCE_PREFIX):
         raise DefinitionError(
             f"--what-if: {shown(name)} demands that a measure is known, which is no number",
-            hint="run trials that tell it, or suppose another threshold",
+            hint="run trials that show it, or suppose another threshold",
         )
     trade_off = project.study.trade_off
     threshold = f"{name}.{THRESHOLD}"

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
+from rgss.exchange.reqif.identifiers import type_identifier
 from rgss.exchange.reqif.prose import from_xhtml
 from rgss.exchange.reqif.vocabulary import MEASURE, TOOL, TYPE_NAMES, attribute_name
-from rgss.exchange.reqif.writing import type_identifier
 from rgss.findings import shown
 
 _MOST_NAMED = 8
@@ -56,7 +56,7 @@ class ObjectReader:
         Args:
             bundle: What the library has read.
             known: What the elements of the project are, by id.
-            part: What an element is that neither the file nor the project tells.
+            part: What an element is that neither the file nor the project says.
         """
         core = bundle.core_content.req_if_content
         tool = getattr(bundle.req_if_header, "req_if_tool_id", None) or ""

@@ -27,7 +27,7 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
     """Read requirements, architecture and measures from ReqIF.
 
     Attributes and relations of other tools are recognised by their names; what is not
-    recognised is told in the notes.
+    recognised is reported in the notes.
 
     Args:
         path: The file.

@@ -11,6 +11,15 @@ from rgss.errors import DefinitionError
 from rgss.exchange.attributes import ATTRIBUTES, Attribute, Form, Part
 from rgss.exchange.cells import ids_in
 from rgss.exchange.content import Content, Row
+from rgss.exchange.reqif.identifiers import (
+    FLAG,
+    STRING,
+    XHTML,
+    choice_identifier,
+    data_type_identifier,
+    object_identifier,
+    type_identifier,
+)
 from rgss.exchange.reqif.prose import as_xhtml, escaped
 from rgss.exchange.reqif.vocabulary import (
     ACTOR,
@@ -32,7 +41,6 @@ NO_TIME = "2000-01-01T00:00:00Z"
 # A quarter of the file. Texts have no break of a line of their own before a "<", see `as_xhtml`.
 _INDENTATION = re.compile(r">\n +<")
 _LONGEST_STRING = "100000"
-_STRING, _XHTML, _FLAG = ("data", "string"), ("data", "xhtml"), ("data", "boolean")
 _MEASURE_ATTRIBUTES = (
     Attribute(name="id", path=("id",), form=Form.LINE),
     Attribute(name="text", path=("text",), form=Form.PROSE),
@@ -120,12 +128,12 @@ def _part(row: Row) -> Part:
 
 def _data_types(models: Any) -> Iterator[Any]:
     yield models.ReqIFDataTypeDefinitionString(
-        identifier=identifier(*_STRING), last_change=NO_TIME, long_name="String", max_length=_LONGEST_STRING
+        identifier=identifier(*STRING), last_change=NO_TIME, long_name="String", max_length=_LONGEST_STRING
     )
     yield models.ReqIFDataTypeDefinitionXHTML(
-        identifier=identifier(*_XHTML), last_change=NO_TIME, long_name="XHTML", is_self_closed=True
+        identifier=identifier(*XHTML), last_change=NO_TIME, long_name="XHTML", is_self_closed=True
     )
-    yield models.ReqIFDataTypeDefinitionBoolean(identifier=identifier(*_FLAG), last_change=NO_TIME, long_name="Boolean")
+    yield models.ReqIFDataTypeDefinitionBoolean(identifier=identifier(*FLAG), last_change=NO_TIME, long_name="Boolean")
     for part, attributes in ATTRIBUTES.items():
         for attribute in attributes:
             if attribute.form is Form.CHOICE:
@@ -135,7 +143,7 @@ def _data_types(models: Any) -> Iterator[Any]:
                     long_name=f"{TYPE_NAMES[part]}: {attribute.name}",
                     values=[
                         models.ReqIFEnumValue(
-                            identifier=_choice_identifier(part.value, attribute, choice),
+                            identifier=choice_identifier(part.value, attribute, choice),
                             key=str(number),
                             last_change=NO_TIME,
                             long_name=choice,
@@ -144,10 +152,6 @@ def _data_types(models: Any) -> Iterator[Any]:
                         for number, choice in enumerate(attribute.choices)
                     ],
                 )
-
-
-def _choice_identifier(type_name: str, attribute: Attribute, choice: str) -> str:
-    return identifier("data", type_name, attribute.name, choice)
 
 
 def _spec_types(models: Any) -> Iterator[Any]:
@@ -175,7 +179,7 @@ def _object_type(models: Any, type_name: str, name: str, attributes: Sequence[At
             models.SpecAttributeDefinition(
                 attribute_type=_kind(models, attribute),
                 identifier=identifier("attribute", type_name, attribute.name),
-                datatype_definition=_data_type(type_name, attribute),
+                datatype_definition=data_type_identifier(type_name, attribute),
                 last_change=NO_TIME,
                 long_name=long_name(attribute),
                 multi_valued=False if attribute.form is Form.CHOICE else None,
@@ -186,15 +190,6 @@ def _object_type(models: Any, type_name: str, name: str, attributes: Sequence[At
     )
 
 
-def type_identifier(type_name: str) -> str:
-    """The identifier of a type of objects.
-
-    Args:
-        type_name: The value of a part, or `MEASURE`.
-    """
-    return identifier("object type", type_name)
-
-
 def _kind(models: Any, attribute: Attribute) -> Any:
     kinds = models.SpecObjectAttributeType
     if attribute.form is Form.CHOICE:
@@ -202,14 +197,6 @@ def _kind(models: Any, attribute: Attribute) -> Any:
     if attribute.form is Form.FLAG:
         return kinds.BOOLEAN
     return kinds.STRING if is_string(attribute) else kinds.XHTML
-
-
-def _data_type(type_name: str, attribute: Attribute) -> str:
-    if attribute.form is Form.CHOICE:
-        return identifier("data", type_name, attribute.name)
-    if attribute.form is Form.FLAG:
-        return identifier(*_FLAG)
-    return identifier(*(_STRING if is_string(attribute) else _XHTML))
 
 
 def _object(models: Any, type_name: str, name: str, attributes: Sequence[Attribute], cells: Any) -> Any:
@@ -229,14 +216,9 @@ def _object(models: Any, type_name: str, name: str, attributes: Sequence[Attribu
     )
 
 
-def object_identifier(name: str) -> str:
-    """The identifier of the object of an element or a measure."""
-    return identifier("object", name)
-
-
 def _value(type_name: str, attribute: Attribute, cell: str, where: str) -> str | list[str]:
     if attribute.form is Form.CHOICE:
-        return [_choice_identifier(type_name, attribute, cell)]
+        return [choice_identifier(type_name, attribute, cell)]
     if attribute.form is Form.FLAG or is_string(attribute):
         escaped(cell, where)  # the library escapes strings itself
         return cell

@@ -64,7 +64,7 @@ def use_case_diagram(behaviours: Iterable[Behaviour], blocks: Iterable[Block]) -
         name="use-cases",
         title="Use-case diagram",
         description=f"{len(cases)} use cases and {len(actors)} actors.",
-        telling=" ".join(
+        text_alternative=" ".join(
             f"{edge.source} {'includes' if edge.labels else 'takes part in'} {edge.target}." for edge in edges
         ),
     )
@@ -96,7 +96,7 @@ def activity_diagram(activity: Behaviour) -> Drawing | None:
         name=f"activity-{activity.id}",
         title=f"Activity diagram: {activity.name}",
         description=f"{activity.id}: {activity.text}",
-        telling=_told(edges, {node.id: node.text or node.kind.value for node in flow.nodes}),
+        text_alternative=_describe(edges, {node.id: node.text or node.kind.value for node in flow.nodes}),
     )
 
 
@@ -120,7 +120,7 @@ def state_diagram(behaviour: Behaviour) -> Drawing | None:
         name=f"states-{behaviour.id}",
         title=f"State diagram: {behaviour.name}",
         description=f"{behaviour.id}: {behaviour.text}",
-        telling=_told(edges, {state.id: state.name for state in machine.states}),
+        text_alternative=_describe(edges, {state.id: state.name for state in machine.states}),
     )
 
 
@@ -145,9 +145,9 @@ def _transitions(machine: StateMachine) -> Iterable[Edge]:
     ways: dict[tuple[str, str], list[str]] = {}
     failed = {state.id for state in machine.states if state.kind is StateKind.FAILED}
     for transition in machine.transitions:
-        told = [f"[{transition.guard}]"] if transition.guard else []
-        told += [transition.failure] if transition.failure else []
-        ways.setdefault((transition.source, transition.target), []).append(" ".join(told))
+        parts = [f"[{transition.guard}]"] if transition.guard else []
+        parts += [transition.failure] if transition.failure else []
+        ways.setdefault((transition.source, transition.target), []).append(" ".join(parts))
     for (source, target), labels in ways.items():
         there = [label for label in labels if label]
         lines = there if len(there) <= _LONGEST_LABEL else _paired(there)
@@ -160,7 +160,7 @@ def _paired(labels: list[str]) -> list[str]:
     return [f"{line}," for line in lines[:-1]] + lines[-1:]
 
 
-def _told(edges: Iterable[Edge], names: Mapping[str, str]) -> str:
+def _describe(edges: Iterable[Edge], names: Mapping[str, str]) -> str:
     return " ".join(
         f"From {names[edge.source]} to {names[edge.target]}{': ' + '; '.join(edge.labels) if edge.labels else ''}."
         for edge in edges

@@ -19,7 +19,7 @@ class Drawing:
         name: Its name in file names and anchors, such as ``states-task``.
         title: What it is called.
         description: What it shows, in a sentence or two.
-        telling: What it shows part by part, for those who do not see it; may be empty.
+        text_alternative: What it shows part by part, for those who do not see it; may be empty.
         width: Its width in pixels.
         height: Its height in pixels.
         canvas: Its parts.
@@ -28,7 +28,7 @@ class Drawing:
     name: str
     title: str
     description: str
-    telling: str
+    text_alternative: str
     width: float
     height: float
     canvas: Canvas
@@ -42,14 +42,14 @@ class Drawing:
         return self.canvas.document(
             name=self.name,
             title=self.title,
-            description=" ".join(part for part in (self.description, self.telling) if part),
+            description=" ".join(part for part in (self.description, self.text_alternative) if part),
             width=self.width,
             height=self.height,
             with_style=with_style,
         )
 
 
-def draw_graph(graph: Graph, *, name: str, title: str, description: str, telling: str = "") -> Drawing:
+def draw_graph(graph: Graph, *, name: str, title: str, description: str, text_alternative: str = "") -> Drawing:
     """Place and draw a diagram of nodes and edges.
 
     Args:
@@ -57,7 +57,7 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, telling
         name: Its name in file names and anchors.
         title: What it is called.
         description: What it shows.
-        telling: What it shows part by part.
+        text_alternative: What it shows part by part.
 
     Raises:
         DefinitionError: The package ``pygraphviz`` is not installed.
@@ -81,7 +81,7 @@ def draw_graph(graph: Graph, *, name: str, title: str, description: str, telling
         name=name,
         title=title,
         description=description,
-        telling=telling,
+        text_alternative=text_alternative,
         width=width,
         height=height,
         canvas=canvas,

@@ -69,8 +69,8 @@ def draw_node(canvas: Canvas, node: Node, content: Content, centre: Point) -> No
     width, height = content.width, content.height
     left, top = x - width / 2, y - height / 2
     style = f"shape {node.tint}".strip()
-    told = [*content.stereotype, " ".join(content.name), *map(" ".join, (*content.texts, content.beside))]
-    with canvas.group(" ".join(part for part in told if part) or node.shape.value):
+    texts = [*content.stereotype, " ".join(content.name), *map(" ".join, (*content.texts, content.beside))]
+    with canvas.group(" ".join(part for part in texts if part) or node.shape.value):
         if node.shape is Shape.BOX:
             canvas.rectangle(left, top, width, height, style)
         elif node.shape is Shape.ROUND:

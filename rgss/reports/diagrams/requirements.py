@@ -91,7 +91,7 @@ def _diagram(requirements: RequirementSet, group: str, members: Sequence[Require
         name=f"requirements-{group}",
         title=f"Requirement diagram: {group}",
         description=f"{len(members)} system requirements with what they derive from and the measures that decide.",
-        telling=" ".join(f"{edge.source} {_RELATIONS[edge.labels[:1]]} {edge.target}." for edge in edges),
+        text_alternative=" ".join(f"{edge.source} {_RELATIONS[edge.labels[:1]]} {edge.target}." for edge in edges),
     )
 
 

@@ -63,7 +63,7 @@ def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Map
         name=f"sequence-{behaviour.id}",
         title=f"Sequence diagram: {behaviour.name}",
         description=f"{behaviour.id}: {behaviour.text}",
-        telling=_told(interaction, names, bounds),
+        text_alternative=_describe(interaction, names, bounds),
         width=right + _MARGIN,
         height=bottom + _MARGIN,
         canvas=canvas,
@@ -162,10 +162,10 @@ def _label_width(message: Message) -> float:
     return max(text_width(text, SMALL) for text in _texts(message))
 
 
-def _told(interaction: Interaction, names: Mapping[str, str], bounds: Mapping[str, str]) -> str:
-    told = []
+def _describe(interaction: Interaction, names: Mapping[str, str], bounds: Mapping[str, str]) -> str:
+    parts = []
     for one in interaction.messages:
         source, target = names.get(one.source, one.source), names.get(one.target, one.target)
-        told.append(f"{source} {'answers' if one.reply else 'to'} {target}: {one.text}.")
-    told += [f"From {one.first} to {one.last}: {' '.join(_bound(one, bounds))}." for one in interaction.timings]
-    return " ".join(told)
+        parts.append(f"{source} {'answers' if one.reply else 'to'} {target}: {one.text}.")
+    parts += [f"From {one.first} to {one.last}: {' '.join(_bound(one, bounds))}." for one in interaction.timings]
+    return " ".join(parts)

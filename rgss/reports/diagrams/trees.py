@@ -63,7 +63,7 @@ def containment_map(requirements: RequirementSet) -> Drawing:
         name="containment",
         title="Containment map",
         description=f"{counts}, each within what contains it.",
-        telling="",
+        text_alternative="",
         width=width + _MARGIN,
         height=len(lines) * _ROW + 2 * _MARGIN,
         canvas=canvas,
@@ -168,7 +168,7 @@ def _tree(root: Block, children: Mapping[str | None, list[Block]], opened: froze
         draw_node(canvas, nodes[block.id], content, (columns[depth] + content.width / 2, middles[block.id]))
     last = max(middles[block.id] + contents[block.id].height / 2 for _, block in order)
     right = max(columns[depth] + contents[block.id].width for depth, block in order)
-    told = [
+    parts = [
         f"{block.name} is a {'part' if block.relation is BlockRelation.PART else 'kind'} of {nodes[block.parent].name}."
         for _, block in order
         if block.parent in nodes
@@ -177,7 +177,7 @@ def _tree(root: Block, children: Mapping[str | None, list[Block]], opened: froze
         name=f"blocks-{root.id}",
         title=f"Block definition diagram: {root.name}",
         description=f"{root.text} {len(order)} blocks; a diamond stands at the whole, a triangle at the general.",
-        telling=" ".join(told),
+        text_alternative=" ".join(parts),
         width=right + _MARGIN,
         height=last + _MARGIN,
         canvas=canvas,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.robustness import MeasureEffects, StudyEffects
-from rgss.reports.study.numbers import Plain, plain_number, plain_numbers
+from rgss.reports.plain_numbers import Plain, plain_number, plain_numbers
 
 
 def factor_columns(measured: Sequence[VariantMeasures], effects: StudyEffects) -> list[Plain]:

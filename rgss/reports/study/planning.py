@@ -8,7 +8,7 @@ import numpy as np
 
 from rgss.assessment import VariantMeasures
 from rgss.evidence import PlanOutcome, TrialRecord
-from rgss.reports.study.numbers import Plain, plain_number, plain_numbers
+from rgss.reports.plain_numbers import Plain, plain_number, plain_numbers
 from rgss.studies import Project, trial_specs
 from rgss.sweep import key_of
 from rgss.trials.code import versions

@@ -1,4 +1,4 @@
-"""What a report stands on: assumptions with their reasons, files, versions, the evidence."""
+"""Provenance of a report: assumptions with their reasons, files, versions, the evidence."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from rgss.documents import load_document
 from rgss.errors import DocumentError
 from rgss.evidence import EvidenceStore
 from rgss.evidence.records import file_digests
-from rgss.reports.study.numbers import Plain
+from rgss.reports.plain_numbers import Plain
 from rgss.studies import FOLDERS, Project, StudyDocument
 from rgss.trials.code import versions
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rgss.assessment import VariantMeasures
 from rgss.evidence import Failure, Phase, PhaseOutcome, TrialRecord
-from rgss.reports.study.numbers import Plain, condensed, plain_number, plain_numbers
+from rgss.reports.plain_numbers import Plain, condensed, plain_number, plain_numbers
 from rgss.trace.evidence import KEY_DIGITS
 
 MOST_TIMELINES = 1_000

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.decision.robustness import Robustness
 from rgss.measures import Measure, MeasureKind
-from rgss.reports.study.numbers import (
+from rgss.reports.plain_numbers import (
     FEWER_DIGITS,
     SHOWN_DIGITS,
     WORTH_DIGITS,
@@ -110,7 +110,7 @@ def weight_columns(project: Project, found: Robustness) -> Plain:
     """The weights, and what each variant is worth in each measure: all that a ranking needs.
 
     Args:
-        project: The project, whose value functions are told.
+        project: The project, whose value functions are shown.
         found: Holds weights and worths.
     """
     anchors = {one.measure: one for one in project.study.values}

@@ -1,23 +1,13 @@
-"""A traceability report, a chain or an impact in each format, as the content of files."""
+"""A traceability report, a chain or an impact as the content of files, in any registered format."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping
 
-from rgss.errors import DefinitionError
-from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
-from rgss.reports.table_files import to_csv, to_excel, to_markdown
-from rgss.reports.tables import Table, chosen_table
-from rgss.reports.trace.html import chain_to_html, impact_to_html, report_to_html
-from rgss.reports.trace.json_document import chain_to_json, impact_to_json, report_to_json
+from rgss.reports.tables import Table
+from rgss.reports.trace.formats import Selection, selected_tables, trace_format
 from rgss.reports.trace.report import TraceReport
-from rgss.reports.trace.tables import chain_table, impact_table, report_tables
 from rgss.trace.views import Chain, Impact
-
-WIDEST_GRIDS = {"md": 20, "csv": 300, "xlsx": 300}
-"""A matrix with more columns is written as a list of links."""
 
 
 def report_file(report: TraceReport, file_format: str, *, gaps_only: bool = False, table: str = "") -> bytes:
@@ -25,19 +15,14 @@ def report_file(report: TraceReport, file_format: str, *, gaps_only: bool = Fals
 
     Args:
         report: The report.
-        file_format: ``html``, ``md``, ``csv``, ``xlsx`` or ``json``.
+        file_format: Name of a registered format.
         gaps_only: Only what is open.
-        table: Name of the only table; empty for all. A CSV file holds one.
+        table: Name of the only table; empty for all.
 
     Raises:
-        DefinitionError: There is no such table, or a package is not installed.
+        DefinitionError: The format or the table is unknown, or a package is not installed.
     """
-    if file_format == "html":
-        return _page(report, gaps_only=gaps_only)
-    if file_format == "json":
-        return as_json(report_to_json(report, gaps_only=gaps_only))
-    tables = tables_of(report, file_format, gaps_only=gaps_only, table=table)
-    return _tables_file(tables, file_format, title=report.title)
+    return trace_format(file_format).write_report(report, Selection(gaps_only=gaps_only, table=table))
 
 
 def tables_of(report: TraceReport, file_format: str, *, gaps_only: bool = False, table: str = "") -> tuple[Table, ...]:
@@ -45,14 +30,15 @@ def tables_of(report: TraceReport, file_format: str, *, gaps_only: bool = False,
 
     Args:
         report: The report.
-        file_format: ``md``, ``csv`` or ``xlsx``.
+        file_format: Name of a registered format that consists of tables.
         gaps_only: Only what is open.
         table: Name of the only table; empty for all.
 
     Raises:
-        DefinitionError: There is no such table.
+        DefinitionError: The format or the table is unknown.
     """
-    return chosen_table(report_tables(report, widest_grid=WIDEST_GRIDS[file_format], gaps_only=gaps_only), table)
+    selection = Selection(gaps_only=gaps_only, table=table)
+    return selected_tables(report, selection, widest_grid=trace_format(file_format).widest_grid)
 
 
 def found_file(found: Chain | Impact, report: TraceReport, file_format: str) -> bytes:
@@ -61,47 +47,44 @@ def found_file(found: Chain | Impact, report: TraceReport, file_format: str) -> 
     Args:
         found: The chain or the impact.
         report: The report of the same project, for the texts.
-        file_format: ``html``, ``md``, ``csv``, ``xlsx`` or ``json``.
+        file_format: Name of a registered format.
 
     Raises:
-        DefinitionError: A package is not installed.
+        DefinitionError: The format is unknown, or a package is not installed.
     """
-    if isinstance(found, Chain):
-        if file_format == "html":
-            return chain_to_html(found).encode("utf-8")
-        if file_format == "json":
-            return as_json(chain_to_json(found))
-        return _tables_file([chain_table(found)], file_format, title=f"Chain of {found.id}")
-    if file_format == "html":
-        return impact_to_html(found, report).encode("utf-8")
-    if file_format == "json":
-        return as_json(impact_to_json(found))
-    return _tables_file([impact_table(found)], file_format, title=f"What a change to {found.id} touches")
+    return trace_format(file_format).write_found(found, report)
 
 
-def as_json(document: Any) -> bytes:
-    """Plain data as the text of a JSON file."""
-    return (json.dumps(document, indent=2, allow_nan=False, ensure_ascii=False) + "\n").encode("utf-8")
+def trace_files(
+    report: TraceReport,
+    found: Chain | Impact | None,
+    file_format: str,
+    *,
+    gaps_only: bool = False,
+    table: str = "",
+) -> Mapping[str, bytes]:
+    """The content of each file by its name in a folder.
+
+    Args:
+        report: The report of the project.
+        found: The chain or the impact of an id; None for the report itself.
+        file_format: Name of a registered format.
+        gaps_only: Only what is open.
+        table: Name of the only table; empty for all.
+
+    Raises:
+        DefinitionError: The format or the table is unknown, or a package is not installed.
+    """
+    chosen = trace_format(file_format)
+    if found is not None:
+        return {f"{_stem(found)}{chosen.suffix}": chosen.write_found(found, report)}
+    if chosen.tables_of_a_file == 1:
+        tables = tables_of(report, file_format, gaps_only=gaps_only, table=table)
+        parts = (Selection(gaps_only=gaps_only, table=one.name) for one in tables)
+        return {f"{part.table}{chosen.suffix}": chosen.write_report(report, part) for part in parts}
+    return {f"trace{chosen.suffix}": chosen.write_report(report, Selection(gaps_only=gaps_only, table=table))}
 
 
-def _page(report: TraceReport, *, gaps_only: bool) -> bytes:
-    drawings: list[dict[str, Any]] = []
-    notice = ""
-    if not gaps_only:
-        try:
-            drawings = drawings_for_page(diagrams_of(report.model.requirements))
-            notice = missing_diagrams(report.model.requirements)
-        except DefinitionError as error:
-            notice = f"The diagrams are left out: {error}."
-    page = report_to_html(report, gaps_only=gaps_only, drawings=drawings, drawings_notice=notice)
-    return page.encode("utf-8", "replace")
-
-
-def _tables_file(tables: Sequence[Table], file_format: str, *, title: str) -> bytes:
-    if file_format == "xlsx":
-        return to_excel(tables)
-    if file_format == "md":
-        return to_markdown(tables, title=title).encode("utf-8")
-    (table,) = tables
-    # The mark tells spreadsheets that it is UTF-8.
-    return to_csv(table).encode("utf-8-sig")
+def _stem(found: Chain | Impact) -> str:
+    safe = "".join(sign if sign.isalnum() or sign in "-_." else "_" for sign in found.id)[:80]
+    return f"{type(found).__name__.lower()}-{safe}"

@@ -113,7 +113,7 @@ def impact_to_html(impact: Impact, report: TraceReport) -> str:
         DefinitionError: The package ``jinja2`` is not installed.
     """
     texts = element_texts(report.model, report.definitions)
-    told = {one.requirement: one for one in impact.verdicts}
+    verdicts_by_id = {one.requirement: one for one in impact.verdicts}
 
     def group(title: str, names: Sequence[str], notes: Mapping[str, str] | None = None) -> dict[str, Any]:
         things = [{"id": name, "text": texts.get(name, ""), "note": (notes or {}).get(name, "")} for name in names]
@@ -121,7 +121,7 @@ def impact_to_html(impact: Impact, report: TraceReport) -> str:
 
     verdicts = {
         name: verdict_in_words(one.verdict) + (f", {one.variants} variants" if one.variants else "")
-        for name, one in told.items()
+        for name, one in verdicts_by_id.items()
     }
     return render_page(
         "impact.html.j2",
@@ -131,8 +131,8 @@ def impact_to_html(impact: Impact, report: TraceReport) -> str:
             group("System requirements", impact.requirements),
             group("Blocks and behaviours", impact.elements),
             group("Measures", impact.measures),
-            group("Verdicts to reach anew", list(told), verdicts),
-            group("Trials that they stand on", impact.trials),
+            group("Verdicts to reach anew", list(verdicts_by_id), verdicts),
+            group("Trials that they depend on", impact.trials),
             group("Tests to run again", impact.tests),
             group("Reviews to renew", impact.reviews),
         ],
@@ -143,10 +143,10 @@ def _summary(report: TraceReport) -> str:
     requirements = report.model.requirements
     counts = Counter(row.verdict for row in report.verification)
     order = (*Verdict, None)
-    told = ", ".join(f"{counts[verdict]} {verdict_in_words(verdict)}" for verdict in order if counts[verdict])
+    counted = ", ".join(f"{counts[verdict]} {verdict_in_words(verdict)}" for verdict in order if counts[verdict])
     return (
         f"{len(requirements.stakeholder)} stakeholder requirements, {len(requirements.system)} system requirements"
-        f" ({told}), {len(report.model.measures)} measures, {len(requirements.architecture.elements)} blocks and"
+        f" ({counted}), {len(report.model.measures)} measures, {len(requirements.architecture.elements)} blocks and"
         f" behaviours, {len(report.model.links)} links, {len(report.gaps)} gaps."
     )
 

@@ -45,7 +45,7 @@ class Section:
 
 
 def anchors_of(report: TraceReport, *, most: int, gaps_only: bool) -> dict[str, str]:
-    """Where the page tells of each element, by its id."""
+    """Anchor of each element in the page, by its id."""
     anchors = {row.requirement.id: f"r-{row.requirement.id}" for row in _kept(report, most, gaps_only=gaps_only)}
     if not gaps_only:
         for shown in (need_rows(report, most=most), element_rows(report, most=most)):
@@ -148,7 +148,7 @@ def need_rows(report: TraceReport, *, most: int) -> list[dict[str, Any]]:
             "kind": need.kind.value,
             "text": need.text,
             **_attributes(need),
-            "links": _told(
+            "links": _listed_links(
                 ("Contained in", [need.parent] if need.parent else []),
                 ("Answered by", moe.linked_to_row(need.id)),
                 ("System requirements", derived.get(need.id, [])),
@@ -230,7 +230,7 @@ def _verification_row(row: VerificationRow) -> dict[str, Any]:
         "tally": tally_in_words(row),
         "gap": row.has_gap,
         **_attributes(requirement),
-        "links": _told(
+        "links": _listed_links(
             ("Contained in", [requirement.parent] if requirement.parent else []),
             ("Derived from", requirement.derived_from),
             ("Traces to", requirement.traces),
@@ -249,7 +249,7 @@ def _attributes(element: StakeholderNeed | Requirement) -> dict[str, str]:
     }
 
 
-def _told(*links: tuple[str, Iterable[str]]) -> list[tuple[str, list[str]]]:
+def _listed_links(*links: tuple[str, Iterable[str]]) -> list[tuple[str, list[str]]]:
     return [(name, list(ids)) for name, ids in links if ids]
 
 

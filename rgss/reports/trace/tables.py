@@ -94,17 +94,17 @@ def matrix_table(part: MatrixPart, *, widest_grid: int) -> Table:
 def matrix_note(part: MatrixPart) -> str:
     """How many links a matrix has, and what has none."""
     matrix = part.matrix
-    told = f"{len(matrix.rows)} {part.rows_are}, {len(matrix.columns)} {part.columns_are}, {matrix.link_count} links."
+    note = f"{len(matrix.rows)} {part.rows_are}, {len(matrix.columns)} {part.columns_are}, {matrix.link_count} links."
     if matrix.empty_rows:
-        told += f" Rows without a link: {_first(matrix.empty_rows)}."
+        note += f" Rows without a link: {_first(matrix.empty_rows)}."
     if matrix.empty_columns:
         verb = "lack a link" if part.columns_required else "have no link, which is allowed"
-        told += f" {len(matrix.empty_columns)} columns {verb}: {_first(matrix.empty_columns)}."
-    return told
+        note += f" {len(matrix.empty_columns)} columns {verb}: {_first(matrix.empty_columns)}."
+    return note
 
 
 def verification_table(report: TraceReport, *, gaps_only: bool = False) -> Table:
-    """The verification matrix with the columns of the NASA handbook's table D-1, and what it stands on."""
+    """The verification matrix with the columns of the NASA handbook's table D-1, and the evidence of each verdict."""
     rows = [row for row in report.verification if row.has_gap or not gaps_only]
     return Table(
         name="verification",
@@ -149,7 +149,7 @@ def impact_table(impact: Impact) -> Table:
         ("block or behaviour", impact.elements),
         ("measure", impact.measures),
         ("verdict to reach anew", tuple(verdict.requirement for verdict in impact.verdicts)),
-        ("trial that a verdict stands on", impact.trials),
+        ("trial that a verdict depends on", impact.trials),
         ("test to run again", impact.tests),
         ("review to renew", impact.reviews),
     )
@@ -171,7 +171,7 @@ def impact_table(impact: Impact) -> Table:
 
 
 def evidence_in_words(row: VerificationRow) -> str:
-    """What a verdict stands on: trials by key with their command, tests by id."""
+    """Evidence of a verdict: trials by key with their command, tests by id."""
     parts = [_trial_in_words(trial) for trial in row.trials]
     if not parts and row.estimate is not None and row.estimate.n == 0 and row.estimate.value is not None:
         parts.append(f"computed from the design of variant {row.variant}")

@@ -105,7 +105,7 @@ def impact_lines(impact: Impact) -> list[str]:
         ("Blocks and behaviours", impact.elements),
         ("Measures", impact.measures),
         ("Verdicts to reach anew", verdicts),
-        ("Trials that they stand on", [key[:KEY_DIGITS] for key in impact.trials]),
+        ("Trials that they depend on", [key[:KEY_DIGITS] for key in impact.trials]),
         ("Tests to run again", impact.tests),
         ("Reviews to renew", impact.reviews),
     )
@@ -121,7 +121,7 @@ def _step_lines(step: ChainStep) -> list[str]:
     indent = "  " * step.depth
     note = f" [{_short(step.note)}]" if step.note else ""
     name = step.id[:KEY_DIGITS] if step.kind is ThingKind.TRIAL else step.id
-    again = " (its links are told above)" if step.repeated else ""
+    again = " (its links are listed above)" if step.repeated else ""
     text = f": {_short(step.text)}" if step.text else ""
     return [_safe(f"{indent}{step.relation.value} {name}{text}{note}{again}")]
 
@@ -141,10 +141,10 @@ def _matrix(part: MatrixPart) -> Table:
 
 
 def _evidence(row: VerificationRow) -> str:
-    told = [] if row.estimate is None or row.estimate.value is None else [estimate_in_words(row.estimate)]
+    parts = [] if row.estimate is None or row.estimate.value is None else [estimate_in_words(row.estimate)]
     counts = Counter(end_in_words(test) for test in row.tests)
-    told += [f"{count} {'test' if count == 1 else 'tests'} {end}" for end, count in counts.items()]
-    return "; ".join(told) or "none"
+    parts += [f"{count} {'test' if count == 1 else 'tests'} {end}" for end, count in counts.items()]
+    return "; ".join(parts) or "none"
 
 
 def _named(names: Sequence[str]) -> str:

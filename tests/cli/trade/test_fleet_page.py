@@ -8,11 +8,12 @@ from types import SimpleNamespace
 import pytest
 
 from rgss.api.trade_frames import portfolio_frame
-from rgss.cli.trade.decision import print_certificate, print_portfolio
-from rgss.cli.trade.json_document import _fleet
-from rgss.cli.verbs.trade import is_settled, seconds_of
+from rgss.cli.verbs.trade import seconds_of
+from rgss.decision.study_decision import is_settled
 from rgss.errors import DefinitionError
-from rgss.reports.study.decision import _fleet as fleet_sentence
+from rgss.reports.decision.json import portfolio_to_json
+from rgss.reports.decision.report_part import portfolio_sentence
+from rgss.reports.decision.text import certificate_lines, portfolio_lines
 from rgss.tradeoff import Agreement, Assignment, Check, CheckKind, Cut, DecisionStatus
 from rgss.tradeoff.portfolio.portfolio import PortfolioDecision
 
@@ -59,27 +60,26 @@ UNDECIDED = dataclasses.replace(
                 "Check: second run DISAGREES: no portfolio instead of 0.8.",
             ],
         ),
-        (UNDECIDED, ["No fleet that serves every study was found (time limit), nor that there is none was proved."]),
+        (UNDECIDED, ["No fleet that serves every study was found (time limit); there may be one."]),
     ],
     ids=["proven", "best found", "undecided"],
 )
-def test_on_the_page(capsys, fleet, lines):
-    print_portfolio(fleet)
-    assert capsys.readouterr().out.splitlines()[-len(lines) :] == lines
+def test_on_the_page(fleet, lines):
+    assert list(portfolio_lines(fleet))[-len(lines) :] == lines
 
 
 def test_in_the_report():
-    assert "Best found" not in fleet_sentence(PROVEN)
-    assert fleet_sentence(FOUND).endswith(
+    assert portfolio_sentence(PROVEN).endswith("variant 7). Proven best.")
+    assert portfolio_sentence(FOUND).endswith(
         "Best found, not proven best: another one can be better by at most 0.05 (time limit)."
     )
-    assert fleet_sentence(UNDECIDED) == (
-        "No fleet that serves every study was found before the time limit; there may be one."
+    assert portfolio_sentence(UNDECIDED) == (
+        "No fleet that serves every study was found (time limit); there may be one."
     )
 
 
 def test_in_the_document_and_the_frame():
-    document = _fleet(FOUND)
+    document = portfolio_to_json(FOUND)
     assert (document["status"], document["gap"], document["cut"]) == ("best found", 0.05, "time limit")
     assert (document["enumeration_agrees"], document["by_size_gap"]) == ("not enumerated", [0.05])
     assert document["checks"] == [{"kind": "second run", "agrees": False, "detail": "no portfolio instead of 0.8"}]
@@ -109,7 +109,7 @@ def test_the_exit_status_is_0_only_where_all_is_proven(status, fleet, settled):
         (Agreement.NOT_ENUMERATED, "not enumerated."),
     ],
 )
-def test_what_is_not_enumerated_is_not_said_to_agree(capsys, agreement, words):
+def test_what_is_not_enumerated_is_not_said_to_agree(agreement, words):
     certificate = SimpleNamespace(
         status=DecisionStatus.BEST_FOUND,
         solver="HIGHS",
@@ -118,8 +118,7 @@ def test_what_is_not_enumerated_is_not_said_to_agree(capsys, agreement, words):
         enumeration_agrees=agreement,
         checks=FOUND.checks,
     )
-    print_certificate(SimpleNamespace(certificate=certificate), "evidence.sqlite")
-    first, check, _ = capsys.readouterr().out.splitlines()
+    first, check = certificate_lines(certificate)
     assert first == f"Certificate: best found by HIGHS, gap 0.1; {words}"
     assert check == "Check: second run DISAGREES: no portfolio instead of 0.8."
     assert bool(agreement) is (agreement is Agreement.AGREED)

@@ -11,18 +11,19 @@ from pathlib import Path
 import pytest
 
 from rgss.assessment.measuring import measure_variants
-from rgss.cli.trade.effects import print_effects
-from rgss.cli.trade.markdown import BEGIN, END, decision_section
-from rgss.cli.trade.robustness import print_robustness
-from rgss.cli.trade.words import amount, ids_text, moved_limit, moves_text, percent, variants_text
-from rgss.decision.choosing import choose
+from rgss.decision.choosing import choose, trade_problem
 from rgss.decision.robustness import robustness
-from rgss.decision.robustness.effects import MeasureEffects, StudyEffects
+from rgss.decision.robustness.effect_findings import MeasureEffects, StudyEffects
 from rgss.decision.robustness.parts import NotComputed, Part
 from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.study_decision.study_decision import study_decision
 from rgss.errors import TradeoffError
 from rgss.evidence import EvidenceStore
+from rgss.reports.decision.markdown import BEGIN, END, decision_section
+from rgss.reports.decision.text import effects_lines, robustness_lines
+from rgss.reports.decision.words import amount, ids_text, moved_limit, moves_text, variants_text
 from rgss.studies.project import load_project
+from rgss.trace.views import share_in_words
 from rgss.tradeoff.robustness.pareto import ParetoFront
 from rgss.tradeoff.robustness.sampled_effects import SampledIndex
 
@@ -188,7 +189,7 @@ def test_one_replicate_is_said(rgss, with_evidence):
 
     assert (told.status, told.errors) == (0, "")
     assert "Not analysed: noise: 1 replicate of each variant tell nothing of noise" in told.output
-    assert "draws of all weights alone, for the replicates tell nothing of noise" in told.output
+    assert "draws of all weights alone (without noise)" in told.output
 
 
 def test_a_section_goes_between_the_markers_of_a_file(rgss, with_evidence, page, tmp_path):
@@ -248,14 +249,14 @@ def test_words():
     assert ids_text(range(1, 99, 2)).endswith(" …")
     assert variants_text([]) == "nothing"
     assert (variants_text([3]), variants_text([3, 4])) == ("variant 3", "variants 3, 4")
-    assert [percent(share) for share in (0.0, 0.0004, 0.034, 0.456, 1.0)] == [
+    assert [share_in_words(share) for share in (0.0, 0.0004, 0.034, 0.456, 1.0)] == [
         "0 %",
         "< 0.1 %",
         "3.4 %",
         "46 %",
         "100 %",
     ]
-    assert [percent(share) for share in (0.994, 0.996, 0.9996, 1.0)] == ["99 %", "99.6 %", "> 99.9 %", "100 %"]
+    assert [share_in_words(share) for share in (0.994, 0.996, 0.9996, 1.0)] == ["99 %", "99.6 %", "> 99.9 %", "100 %"]
     assert (amount(1234.5, "USD"), amount(0.5, "1"), amount(0.5, "kg")) == ("1,234 USD", "0.5", "0.5 kg")
     # Rounded away from the limit, so that what is written is enough.
     assert [moved_limit(9.0, 9.1983, "s"), moved_limit(0.9, 0.84776, "kg")] == ["9.199 s", "0.8477 kg"]
@@ -293,7 +294,7 @@ def test_a_fleet_of_one_gripper_for_two_studies(rgss, with_evidence, tmp_path):
     assert "Value with at most so many members: 1: " in told.output
 
 
-def test_effects_of_sampled_designs(capsys):
+def test_effects_of_sampled_designs():
     """Shares below 0 come from chance and are shown as 0."""
     effects = MeasureEffects(
         measure="P_max",
@@ -308,8 +309,7 @@ def test_effects_of_sampled_designs(capsys):
         },
     )
     nothing = MeasureEffects(measure="S", unit="1", factors=(), left_out=(), designs=0, analysis=None)
-    print_effects(load_project(REPOSITORY), StudyEffects(factors=(), constants=(), measures=(effects, nothing)))
-    text = capsys.readouterr().out
+    text = "\n".join(effects_lines((effects, nothing)))
 
     assert "Effects on P_max [kg]: 64 designs of a sample" in text
     assert re.search(r"^fingers +90 % +80 % – 95 %$", text, re.MULTILINE)
@@ -340,14 +340,19 @@ def analysed(with_evidence):
     project = load_project(with_evidence)
     with EvidenceStore.open(project.evidence, create=False, label="evidence") as store:
         measured = measure_variants(project, store)
-    decision = choose(project, measured)
-    return project, measured, decision, analyse_robustness(project, measured, decision)
+    problem = trade_problem(project, measured)
+    decision = choose(project, measured, problem=problem)
+
+    def made(found):
+        return study_decision(project, measured, decision, found, problem=problem, evidence="evidence")
+
+    return made, analyse_robustness(project, measured, decision, problem=problem)
 
 
 @pytest.mark.parametrize("part", EMPTY, ids=lambda part: part.name)
-def test_a_part_that_is_not_computed(capsys, analysed, part):
+def test_a_part_that_is_not_computed(analysed, part):
     """Its place says so, reason and remedy are given once, and the rest of the page and section is the same."""
-    project, measured, decision, found = analysed
+    made, found = analysed
     said, fields = EMPTY[part]
     inner = {name: value for name, value in fields.items() if not hasattr(found, name)}
     less = replace(
@@ -356,18 +361,16 @@ def test_a_part_that_is_not_computed(capsys, analysed, part):
         not_computed={part: NotComputed(reason="the solver gave no answer", remedy="ask for less")},
         **{name: value for name, value in fields.items() if name not in inner},
     )
-    print_robustness(project, decision, found)
-    whole = capsys.readouterr().out.splitlines()
-    print_robustness(project, decision, less)
-    told = capsys.readouterr().out.splitlines()
-    section = decision_section(project, measured, decision, less).splitlines()
+    whole = list(robustness_lines(made(found)))
+    lines = list(robustness_lines(made(less)))
+    section = decision_section(made(less)).splitlines()
 
-    assert any(said in line for line in told)
-    (line,) = [one for one in told if one.startswith("Not computed: ")]
+    assert any(said in line for line in lines)
+    (line,) = [one for one in lines if one.startswith("Not computed: ")]
     assert line == f"Not computed: {part.words}: the solver gave no answer. To mend it: ask for less."
     assert line in section
     assert section[-1] == END
-    assert len(set(whole) & set(told)) > 0.5 * len(set(whole))
+    assert len(set(whole) & set(lines)) > 0.5 * len(set(whole))
 
 
 def test_what_is_not_computed_is_a_finding(monkeypatch, rgss, with_evidence, tmp_path):

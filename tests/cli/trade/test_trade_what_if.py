@@ -92,9 +92,12 @@ def test_conflicts_and_whether_they_survive_noise(rgss, with_evidence):
     for conflict, share in zip(document["minimal_conflicts"], document["survival"]["conflicts"], strict=True):
         name = " and ".join(conflict) if len(conflict) > 1 else f"{conflict[0]} alone"
         assert re.search(rf"^{name} +{round(100 * share)} %$", told.output, re.MULTILINE)
-    assert "by all 10 resamples of the replicates; nothing is feasible in" in told.output
+    assert (
+        "share of all 10 resamples of the replicates in which the conflict remains; nothing is feasible in"
+        in told.output
+    )
     one = rgss("trade", "--brief", "--replicates", "1", *CONFLICTING, "--project", with_evidence)
-    assert "(whether this survives noise takes two replicates of each variant to tell)" in one.output
+    assert "(Whether a conflict survives noise: unknown, it needs two replicates of each variant)" in one.output
 
 
 def test_what_drops_variants(rgss, with_evidence):

@@ -52,7 +52,7 @@ def test_columns_have_their_full_names_where_these_fit(rgss, tmp_path):
 
 
 def test_columns_that_find_no_room_go_on_in_another_table(rgss, untouched, monkeypatch):
-    from rgss.cli import variants_table
+    from rgss.reports.variants import table as variants_table
 
     monkeypatch.setattr(variants_table, "WIDEST", 30)
     lines = rgss("variants", "--project", untouched, "--only", "1-2").output.splitlines()
@@ -71,7 +71,7 @@ def test_columns_that_find_no_room_go_on_in_another_table(rgss, untouched, monke
 
 
 def test_every_column_is_shown_where_all_fit(rgss, untouched, monkeypatch):
-    from rgss.cli import variants_table
+    from rgss.reports.variants import table as variants_table
 
     monkeypatch.setattr(variants_table, "WIDEST", 250)
     head, _, *rows = rgss("variants", "--project", untouched).output.splitlines()

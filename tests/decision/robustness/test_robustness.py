@@ -11,14 +11,15 @@ import pytest
 
 from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose, trade_problem
-from rgss.decision.robustness.assumptions import assumption_findings, cost_box
-from rgss.decision.robustness.effects import leading_factors
-from rgss.decision.robustness.export import robustness_to_json, scenario_to_json
+from rgss.decision.robustness.assumptions import assumption_findings
+from rgss.decision.robustness.cost_box import cost_box
+from rgss.decision.robustness.effect_findings import leading_factors
 from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.what_if import measured_in, suppose
 from rgss.decision.what_if.numbers import assumed_numbers, model_numbers
-from rgss.decision.what_if.what_if import measured_in, suppose
 from rgss.motion import PLANNERS
+from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
 from rgss.tradeoff import Aim, Comparison, ElicitedInterval, Lexicographic
 from rgss.tradeoff.problem.evidence_table import tabulated
 from rgss.tradeoff.problem.resampling import bootstrap

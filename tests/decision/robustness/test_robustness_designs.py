@@ -10,9 +10,9 @@ from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose, trade_problem
 from rgss.decision.robustness.assumptions import assumption_findings
 from rgss.decision.robustness.effects import study_effects
-from rgss.decision.robustness.export import robustness_to_json
 from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.reports.decision.json.robustness import robustness_to_json
 from rgss.studies.project import load_project
 from rgss.tradeoff.problem.evidence_table import tabulated
 

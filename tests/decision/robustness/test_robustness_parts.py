@@ -10,10 +10,10 @@ from rgss.api.trade_frames import acceptability_frame, computed_effects, weights
 from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose
 from rgss.decision.robustness import robustness
-from rgss.decision.robustness.export import robustness_to_json
 from rgss.decision.robustness.parts import Part, PartComputer, not_computed_lines
 from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.errors import TradeoffError
+from rgss.reports.decision.json.robustness import robustness_to_json
 
 FUNCTIONS = {
     Part.PARETO: "pareto_front",

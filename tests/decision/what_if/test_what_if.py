@@ -8,7 +8,7 @@ import pytest
 
 from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose, trade_problem
-from rgss.decision.what_if.what_if import Change, measured_in, suppose
+from rgss.decision.what_if import Change, measured_in, suppose
 from rgss.errors import DefinitionError, EvidenceError, TradeoffError
 from rgss.studies.project import load_project
 from rgss.tradeoff import CriterionNode, ElicitedInterval, RequirementAnchor

@@ -8,17 +8,16 @@ from dataclasses import replace
 import pytest
 
 from rgss.assessment.measuring import measure_variants
-from rgss.cli.trade.decision import print_decision
-from rgss.cli.trade.robustness import print_robustness
-from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.choosing import trade_problem
 from rgss.decision.robustness import robustness
-from rgss.decision.robustness.export import robustness_to_json
-from rgss.decision.robustness.robustness import analyse_robustness
+from rgss.decision.study_decision import decide_study
 from rgss.decision.what_if.numbers import model_numbers
 from rgss.decision.what_if.what_if import suppose
 from rgss.errors import DefinitionError
+from rgss.reports.decision import decision_lines, decision_to_json
+from rgss.reports.decision.json.robustness import robustness_to_json
 from rgss.studies.trade_off import AnchoredEpsilonConstraint, BoundChoice, ChanceChoice, RequirementBound, TailChoice
-from rgss.tradeoff import Aim, Comparison, decision_to_json
+from rgss.tradeoff import Aim, Comparison
 
 RISKS = (
     ChanceChoice(id="chance:SYS-005", bound=RequirementBound(requirement="SYS-005"), probability=0.6),
@@ -58,16 +57,13 @@ def printed_names(project, text, document):
 
 
 @pytest.mark.parametrize("study", STUDIES)
-def test_every_printed_name_is_taken(monkeypatch, capsys, shipped, measured, study):
+def test_every_printed_name_is_taken(monkeypatch, shipped, measured, study):
     monkeypatch.setattr(robustness, "ITERATIONS", 100)
     trade_off = replace(shipped.study.trade_off, **STUDIES[study])
     project = replace(shipped, study=replace(shipped.study, trade_off=trade_off))
-    decision = choose(project, measured)
-    found = analyse_robustness(project, measured, decision)
-    print_decision(project, measured, decision)
-    print_robustness(project, decision, found)
-    document = {**decision_to_json(decision), "robustness": robustness_to_json(found)}
-    names = printed_names(project, capsys.readouterr().out, document)
+    made = decide_study(project, measured, evidence="evidence.sqlite")
+    document = {**decision_to_json(made.decision), "robustness": robustness_to_json(made.robustness.analysis)}
+    names = printed_names(project, "\n".join(decision_lines(made)), document)
     numbers = {number.id: number for number in model_numbers(project)}
     demands = {one.requirement: one for one in trade_problem(project, measured).conditions}
 

@@ -10,7 +10,8 @@ import rgss.tradeoff.levels.guard
 import rgss.tradeoff.levels.problem
 import rgss.tradeoff.levels.selection
 from rgss.errors import TradeoffError
-from rgss.tradeoff import Agreement, CheckKind, DecisionStatus, certificate_to_json, decide_levels
+from rgss.reports.decision.json import certificate_to_json
+from rgss.tradeoff import Agreement, CheckKind, DecisionStatus, decide_levels
 from rgss.tradeoff.levels.bound import interval_bound
 from rgss.tradeoff.levels.grid import LevelGrid, compensated_sum
 from rgss.tradeoff.levels.guard import Attempt, GuardedStageSolver, Outcome

@@ -9,12 +9,12 @@ import pytest
 import rgss.tradeoff.levels.guard
 import rgss.tradeoff.levels.problem
 from rgss.errors import TradeoffError
+from rgss.reports.decision.json import certificate_to_json
 from rgss.tradeoff import (
     Agreement,
     CheckKind,
     DecisionStatus,
     SolverCheck,
-    certificate_to_json,
     decide,
     decide_levels,
     independent_run,

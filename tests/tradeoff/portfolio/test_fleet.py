@@ -12,6 +12,7 @@ import rgss.tradeoff.portfolio.checks
 import rgss.tradeoff.portfolio.mean
 import rgss.tradeoff.portfolio.portfolio
 from rgss.errors import TradeoffError
+from rgss.reports.decision.json import portfolio_to_json
 from rgss.tradeoff import (
     AdditiveValue,
     Agreement,
@@ -23,7 +24,6 @@ from rgss.tradeoff import (
     PortfolioTask,
     Tchebycheff,
     decide_portfolio,
-    portfolio_to_json,
 )
 
 
@@ -274,7 +274,7 @@ def test_an_answer_that_selects_half_a_member_is_not_used(fleet, monkeypatch):
 def test_as_plain_values(fleet):
     document = json.loads(json.dumps(portfolio_to_json(decide_portfolio(fleet(TABLE, at_most=2))), allow_nan=False))
     assert document["members"] == ["2", "3"]
-    assert document["assignments"][0] == {"task": "t0", "member": "2", "variant": 2, "value": 1.0}
-    assert document["certificate"]["enumeration_agrees"] == "agreed"
+    assert document["assignments"][0] == {"study": "t0", "member": "2", "variant": 2, "value": 1.0}
+    assert document["enumeration_agrees"] == "agreed"
     nothing = portfolio_to_json(decide_portfolio(fleet({1: (-1.0,)})))
-    assert (nothing["status"], nothing["objective"], nothing["unserved"]) == ("infeasible", None, ["t0"])
+    assert (nothing["status"], nothing["value"], nothing["unserved"]) == ("infeasible", None, ["t0"])

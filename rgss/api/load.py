@@ -1,0 +1,46 @@
+"""Reading of a project and one of its studies."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rgss.api.study import Study
+from rgss.api.trial import Drawing
+from rgss.errors import DefinitionError
+from rgss.studies import MOST_REPLICATES, find_project, load_project, project_of_study
+
+STUDY_SUFFIXES = (".yaml", ".yml")
+"""Endings of a study file, by which it is distinguished from a project's folder."""
+
+
+def load(
+    folder: Path | None, study: str | None, *, fidelity: str | None, replicates: int | None, drawing: Drawing
+) -> Study:
+    """Read a project and one of its studies; see `rgss.load_study`.
+
+    Args:
+        folder: The project's folder, or a study file in one; the nearest folder at or above the
+            current one if None.
+        study: The study file, relative to the project.
+        fidelity: How much physics a trial has, in place of what the study says.
+        replicates: Trials of each variant, in place of what the study says.
+        drawing: How trials are drawn.
+
+    Raises:
+        DocumentError: Files are wrong; with every problem in all of them.
+        DefinitionError: There is no project, or an argument is impossible.
+    """
+    if folder is not None and folder.suffix in STUDY_SUFFIXES:
+        if study is not None:
+            raise DefinitionError(
+                f"{str(folder)!r} is a study already, and {study!r} another", hint="name a folder and a study, or one"
+            )
+        folder, study = project_of_study(folder)
+    project = load_project(find_project(folder), study)
+    if replicates is not None:
+        if not 1 <= replicates <= MOST_REPLICATES:
+            raise DefinitionError(
+                f"replicates must be from 1 to {MOST_REPLICATES}", hint="leave it away for the study's number"
+            )
+        project = project.with_replicates(replicates)
+    return Study(project=project if fidelity is None else project.with_fidelity(fidelity), _drawing=drawing)

@@ -1,0 +1,22 @@
+"""Suppositions as an analyst writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+WhatIf = Mapping[str, float | str] | Sequence[str] | str
+"""Suppositions: ``{"weight.t_e": 0.4}``, or texts as ``--what-if`` takes them."""
+
+
+def suppositions_of(what_if: WhatIf) -> list[str]:
+    """Suppositions as the texts that ``--what-if`` takes.
+
+    Args:
+        what_if: The suppositions.
+    """
+    if isinstance(what_if, str):
+        return [what_if]
+    if isinstance(what_if, Mapping):
+        # A number of NumPy is written as what it is, not as how it is made.
+        return [f"{name}={value if isinstance(value, str) else repr(float(value))}" for name, value in what_if.items()]
+    return list(what_if)

@@ -1,0 +1,25 @@
+"""Actions of ``rgss evidence``."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.cli.evidence.collection import collect
+    from rgss.cli.evidence.numerics import computed_with, numerics_line
+    from rgss.cli.evidence.place import EvidencePlace
+    from rgss.cli.evidence.summary import summarise
+    from rgss.cli.evidence.verification import verify_evidence
+    from rgss.cli.evidence.words import plural
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "EvidencePlace",
+    "collect",
+    "computed_with",
+    "numerics_line",
+    "plural",
+    "summarise",
+    "verify_evidence",
+]

@@ -1,0 +1,72 @@
+"""Removal of what no study names from the evidence store."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from rgss.cli.evidence.place import EvidencePlace, contents_and_studies, named_trials
+from rgss.cli.evidence.words import counted, plural, size_text
+
+if TYPE_CHECKING:
+    from rgss.evidence.store import Garbage
+
+
+def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
+    """Show what no study names, and remove it if `--apply` is given."""
+    from rgss.cli.main import CLEAN
+    from rgss.cli.output import print_json
+    from rgss.evidence import EvidenceStore
+    from rgss.evidence.store import collect_garbage, find_garbage
+
+    _, studies = contents_and_studies(store)
+    trials = named_trials(studies, strict=options.strict)
+    pieces = {digest for study in studies for digest in (study.own if options.strict else study.all).pieces}
+    freed, shrunk = None, True
+    if options.apply:
+        done = collect_garbage(store.path, trials=trials, pieces=pieces, label=store.label)
+        garbage, freed, shrunk = done.garbage, done.before_bytes - done.after_bytes, done.shrunk
+    else:
+        with EvidenceStore.open(store.path, create=False, label=store.label) as evidence:
+            garbage = find_garbage(evidence.database, trials=trials, pieces=pieces)
+    if options.json:
+        print_json(
+            {
+                "evidence": store.label,
+                "removed": bool(options.apply),
+                "trials": [
+                    {"key": one.key, "variant": one.variant, "seed": one.seed, "fidelity": one.fidelity}
+                    for one in garbage.trials
+                ],
+                "pieces": len(garbage.pieces),
+                "inputs": len(garbage.inputs),
+                "failures": len(garbage.failures),
+                "bytes": garbage.size_bytes,
+                "freed_bytes": freed,
+            }
+        )
+        return CLEAN
+    if not garbage:
+        print("The studies name everything that is in the evidence; there is nothing to remove.")
+        return CLEAN
+    print("No study of the project, as it and the code are now, names:")
+    for line in _garbage_lines(garbage):
+        print(f"  {line}")
+    if not options.apply:
+        print(f"In all {size_text(garbage.size_bytes)}; 'rgss evidence gc --apply' removes it.")
+    elif shrunk:
+        print(f"Removed; the file is {size_text(freed or 0)} smaller.")
+    else:
+        print("Removed; the file keeps its size, for there is no space to write it anew, and uses it for what comes.")
+    return CLEAN
+
+
+def _garbage_lines(garbage: Garbage) -> Iterable[str]:
+    if garbage.trials:
+        variants = len({trial.variant for trial in garbage.trials})
+        yield f"{counted('trials', garbage.trials)} of {variants} {plural('variant', variants)}"
+    for name, keys in (("piece", garbage.pieces), ("set", garbage.inputs), ("failure", garbage.failures)):
+        of = {"set": " of inputs", "failure": " of the run"}.get(name, "")
+        if keys:
+            yield f"{len(keys)} {plural(name, len(keys))}{of}"

@@ -1,0 +1,83 @@
+"""Verification and repair of the evidence store."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from rgss.cli.evidence.place import EvidencePlace
+from rgss.cli.evidence.words import plural, printable_text
+
+if TYPE_CHECKING:
+    from rgss.evidence.store import Verification
+
+
+def verify_evidence(options: argparse.Namespace, store: EvidencePlace) -> int:
+    """Check every page, digest, seal and reference; 1 if there is damage."""
+    from rgss.cli.evidence.numerics import computed_with, numerics_line
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import print_json
+    from rgss.evidence.store import verify
+
+    found = verify(store.path, label=store.label)
+    mended = _mend(found, store) if options.mend and found.damages else ""
+    computed = [] if found.damages else computed_with(store.path, store.label)
+    if options.json:
+        print_json(
+            {
+                "evidence": store.label,
+                "sound": dict(found.sound),
+                "orphaned_pieces": found.orphaned_pieces,
+                "orphaned_inputs": found.orphaned_inputs,
+                "damages": [{"what": one.what, "key": one.key, "problem": one.problem} for one in found.damages],
+                "mended": mended,
+                "numerics": computed,
+            }
+        )
+        return FINDINGS if found.damages else CLEAN
+    for damage in found.damages:
+        print(printable_text(f"{store.label}: {damage}"))
+    sound = ", ".join(f"{number} {plural(what, number)}" for what, number in found.sound.items())
+    if found.damages:
+        print(f"{len(found.damages)} {plural('damage', len(found.damages))}; sound: {sound or 'nothing'}.")
+        print(mended or _how_to_mend(found))
+        return FINDINGS
+    print(f"Sound: {sound}.")
+    for one in computed:
+        if one["numerics"]:
+            print(numerics_line(one))
+    idle = {"pieces": found.orphaned_pieces, "inputs": found.orphaned_inputs}
+    if any(idle.values()):
+        which = " and ".join(f"{count} of the {name}" for name, count in idle.items() if count)
+        print(
+            f"No trial refers to {which}, which is no damage; the next sweep uses what it can, "
+            "or 'rgss evidence gc' shows what is left."
+        )
+    return CLEAN
+
+
+def _mend(found: Verification, store: EvidencePlace) -> str:
+    """Take the damage away; returns what was done."""
+    from rgss.evidence.store import salvage, take_away
+
+    if found.pages_are_damaged:
+        path, to = store.path, store.path.with_name(f"{store.path.name}.mended")
+        saved = salvage(path, found, to, label=store.label)
+        return (
+            f"{saved} sound rows are saved in {to.name} beside it. When no sweep is running, remove {path.name} and "
+            f"the files {path.name}-wal and {path.name}-shm if they are there, and rename {to.name} to {path.name}."
+        )
+    removed = take_away(store.path, found, label=store.label)
+    if not removed:
+        return (
+            "The ledger is written anew for the rows that are there; 'rgss sweep' makes anew what it needs of others."
+        )
+    return f"{removed} damaged {plural('row', removed)} taken away; 'rgss sweep' makes anew what was in them."
+
+
+def _how_to_mend(found: Verification) -> str:
+    if found.pages_are_damaged:
+        return "To mend it: 'rgss evidence verify --mend' saves the sound rows in a new file."
+    if all(damage.row is None for damage in found.damages):
+        return "To mend it: 'rgss evidence verify --mend' goes on with the rows that are there."
+    return "To mend it: 'rgss evidence verify --mend' takes these rows away, and 'rgss sweep' makes them anew."

@@ -1,0 +1,125 @@
+"""One sweep of a verb with its progress, and the tally of its trials."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rgss.cli.sweep.backend import ExecutionBackend
+from rgss.cli.sweep.output import lost_line
+from rgss.cli.sweep.progress import SweepProgress
+
+if TYPE_CHECKING:
+    from rgss.evidence import EvidenceStore
+    from rgss.studies import Project
+    from rgss.sweep import FinishedTrial, LostTrials, SweepResult
+    from rgss.trials.pieces import TrialSpec
+
+
+@dataclass(frozen=True, slots=True)
+class TrialTally:
+    """Counts of the trials of a sweep, filled while it runs.
+
+    Attributes:
+        counts: How many were ``run`` and ``kept``, ``succeeded`` and ``failed``.
+        failures: How many failed in each way.
+        run_now: The variants of the trials that were run.
+    """
+
+    counts: Counter[str] = field(default_factory=Counter)
+    failures: Counter[str] = field(default_factory=Counter)
+    run_now: set[int] = field(default_factory=set)
+
+    def add(self, trial: FinishedTrial) -> None:
+        """Count a trial.
+
+        Args:
+            trial: A trial that has its record.
+        """
+        record = trial.record
+        self.counts["run" if trial.fresh else "kept"] += 1
+        if trial.fresh:
+            self.run_now.add(record.variant)
+        self.counts["succeeded" if record.success else "failed"] += 1
+        if record.failure is not None and record.failed_phase is not None:
+            self.failures[f"{record.failure.value} at {record.failed_phase.value}"] += 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FinishedSweep:
+    """Outcome of one sweep.
+
+    Attributes:
+        trials: Number of its trials.
+        tally: Their counts.
+        result: The pieces and the failures of the run.
+    """
+
+    trials: int
+    tally: TrialTally
+    result: SweepResult
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SweepRunner:
+    """Runner of a verb's sweeps, each with its progress.
+
+    Attributes:
+        project: The project with its study.
+        store: The evidence.
+        backend: The processes or the cluster that carry out the tasks.
+        share: Whether trials share pieces.
+    """
+
+    project: Project
+    store: EvidenceStore
+    backend: ExecutionBackend
+    share: bool
+
+    @classmethod
+    def of(
+        cls, options: argparse.Namespace, project: Project, store: EvidenceStore, backend: ExecutionBackend
+    ) -> SweepRunner:
+        """The runner for a verb's options."""
+        return cls(project=project, store=store, backend=backend, share=not options.no_share)
+
+    def run(self, specs: Sequence[TrialSpec]) -> FinishedSweep:
+        """Run the trials that have no evidence yet.
+
+        Args:
+            specs: The trials.
+        """
+        from rgss.sweep import sweep
+
+        tally = TrialTally()
+        with SweepProgress(len(specs)) as progress:
+
+            def on_finished(trial: FinishedTrial) -> None:
+                tally.add(trial)
+                progress.finished(tally.counts)
+
+            result = sweep(
+                specs,
+                self.store,
+                jobs=self.backend.jobs,
+                on_finished=on_finished,
+                on_state=progress.state,
+                share=self.share,
+                origin=lambda: self.backend.origin(self.project.folder),
+                workers_for=self.backend.workers,
+            )
+        return FinishedSweep(trials=len(specs), tally=tally, result=result)
+
+
+def report_lost(lost: Iterable[LostTrials]) -> None:
+    """Print the failures of a run to standard error, a line each.
+
+    Args:
+        lost: The tasks that failed, with the trials that have no record for it.
+    """
+    for each in lost:
+        print(f"rgss: {lost_line(each)}", file=sys.stderr)

@@ -1,0 +1,106 @@
+"""Robustness of a decision: the analyses, and the reasons for missing parts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.decision.robustness.assumptions import AssumptionFinding
+from rgss.decision.robustness.cost_box import CostBox
+from rgss.decision.robustness.effect_findings import StudyEffects
+from rgss.decision.robustness.parts import NotComputed, Part
+from rgss.tradeoff import Condition
+from rgss.tradeoff.robustness import (
+    Acceptability,
+    ParetoFront,
+    PriceStep,
+    RankReversal,
+    WeightRange,
+    WeightShift,
+)
+from rgss.tradeoff.weights import WeightRegion
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RequirementPrice:
+    """What a requirement costs.
+
+    Attributes:
+        condition: What is demanded.
+        steps: How the choice and the feasible set change with its limit, from loose to tight; rows
+            are those of the analysis.
+    """
+
+    condition: Condition
+    steps: tuple[PriceStep, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WeightRobustness:
+    """What other weights would do to a choice by weighted value.
+
+    Attributes:
+        elicited: Whether the weights are bounded by what was elicited; all weights otherwise.
+        regions: The weights at which each alternative wins.
+        shifts: The nearest weights at which each wins, the nearest first.
+        ranges: How far each weight may move alone.
+        acceptability: The indices of SMAA-2 over weights and noise; over weights alone where
+            there is no noise to draw from.
+        with_noise: Whether they are over noise too.
+
+    A part that could not be computed is None, and `Robustness.not_computed` says why.
+    """
+
+    elicited: bool
+    regions: tuple[WeightRegion, ...] | None
+    shifts: tuple[WeightShift, ...] | None
+    ranges: tuple[WeightRange, ...] | None
+    acceptability: Acceptability | None
+    with_noise: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Robustness:
+    """How robust a decision is.
+
+    Attributes:
+        variants: The ids of the rows of everything below, ascending.
+        measures: The measures with a weight above 0: the columns of weights.
+        weights: Their weights.
+        values: What each alternative is worth in them, shape (n, m); NaN where unknown.
+        feasible: Which alternatives meet every demand.
+        front: The Pareto front of the feasible ones.
+        weighting: What other weights would do; None where `refused` says why.
+        assumptions: How far each assumed number may be wrong; empty where `refused` says why.
+        costs: How far all assumed costs together may be wrong; None where `refused` says why.
+        prices: What each demand costs.
+        reversals: Removals of an alternative that change the order of the others, under the
+            study's program; none for values that are anchored on requirements.
+        stretched: The same had the values been stretched between the extremes of the sample.
+        effects: What each factor does to each measure.
+        resamples: How many resamples of the replicates stand for the noise; 0 without noise.
+        all_resamples: Whether these are all there are.
+        refused: Why an analysis does not apply, by its name.
+        not_computed: Why a part could not be computed; what stands for it here is empty.
+    """
+
+    variants: tuple[int, ...]
+    measures: tuple[str, ...]
+    weights: NDArray[np.float64]
+    values: NDArray[np.float64]
+    feasible: NDArray[np.bool_]
+    front: ParetoFront
+    weighting: WeightRobustness | None
+    assumptions: tuple[AssumptionFinding, ...]
+    costs: CostBox | None
+    prices: tuple[RequirementPrice, ...]
+    reversals: tuple[RankReversal, ...]
+    stretched: tuple[RankReversal, ...]
+    effects: StudyEffects
+    resamples: int
+    all_resamples: bool
+    refused: Mapping[str, str]
+    not_computed: Mapping[Part, NotComputed]

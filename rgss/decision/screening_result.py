@@ -1,0 +1,100 @@
+"""Outcome of screening: each design with its reason, and a summary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.studies import Screening
+
+_MOST_SHOWN = 72
+"""Ids of a sentence."""
+
+
+class ScreeningOutcome(str, Enum):
+    """Outcome of screening for a design."""
+
+    PROMOTED = "promoted"
+    """It goes on."""
+    UNSCREENED = "unscreened"
+    """It goes on, for it lacks trials of the screening fidelity."""
+    SPARED = "spared"
+    """It misses a requirement, but so does every design; it goes on so that the decision can say what conflicts."""
+    IMPOSSIBLE = "impossible"
+    """It misses a requirement whatever contact trials would show."""
+    OUTRANKED = "outranked"
+    """Others are better, even if all that is unknown of it is at its best."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScreenedVariant:
+    """A design with its outcome in screening.
+
+    Attributes:
+        variant: Its id.
+        outcome: The outcome.
+        reason: The reason for it, in words.
+        missed: The requirements that it cannot meet.
+        best_value: The greatest value that it can have; None if it lacks trials.
+    """
+
+    variant: int
+    outcome: ScreeningOutcome
+    reason: str
+    missed: tuple[str, ...] = ()
+    best_value: float | None = None
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether it is tried with more physics."""
+        return self.outcome in (ScreeningOutcome.PROMOTED, ScreeningOutcome.UNSCREENED, ScreeningOutcome.SPARED)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScreeningResult:
+    """Outcome of screening for every design.
+
+    Attributes:
+        screening: What the study says.
+        variants: The designs, in their order.
+    """
+
+    screening: Screening
+    variants: tuple[ScreenedVariant, ...]
+
+    @property
+    def survivors(self) -> tuple[int, ...]:
+        """The ids of the designs that go on."""
+        return tuple(one.variant for one in self.variants if one.goes_on)
+
+    @property
+    def screened_out(self) -> tuple[ScreenedVariant, ...]:
+        """The designs that do not."""
+        return tuple(one for one in self.variants if not one.goes_on)
+
+
+def screening_summary(result: ScreeningResult) -> str:
+    """What was screened out, by which evidence and why, in a few sentences."""
+    out = result.screened_out
+    screening = result.screening
+    trials = f"{screening.fidelity.value} trials ({screening.promotion})"
+    parts = [f"{len(out)} of {len(result.variants)} designs were screened out by {trials} and are not shown here."]
+    missed: dict[str, list[int]] = {}
+    for one in out:
+        for requirement in one.missed:
+            missed.setdefault(requirement, []).append(one.variant)
+    parts += [f"{requirement} cannot be met by variants {_ids(ids)}." for requirement, ids in missed.items()]
+    outranked = [one for one in out if one.outcome is ScreeningOutcome.OUTRANKED]
+    if outranked:
+        most = max(one.best_value for one in outranked if one.best_value is not None)
+        parts.append(
+            "Others are better, even if all that is unknown is at its best (a value of at most "
+            f"{most:.4g}): variants {_ids([one.variant for one in outranked])}."
+        )
+    return " ".join(parts)
+
+
+def _ids(ids: Sequence[int]) -> str:
+    more = f" and {len(ids) - _MOST_SHOWN} more" if len(ids) > _MOST_SHOWN else ""
+    return ", ".join(map(str, ids[:_MOST_SHOWN])) + more

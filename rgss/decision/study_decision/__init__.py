@@ -1,0 +1,36 @@
+"""Decision of a study as one value, which text, Markdown, JSON and HTML render."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.decision.study_decision.comparison import ObjectiveRow, ParameterRow, SideBySide, WeightedRow
+    from rgss.decision.study_decision.contenders import Contender
+    from rgss.decision.study_decision.findings import Driver, RobustnessFindings, WeightMove
+    from rgss.decision.study_decision.limit_moves import LimitMove, LimitMoves
+    from rgss.decision.study_decision.reasons import ClosestLimit, Gain
+    from rgss.decision.study_decision.study_decision import StudyDecision, decide_study, is_settled
+    from rgss.decision.study_decision.suppositions import DecisionSide, WhatIf
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "ClosestLimit",
+    "Contender",
+    "DecisionSide",
+    "Driver",
+    "Gain",
+    "LimitMove",
+    "LimitMoves",
+    "ObjectiveRow",
+    "ParameterRow",
+    "RobustnessFindings",
+    "SideBySide",
+    "StudyDecision",
+    "WeightMove",
+    "WeightedRow",
+    "WhatIf",
+    "decide_study",
+    "is_settled",
+]

@@ -1,0 +1,137 @@
+"""Robustness of a decision with the figures that its pages show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rgss.decision.robustness import AssumptionFinding, MeasureEffects, Part, Robustness, leading_factors
+from rgss.decision.study_decision.contenders import Contender, contenders_of
+from rgss.decision.study_decision.limit_moves import LimitMoves, limit_moves
+from rgss.measures import MeasureKind
+from rgss.studies import Project
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WeightMove:
+    """Least move of weights that changes the choice.
+
+    Attributes:
+        moved: The weight that is moved.
+        before: The weights of the study.
+        after: The weights that are moved.
+        winners: The variants that then win.
+    """
+
+    moved: float
+    before: Mapping[str, float] = field(hash=False)
+    after: Mapping[str, float] = field(hash=False)
+    winners: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Driver:
+    """Factors that drive a measure of effectiveness.
+
+    Attributes:
+        measure: The measure.
+        shares: The share of its differences by factor, the largest first.
+        left_out: Levels that are left out, for lack of success.
+    """
+
+    measure: str
+    shares: Mapping[str, float] = field(hash=False)
+    left_out: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RobustnessFindings:
+    """Robustness of a decision, with what follows from it for the choice.
+
+    Attributes:
+        analysis: The analyses, with the reason for each part that was not computed.
+        contenders: The variants that nearly won.
+        nearest_move: The least move of weights that changes the choice; None if there is none, or
+            it was not computed.
+        limits: The moves of limits that change the choice.
+        decisive: The assumptions that change the choice within the values that were followed.
+        harmless: Ids of the assumptions that do not.
+        simulated: Ids of the assumptions that the trials were simulated with.
+        corner: The costs, by component, that differ from the assumed ones at the worst corner.
+        effects: The effects on each measure of effectiveness.
+        drivers: The leading factors of each.
+        sampled: Whether the designs are a sample of the design space.
+    """
+
+    analysis: Robustness
+    contenders: tuple[Contender, ...]
+    nearest_move: WeightMove | None
+    limits: tuple[LimitMoves, ...]
+    decisive: tuple[AssumptionFinding, ...]
+    harmless: tuple[str, ...]
+    simulated: tuple[str, ...]
+    corner: Mapping[str, float]
+    effects: tuple[MeasureEffects, ...]
+    drivers: tuple[Driver, ...]
+    sampled: bool
+
+    def is_missing(self, part: Part) -> bool:
+        """Whether a part could not be computed."""
+        return part in self.analysis.not_computed
+
+    def variants(self, rows: tuple[int, ...]) -> tuple[int, ...]:
+        """Ids of the variants of rows of the analysis."""
+        return tuple(self.analysis.variants[row] for row in rows)
+
+
+def robustness_findings(project: Project, found: Robustness) -> RobustnessFindings:
+    """The findings of an analysis.
+
+    Args:
+        project: The project with its study.
+        found: The analysis.
+    """
+    followed = [one for one in found.assumptions if one.range is not None]
+    shown = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
+    effects = tuple(one for one in found.effects.measures if one.measure in shown)
+    return RobustnessFindings(
+        analysis=found,
+        contenders=contenders_of(found),
+        nearest_move=_nearest_move(found),
+        limits=limit_moves(found),
+        decisive=tuple(one for one in followed if one.range is not None and not one.range.always),
+        harmless=tuple(one.number.id for one in followed if one.range is not None and one.range.always),
+        simulated=tuple(one.number.id for one in found.assumptions if one.simulated and one.columns),
+        corner=_corner(found),
+        effects=effects,
+        drivers=tuple(
+            Driver(measure=one.measure, shares=leading_factors(one), left_out=tuple(one.left_out)) for one in effects
+        ),
+        sampled=project.designs.sample is not None,
+    )
+
+
+def _nearest_move(found: Robustness) -> WeightMove | None:
+    shifts = () if found.weighting is None else found.weighting.shifts or ()
+    # The first is the choice itself.
+    others = [shift for shift in shifts[1:] if shift.distance > 0.0]
+    if not others:
+        return None
+    nearest = min(others, key=lambda shift: (shift.sum_distance, shift.rows))
+    return WeightMove(
+        moved=nearest.sum_distance / 2.0,
+        before=dict(zip(found.measures, found.weights.tolist(), strict=True)),
+        after=dict(zip(found.measures, nearest.nearest_in_sum.tolist(), strict=True)),
+        winners=tuple(found.variants[row] for row in nearest.rows),
+    )
+
+
+def _corner(found: Robustness) -> Mapping[str, float]:
+    box = found.costs
+    if box is None or box.range.corner is None:
+        return {}
+    return {
+        one.component: float(value)
+        for one, value in zip(box.numbers, box.range.corner, strict=True)
+        if abs(value - one.value) > 1e-6 * max(1.0, one.value)
+    }

@@ -1,0 +1,77 @@
+"""Nearest changes of the choice on either side of each limit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.decision.robustness import RequirementPrice, Robustness
+from rgss.tradeoff.problem import Comparison
+from rgss.tradeoff.robustness import changes_of_best, step_at
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimitMove:
+    """Choice beyond a moved limit.
+
+    Attributes:
+        limit: The limit at which the choice changes: when loosened, at that limit; when tightened, beyond it.
+        winners: The variants that are then best; empty if none is feasible.
+        value: Their weighted value; None if none is feasible.
+    """
+
+    limit: float
+    winners: tuple[int, ...]
+    value: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimitMoves:
+    """Moves of one limit that change the choice.
+
+    Attributes:
+        requirement: The requirement.
+        demand: Its demand, such as ``P_max >= 0.8 kg``.
+        unit: The unit of the limit.
+        at_least: Whether the limit is a lower bound.
+        looser: The nearest change when it is loosened; None if there is none.
+        tighter: The nearest change when it is tightened; None if there is none.
+    """
+
+    requirement: str
+    demand: str
+    unit: str
+    at_least: bool
+    looser: LimitMove | None
+    tighter: LimitMove | None
+
+
+def limit_moves(found: Robustness) -> tuple[LimitMoves, ...]:
+    """The moves of each limit.
+
+    Args:
+        found: The robustness of the decision, with the prices of the requirements.
+    """
+    return tuple(_moves(found, price) for price in found.prices)
+
+
+def _moves(found: Robustness, price: RequirementPrice) -> LimitMoves:
+    condition = price.condition
+    at_least = condition.sense is Comparison.AT_LEAST
+    steps = changes_of_best(price.steps)
+    # A quantity that equals the limit up to one part in 10⁹ meets it.
+    slack = 1e-9 * max(1.0, abs(condition.limit))
+    here = step_at(steps, condition.limit - slack if at_least else condition.limit + slack, at_least=at_least)
+    place = steps.index(here)
+
+    def move(limit: float, other: int) -> LimitMove:
+        step = steps[other]
+        return LimitMove(limit=limit, winners=tuple(found.variants[row] for row in step.best), value=step.value)
+
+    return LimitMoves(
+        requirement=condition.requirement,
+        demand=condition.demand,
+        unit=condition.limit_unit,
+        at_least=at_least,
+        looser=move(steps[place - 1].tightest, place - 1) if place > 0 else None,
+        tighter=move(here.tightest, place + 1) if place + 1 < len(steps) else None,
+    )

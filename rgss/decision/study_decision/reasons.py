@@ -1,0 +1,87 @@
+"""Reasons for a choice: its lead over the runner-up, and the limits that it comes closest to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.tradeoff import Decision, TradeProblem
+from rgss.tradeoff.problem import tabulated
+from rgss.tradeoff.programs import condition_column
+
+CLOSEST_LIMITS = 2
+"""So many limits are named."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Gain:
+    """Difference of a measure's contributions to the values of the chosen variant and of the runner-up.
+
+    Attributes:
+        measure: The measure.
+        amount: The difference; above 0 where the chosen variant is ahead.
+    """
+
+    measure: str
+    amount: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClosestLimit:
+    """A limit that the chosen variant comes close to.
+
+    Attributes:
+        requirement: The requirement.
+        demand: Its demand, such as ``P_max >= 0.8 kg``.
+        statistic: The statistic of the chosen variant that is compared with the limit.
+        unit: The unit of both.
+        margin: The distance to the limit as a share of it, at least 0.
+    """
+
+    requirement: str
+    demand: str
+    statistic: float
+    unit: str
+    margin: float
+
+
+def gains_over_runner_up(decision: Decision) -> tuple[Gain, ...]:
+    """The gains of the chosen variant over the runner-up, in the order of the weights.
+
+    Args:
+        decision: The decision.
+
+    Returns:
+        A gain for each weighted measure; none if nothing is chosen, or there is no runner-up.
+    """
+    if decision.runner_up is None or not decision.runner_up_contributions:
+        return ()
+    pairs = zip(decision.chosen_contributions, decision.runner_up_contributions, strict=True)
+    return tuple(Gain(measure=one.measure, amount=one.contribution - other.contribution) for one, other in pairs)
+
+
+def closest_limits(problem: TradeProblem, chosen: int | None) -> tuple[ClosestLimit, ...]:
+    """The limits that the chosen variant comes closest to, as a share of the limit, the closest first.
+
+    Args:
+        problem: The trade-off.
+        chosen: Id of the chosen variant; None if nothing is chosen.
+    """
+    # A table of the chosen variant alone: that of thousands takes long to make.
+    table = tabulated([one for one in problem.alternatives if one.variant == chosen])
+    if chosen is None or not len(table):
+        return ()
+    found = []
+    for condition in problem.conditions:
+        statistic = float(condition_column(condition, table)[0])
+        margin = condition.sense.margin(statistic, condition.limit) / (abs(condition.limit) or 1.0)
+        found.append((margin, condition, statistic))
+    return tuple(
+        ClosestLimit(
+            requirement=condition.requirement,
+            demand=condition.demand,
+            statistic=statistic,
+            unit=condition.limit_unit,
+            margin=max(0.0, margin),
+        )
+        for margin, condition, statistic in sorted(found, key=lambda one: one[0])[:CLOSEST_LIMITS]
+    )

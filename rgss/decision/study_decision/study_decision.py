@@ -1,0 +1,168 @@
+"""Decision of a study: choice, reasons, certificate, robustness, suppositions and cautions, built once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
+from rgss.decision.robustness import Robustness, analyse_robustness
+from rgss.decision.screening_result import ScreeningResult
+from rgss.decision.study_decision.comparison import SideBySide, side_by_side
+from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
+from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
+from rgss.decision.study_decision.suppositions import WhatIf, decision_side
+from rgss.decision.what_if import Scenario, measured_in
+from rgss.studies import Project
+from rgss.tradeoff import Decision, DecisionStatus, Overlap, PortfolioDecision, SharedPart, SolverRun, TradeProblem
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StudyDecision:
+    """Decision of a study.
+
+    Attributes:
+        study: The study's id.
+        evidence: Name of the evidence, as people see it.
+        variants: Number of variants that were compared.
+        trials: Number of their trials.
+        decision: Choice, ranking, conflicts and certificate.
+        comparison: The choice beside the runner-up; None if nothing is chosen.
+        gains: The gains of the choice over the runner-up, in the order of the weights.
+        closest_limits: The limits that the choice comes closest to.
+        practical_margin: Differences in value below this are of no practical meaning.
+        double_counted: Valued measures of which one contains the other.
+        shared_parts: Valued measures that depend on measures in common.
+        robustness: What nearly won and what would change the decision; None if not analysed.
+        portfolio: The portfolio of designs; None if the study has none.
+        screened: The outcome of screening; None without screening.
+        what_if: The suppositions that the decision is made under; None without.
+    """
+
+    study: str
+    evidence: str
+    variants: int
+    trials: int
+    decision: Decision
+    comparison: SideBySide | None
+    gains: tuple[Gain, ...]
+    closest_limits: tuple[ClosestLimit, ...]
+    practical_margin: float
+    double_counted: tuple[Overlap, ...]
+    shared_parts: tuple[SharedPart, ...]
+    robustness: RobustnessFindings | None
+    portfolio: PortfolioDecision | None = None
+    screened: ScreeningResult | None = None
+    what_if: WhatIf | None = None
+
+    @property
+    def is_final(self) -> bool:
+        """Whether a choice is proven best, the portfolio's too, and no part of the analysis is missing."""
+        is_whole = self.robustness is None or not self.robustness.analysis.not_computed
+        return is_settled(self.decision, self.portfolio) and is_whole
+
+
+def is_settled(decision: Decision, portfolio: PortfolioDecision | None) -> bool:
+    """Whether a variant is chosen, the portfolio too where there is one, and both are proven best."""
+    return decision.status is DecisionStatus.OPTIMAL and (
+        portfolio is None or portfolio.status is DecisionStatus.OPTIMAL
+    )
+
+
+def decide_study(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    *,
+    evidence: str,
+    analysed: bool = True,
+    independent: tuple[SolverRun, ...] = (),
+    portfolio: PortfolioDecision | None = None,
+    screened: ScreeningResult | None = None,
+    scenario: Scenario | None = None,
+    reopened: tuple[int, ...] = (),
+) -> StudyDecision:
+    """Decide a study, and analyse the decision; nothing is simulated.
+
+    Args:
+        project: The project with its study, without suppositions.
+        measured: Every variant with its estimates and records, by ascending id.
+        evidence: Name of the evidence, as people see it.
+        analysed: Whether the robustness is analysed too, which takes some seconds.
+        independent: Runs of other solvers, as further checks.
+        portfolio: The portfolio of the study; None if it has none.
+        screened: The outcome of screening; None without.
+        scenario: Suppositions that the decision is made under; None for the study as it is.
+        reopened: Designs that screening would let pass under the suppositions.
+
+    Raises:
+        EvidenceError: Trials of the study have no evidence.
+        TradeoffError: The choice is ill posed, or no optimum was proved.
+        DefinitionError: As for `trade_problem`.
+    """
+    problem = trade_problem(project, measured)
+    decision = choose(project, measured, problem=problem, independent=independent)
+    what_if = None
+    if scenario is not None:
+        before = decision_side(project, measured, decision)
+        units = {measure: project.measures.measure(measure).unit for measure in before.estimates}
+        project, measured = scenario.project, measured_in(scenario, measured)
+        problem = trade_problem(project, measured)
+        decision = choose(project, measured, problem=problem, independent=independent)
+        after = decision_side(project, measured, decision)
+        what_if = WhatIf(scenario=scenario, units=units, before=before, after=after, reopened=reopened)
+    return study_decision(
+        project,
+        measured,
+        decision,
+        analyse_robustness(project, measured, decision, problem=problem) if analysed else None,
+        problem=problem,
+        evidence=evidence,
+        portfolio=portfolio,
+        screened=screened,
+        what_if=what_if,
+    )
+
+
+def study_decision(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    decision: Decision,
+    found: Robustness | None,
+    *,
+    problem: TradeProblem,
+    evidence: str,
+    portfolio: PortfolioDecision | None = None,
+    screened: ScreeningResult | None = None,
+    what_if: WhatIf | None = None,
+) -> StudyDecision:
+    """The decision of a study from a choice and its analysis; the arguments are those of `decide_study`.
+
+    Args:
+        project: The project, under the suppositions if there are any.
+        measured: Every variant with its estimates.
+        decision: The choice between them.
+        found: Its robustness; None if not analysed.
+        problem: The trade-off that was decided.
+        evidence: Name of the evidence.
+        portfolio: The portfolio.
+        screened: The outcome of screening.
+        what_if: The effect of suppositions.
+    """
+    return StudyDecision(
+        study=project.study.id,
+        evidence=evidence,
+        variants=len(measured),
+        trials=sum(len(entry.records) for entry in measured),
+        decision=decision,
+        comparison=side_by_side(project, measured, decision),
+        gains=gains_over_runner_up(decision),
+        closest_limits=closest_limits(problem, decision.chosen),
+        practical_margin=project.study.trade_off.practical_margin,
+        double_counted=double_counting(project),
+        shared_parts=shared_measures(project),
+        robustness=None if found is None else robustness_findings(project, found),
+        portfolio=portfolio,
+        screened=screened,
+        what_if=what_if,
+    )

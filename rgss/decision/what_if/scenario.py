@@ -1,0 +1,45 @@
+"""Project under suppositions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.studies import Project
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Change:
+    """One thing that is supposed to be another.
+
+    Attributes:
+        id: What it is, such as ``weight.t_e``.
+        before: Its value.
+        after: The value that is supposed.
+        unit: The unit of both.
+    """
+
+    id: str
+    before: float
+    after: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scenario:
+    """A project under suppositions.
+
+    Attributes:
+        project: The project as it would be.
+        changes: What was asked for, in the order in which it was.
+        rescaled: The weights that follow from those that were asked for: the others keep their
+            proportions so that all sum to 1.
+        dropped: Variants that the rules of the design space would no longer allow.
+        simulated: The numbers that the trials were simulated with, by id: what trials showed is
+            held, though another value asks for other trials.
+    """
+
+    project: Project
+    changes: tuple[Change, ...]
+    rescaled: tuple[Change, ...]
+    dropped: tuple[int, ...]
+    simulated: tuple[str, ...]

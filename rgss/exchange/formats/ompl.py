@@ -1,0 +1,41 @@
+"""Searches of the planners as a benchmark database of OMPL."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rgss.exchange.formats.format import ExportFormat
+
+if TYPE_CHECKING:
+    from rgss.studies import Project
+
+
+def _write(project: Project, path: Path, evidence: str) -> Mapping[str, int]:
+    from importlib.metadata import version
+
+    from rgss.evidence import EvidenceStore
+    from rgss.exchange.ompl_database import write_ompl_database
+    from rgss.sweep import planning_runs
+
+    planning = project.study.planning
+    with EvidenceStore.open(project.evidence, create=False, label=evidence) as store:
+        runs = planning_runs(project, store)
+    write_ompl_database(
+        path,
+        runs,
+        name=project.study.id,
+        seed=project.study.seed,
+        version=version("ompl"),
+        setup={
+            "scene": project.scene.id,
+            "planning clock": f"{planning.charge_per_check_s:g} s a validity check" if planning.counted else "wall",
+            "resolution": f"{planning.resolution_rad:g} rad",
+            "clearance": f"{planning.clearance_m:g} m",
+        },
+    )
+    return {"planning runs": len(runs)}
+
+
+OMPL = ExportFormat(name="ompl", write=_write)

@@ -1,0 +1,29 @@
+"""Counts of what an export of the requirements holds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rgss.exchange.content import Content
+    from rgss.studies import Project
+
+
+def requirement_counts(project: Project) -> dict[str, int]:
+    """Number of requirements."""
+    requirements = project.requirements
+    return {"requirements": len(requirements.stakeholder) + len(requirements.system)}
+
+
+def model_counts(project: Project) -> dict[str, int]:
+    """Number of requirements and of elements of the architecture."""
+    elements = len(project.requirements.architecture.elements)
+    return {**requirement_counts(project), "elements of the architecture": elements}
+
+
+def requirements_content(project: Project) -> Content:
+    """The requirements with the measures that they name."""
+    from rgss.exchange.content import content_of
+
+    measures = {measure.id: measure.definition for measure in project.measures.measures}
+    return content_of(project.requirements, measures)

@@ -1,0 +1,28 @@
+"""Renderers of a study's decision: text, Markdown, JSON, and its parts of the HTML report."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.reports.decision.json import decision_to_json, robustness_to_json, screening_to_json, trade_document
+    from rgss.reports.decision.markdown import decision_section, text_with_place, with_section
+    from rgss.reports.decision.report_conflicts import conflict_part
+    from rgss.reports.decision.report_part import decision_part
+    from rgss.reports.decision.text import decision_lines, screening_lines
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "conflict_part",
+    "decision_lines",
+    "decision_part",
+    "decision_section",
+    "decision_to_json",
+    "robustness_to_json",
+    "screening_lines",
+    "screening_to_json",
+    "text_with_place",
+    "trade_document",
+    "with_section",
+]

@@ -1,0 +1,69 @@
+"""Decision of a study as one JSON document; docs/robustness.md describes it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.json.decision import checks_to_json, decision_to_json
+from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
+from rgss.reports.decision.json.screening import screening_to_json
+from rgss.tradeoff import PortfolioDecision
+
+SCHEMA = 2
+"""Rises when a key goes or changes its meaning; new keys do not count."""
+
+
+def trade_document(made: StudyDecision) -> dict[str, Any]:
+    """The document.
+
+    Args:
+        made: The decision.
+    """
+    what_if, screened = made.what_if, made.screened
+    document: dict[str, Any] = {"schema": SCHEMA, "study": made.study, **decision_to_json(made.decision)}
+    document["double_counting"] = [
+        {"whole": overlap.whole, "part": overlap.part, "instead": overlap.instead} for overlap in made.double_counted
+    ]
+    document["shared_parts"] = [
+        {"first": shared.first, "second": shared.second, "parts": list(shared.parts)} for shared in made.shared_parts
+    ]
+    document["robustness"] = None if made.robustness is None else robustness_to_json(made.robustness.analysis)
+    document["fleet"] = None if made.portfolio is None else portfolio_to_json(made.portfolio)
+    document["what_if"] = (
+        None
+        if what_if is None
+        else {
+            **scenario_to_json(what_if.scenario),
+            "decision_before": decision_to_json(what_if.before.decision),
+        }
+    )
+    document["evidence"] = made.evidence
+    reopened = () if what_if is None else what_if.reopened
+    document["screening"] = None if screened is None else {**screening_to_json(screened), "would_go_on": list(reopened)}
+    return document
+
+
+def portfolio_to_json(fleet: PortfolioDecision) -> dict[str, Any]:
+    """The choice of a portfolio as plain values.
+
+    Args:
+        fleet: The choice.
+    """
+    return {
+        "status": fleet.status.value,
+        "members": list(fleet.members),
+        "assignments": [
+            {"study": one.task, "member": one.member, "variant": one.variant, "value": one.value}
+            for one in fleet.assignments
+        ],
+        "value": fleet.objective,
+        "value_recomputed": fleet.objective_recomputed,
+        "gap": fleet.gap,
+        "by_size": list(fleet.by_size),
+        "by_size_gap": list(fleet.by_size_gap),
+        "unserved": list(fleet.unserved),
+        "enumeration_agrees": fleet.enumeration_agrees.value,
+        "checks": checks_to_json(fleet.checks),
+        "cut": None if fleet.cut is None else fleet.cut.value,
+    }

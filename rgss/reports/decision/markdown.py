@@ -1,0 +1,167 @@
+"""The decision as a section in Markdown, and its place between two markers of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from rgss.decision.robustness import not_computed_lines
+from rgss.decision.study_decision import RobustnessFindings, SideBySide, StudyDecision
+from rgss.documents import LARGEST_FILE_BYTES, chunks_of
+from rgss.errors import DefinitionError
+from rgss.invisible_characters import visible
+from rgss.reports.decision.words import UNKNOWN, amount, ids_text, moves_text, score, variants_text
+from rgss.trace.views import share_in_words
+
+BEGIN = "<!-- decision: written by `rgss trade --section --into FILE`; do not edit -->"
+END = "<!-- end of decision -->"
+
+
+def decision_section(made: StudyDecision) -> str:
+    """The decision, the reasons for it, and the effect of the assumed costs, between its markers.
+
+    Args:
+        made: The decision, whose robustness was analysed.
+    """
+    parts = [BEGIN, ""]
+    found = made.robustness
+    if made.comparison is None:
+        parts += [f"No variant of study `{made.study}` meets every requirement.", ""]
+    elif found is not None:
+        parts += [*_choice(made, made.comparison), ""]
+        parts += [*_deciding(made, found), ""]
+        parts += [*_costs(found), ""]
+    for line in () if found is None else not_computed_lines(found.analysis.not_computed):
+        parts += [line, ""]
+    return visible("\n".join([*parts, END]))
+
+
+def text_with_place(file: Path) -> str:
+    """The text of a file that has a place for the section.
+
+    Args:
+        file: The file.
+
+    Raises:
+        DefinitionError: The file cannot be read, or has not each marker once.
+    """
+    try:
+        # Not as text, so that its ends of lines stay.
+        text = b"".join(chunks_of(file, largest=LARGEST_FILE_BYTES)).decode("utf-8")
+    except (OSError, ValueError) as error:
+        raise DefinitionError(f"{str(file)!r} cannot be read", hint="name a Markdown file") from error
+    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
+        raise DefinitionError(
+            f"{str(file)!r} has no place for the decision", hint=f"write {BEGIN!r} and, below it, {END!r}"
+        )
+    return text
+
+
+def with_section(text: str, section: str) -> str:
+    """A text with another section between its markers.
+
+    Args:
+        text: A text that has each marker once.
+        section: The section with its markers.
+    """
+    ended = section.replace("\n", "\r\n") if "\r\n" in text else section
+    return text.partition(BEGIN)[0] + ended + text.partition(END)[2]
+
+
+def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
+    decision = made.decision
+    ties = f" ({variants_text(decision.ties[1:])} are as good)" if len(decision.ties) > 1 else ""
+    yield (
+        f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {made.trials} trials; "
+        f"{decision.counts.feasible} of them meet every requirement."
+    )
+    yield ""
+    shown = len(compared.variants)
+    yield f"| | weight | {' | '.join(['chosen', 'runner-up'][:shown])} |"
+    yield "|---|---|" + "---|" * shown
+    yield f"| variant | | {' | '.join(map(str, compared.variants))} |"
+    for parameter in compared.parameters:
+        cells = [_parameter(value, parameter.unit) for value in parameter.cells]
+        yield f"| {parameter.name} | | {' | '.join(cells)} |"
+    for row in compared.measures:
+        cells = [UNKNOWN if value is None else amount(value, row.unit) for value in row.cells]
+        yield f"| `{row.measure}` | {row.weight:.2f} | {' | '.join(cells)} |"
+    yield f"| **value** | | {' | '.join(map(score, compared.values))} |"
+
+
+def _parameter(value: float | str, unit: str) -> str:
+    return value if isinstance(value, str) else f"{value:g}{'' if unit in ('', '1') else f' {unit}'}"
+
+
+def _deciding(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
+    decision = made.decision
+    gains = sorted((gain.amount, gain.measure) for gain in made.gains)
+    ahead = ", ".join(f"`{measure}` ({gain:+.3f})" for gain, measure in reversed(gains) if gain > 5e-4)
+    behind = ", ".join(f"`{measure}` ({gain:+.3f})" for gain, measure in gains if gain < -5e-4)
+    yield (
+        f"*What decides it.* Against the runner-up it gains in {ahead or 'nothing'} and loses in {behind or 'nothing'}."
+    )
+    if decision.excluded_better:
+        requirements = ", ".join(f"{one.requirement} ({one.excluded})" for one in decision.deciding_requirements)
+        better = decision.counts.excluded_better
+        yield f"{better} better {'variant misses' if better == 1 else 'variants miss'} a requirement: {requirements}."
+    else:
+        yield "No requirement excludes a better variant."
+    shares = "; ".join(_shares(made, found))
+    if shares:
+        yield f"{shares[0].upper()}{shares[1:]}."
+    move = found.nearest_move
+    if move is not None:
+        yield (
+            f"Moving {move.moved:.3f} of weight ({moves_text(move.before, move.after)}) lets "
+            f"{variants_text(move.winners)} win; no smaller move changes the decision."
+        )
+
+
+def _shares(made: StudyDecision, found: RobustnessFindings) -> Iterator[str]:
+    """The shares of weights and of draws at which the choice is the best."""
+    weighting = found.analysis.weighting
+    if weighting is None:
+        return
+    row = found.analysis.variants.index(made.decision.chosen or 0)
+    if weighting.regions is not None:
+        yield f"it is the best for {share_in_words(weighting.regions[row].share)} of all weights"
+    indices = weighting.acceptability
+    if indices is not None:
+        noise = " and the noise of the replicates" if weighting.with_noise else ""
+        first, confidence = share_in_words(float(indices.first[row])), share_in_words(float(indices.confidence[row]))
+        yield (
+            f"over all weights{noise} it comes first in {first} of the draws, and at the "
+            f"weights that are typical for it with a probability of {confidence}"
+        )
+
+
+def _costs(found: RobustnessFindings) -> Iterator[str]:
+    box, refused = found.analysis.costs, found.analysis.refused
+    if box is None:
+        if "costs" in refused:
+            yield f"*Whether the assumed costs matter* was not analysed: {refused['costs']}."
+        return
+    if box.range.factor is None:
+        yield "*The assumed costs do not matter*: the choice stands wherever they are from 0 to twice what is assumed."
+        return
+    winners = found.variants(box.range.overtaken_by)
+    then = f"{variants_text(winners)} can win" if winners else "the choice can miss a requirement"
+    yield (
+        f"*The assumed costs matter.* All of them together may be off by ±{share_in_words(box.range.factor)} "
+        f"before {then}. Alone, the choice stands while"
+    )
+    yield ""
+    costs = {number.id for number in box.numbers}
+    for one in found.decisive:
+        span = one.range
+        if one.number.id not in costs or span is None:
+            continue
+        bounds = []
+        if span.low is not None:
+            bounds.append(f"at least {amount(span.low, 'USD')} (below, {ids_text(found.variants(span.below))})")
+        if span.high is not None:
+            above = f" (above, {ids_text(found.variants(span.above))})" if span.above else ""
+            bounds.append(f"at most {amount(span.high, 'USD')}{above}")
+        assumed = amount(one.number.value, "USD")
+        yield f"- `{one.number.component}` costs {' and '.join(bounds)}; assumed are {assumed}"

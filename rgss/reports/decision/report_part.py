@@ -1,0 +1,169 @@
+"""Decision of a study in the document of the HTML report."""
+
+from __future__ import annotations
+
+import itertools
+
+from rgss.decision import screening_summary
+from rgss.decision.robustness import not_computed_lines
+from rgss.decision.study_decision import LimitMoves, RobustnessFindings, StudyDecision
+from rgss.reports.decision.json import assumptions_to_json, costs_to_json
+from rgss.reports.decision.report_conflicts import conflict_reasons
+from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reasons
+from rgss.reports.plain_numbers import Plain, plain_number
+from rgss.tradeoff import Contribution, Decision, PortfolioDecision
+from rgss.tradeoff.programs import Certificate
+
+MOST_CONTENDERS = 40
+"""So many variants that come first for some weights are listed, the most acceptable first."""
+
+_MOST_LISTED = 6
+
+
+def decision_part(made: StudyDecision) -> Plain:
+    """The decision, the reasons for it, what nearly won, and what would change it.
+
+    Args:
+        made: The decision.
+    """
+    decision = made.decision
+    return {
+        "chosen": decision.chosen,
+        "runner_up": decision.runner_up,
+        "ties": list(decision.ties),
+        "near_ties": list(decision.near_ties),
+        "program": decision.program,
+        "objectives": list(decision.objectives),
+        "counts": {"alternatives": decision.counts.alternatives, "feasible": decision.counts.feasible},
+        "demands": dict(decision.demands),
+        "headline": _headline(decision),
+        "reasons": _reasons(made),
+        "cautions": list(cautions(made)),
+        "screening": "" if made.screened is None else screening_summary(made.screened),
+        "fleet": "" if made.portfolio is None else portfolio_sentence(made.portfolio),
+        "contributions": {
+            "chosen": _contributions(decision.chosen_contributions),
+            "runner_up": _contributions(decision.runner_up_contributions),
+        },
+        "certificate": _certificate(decision.certificate),
+        **_robustness(made.robustness),
+    }
+
+
+def portfolio_sentence(fleet: PortfolioDecision) -> str:
+    """The choice of a portfolio in a few sentences.
+
+    Args:
+        fleet: The choice.
+    """
+    missing = no_portfolio(fleet)
+    if missing:
+        return missing
+    served = "; ".join(f"{one.task} by {one.member} (variant {one.variant})" for one in fleet.assignments)
+    proof = portfolio_proof(fleet)
+    return f"Fleet: {', '.join(fleet.members)} together serve every study: {served}. {proof[0].upper()}{proof[1:]}."
+
+
+def _robustness(found: RobustnessFindings | None) -> Plain:
+    if found is None:
+        return {}
+    return {
+        "acceptability": _acceptability(found),
+        "weight_ranges": _weight_ranges(found),
+        "limits": [_limit(moves) for moves in found.limits],
+        "assumptions": assumptions_to_json(found.analysis),
+        "costs": costs_to_json(found.analysis),
+        "refused": dict(found.analysis.refused),
+        "not_computed": list(not_computed_lines(found.analysis.not_computed)),
+    }
+
+
+def _headline(decision: Decision) -> str:
+    counts = decision.counts
+    if decision.chosen is None:
+        return f"No variant is chosen: none of {counts.alternatives} meets every requirement."
+    meet = "meets" if counts.feasible == 1 else "meet"
+    return f"Variant {decision.chosen} is chosen: {counts.feasible} of {counts.alternatives} {meet} every requirement."
+
+
+def _reasons(made: StudyDecision) -> list[str]:
+    if made.decision.chosen is None:
+        return list(conflict_reasons(made.decision))
+    return [f"{one.text}; {'; '.join(one.details)}." if one.details else one.text for one in reasons(made)]
+
+
+def _contributions(contributions: tuple[Contribution, ...]) -> list[Plain]:
+    return [
+        {"measure": one.measure, "value": one.value, "weight": one.weight, "contribution": one.contribution}
+        for one in contributions
+    ]
+
+
+def _certificate(certificate: Certificate) -> Plain:
+    return {
+        "status": certificate.status.value,
+        "solver": certificate.solver,
+        "gap": certificate.gap,
+        "alternatives": certificate.alternatives,
+        "objective": certificate.objective,
+        "objective_recomputed": certificate.objective_recomputed,
+        "enumeration_agrees": certificate.enumeration_agrees.value,
+        "checks": [check.text for check in certificate.checks],
+    }
+
+
+def _acceptability(found: RobustnessFindings) -> Plain | None:
+    weighting = found.analysis.weighting
+    if weighting is None or weighting.acceptability is None:
+        return None
+    first = [one for one in found.contenders if one.first > 0.0]
+    return {
+        "iterations": weighting.acceptability.iterations,
+        "drawn_by": weighting.acceptability.drawn_by.value,
+        "with_noise": weighting.with_noise,
+        "elicited": weighting.elicited,
+        "more": max(0, len(first) - MOST_CONTENDERS),
+        "variants": [
+            {
+                "variant": one.variant,
+                "first": plain_number(one.first),
+                "error": plain_number(one.first_error),
+                "confidence": plain_number(one.confidence),
+                "feasible": plain_number(one.feasible_share),
+                "region": plain_number(one.region),
+            }
+            for one in itertools.islice(first, MOST_CONTENDERS)
+        ],
+    }
+
+
+def _weight_ranges(found: RobustnessFindings) -> list[Plain]:
+    analysis = found.analysis
+    if analysis.weighting is None or analysis.weighting.ranges is None:
+        return []
+    rows = zip(analysis.measures, analysis.weights.tolist(), analysis.weighting.ranges, strict=True)
+    return [
+        {
+            "measure": measure,
+            "weight": float(weight),
+            "low": plain_number(one.low),
+            "high": plain_number(one.high),
+            "below": list(found.variants(one.below)),
+            "above": list(found.variants(one.above)),
+        }
+        for measure, weight, one in rows
+    ]
+
+
+def _limit(moves: LimitMoves) -> Plain:
+    """The choice with a requirement's limit moved to the next change on either side."""
+    looser, tighter = moves.looser, moves.tighter
+    return {
+        "requirement": moves.requirement,
+        "demand": moves.demand,
+        "unit": moves.unit,
+        "looser_to": None if looser is None else plain_number(looser.limit),
+        "then": None if looser is None else list(looser.winners[:_MOST_LISTED]),
+        "tighter_beyond": None if tighter is None else plain_number(tighter.limit),
+        "then_wins": None if tighter is None else list(tighter.winners[:_MOST_LISTED]),
+    }

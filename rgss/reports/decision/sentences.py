@@ -1,0 +1,158 @@
+"""Sentences on a decision that its pages share: reasons, cautions, certificate, portfolio, noise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.words import amount, ids_text, variants_text
+from rgss.trace.views import share_in_words, value_in_words
+from rgss.tradeoff import Agreement, Check, CheckKind, ConflictSurvival, DecisionStatus, PortfolioDecision
+from rgss.tradeoff.programs import Certificate
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reason:
+    """A reason for a choice.
+
+    Attributes:
+        text: The reason, in a sentence.
+        details: What it consists of; may be empty.
+    """
+
+    text: str
+    details: tuple[str, ...] = ()
+
+
+def reasons(made: StudyDecision) -> Iterator[Reason]:
+    """Reasons for the choice of a variant.
+
+    Args:
+        made: The decision, by which a variant is chosen.
+    """
+    decision = made.decision
+    best = (
+        "has the highest value"
+        if decision.program == "additive"
+        else f"is the choice of the {decision.program} program"
+    )
+    feasible = decision.counts.feasible
+    among = "is the one variant that meets" if feasible == 1 else f"of the {feasible} variants that meet"
+    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement.")
+    others = [variant for variant in decision.ties if variant != decision.chosen]
+    if others:
+        names = ", ".join(map(str, others))
+        yield Reason(text=f"Variants {names} have the same value; the smallest id is chosen.")
+    if decision.near_ties:
+        near = variants_text(decision.near_ties)
+        yield Reason(text=f"Within the practical margin of {made.practical_margin:g} of it: {near}.")
+    if made.gains:
+        yield Reason(text=f"It leads the runner-up {decision.runner_up} by: {_gains(made)}.")
+    if decision.excluded_better:
+        count = decision.counts.excluded_better
+        ids = ids_text(one.variant for one in decision.excluded_better)
+        yield Reason(
+            text=f"{count} variant{'s' if count > 1 else ''} would be worth more but violate a requirement: {ids}",
+            details=tuple(
+                f"{each.requirement} ({decision.demands[each.requirement]}) excludes {each.excluded} of them"
+                for each in decision.deciding_requirements
+            ),
+        )
+    else:
+        yield Reason(text="No requirement excludes a variant of higher value.")
+    close = [
+        f"{limit.requirement} ({limit.demand}) at {amount(limit.statistic, limit.unit)}, "
+        f"{share_in_words(limit.margin)} inside"
+        for limit in made.closest_limits
+    ]
+    if close:
+        yield Reason(text=f"Closest limits: {'; '.join(close)}.")
+
+
+def cautions(made: StudyDecision) -> Iterator[str]:
+    """Cautions on a choice: double counting, and weights that decide nothing.
+
+    Args:
+        made: The decision.
+    """
+    for overlap in made.double_counted:
+        instead = f" {overlap.instead} could be valued instead of {overlap.whole}." if overlap.instead else ""
+        yield f"{overlap.whole} contains {overlap.part}, so {overlap.part} counts twice.{instead}"
+    for shared in made.shared_parts:
+        yield f"{shared.first} and {shared.second} both depend on {', '.join(shared.parts)}."
+    for flat in made.decision.flat_measures:
+        among = "feasible variants" if flat.among_feasible else "variants"
+        yield f"{flat.measure} is the same for all {among}, so its weight of {flat.weight:g} decides nothing."
+
+
+def certificate_sentence(certificate: Certificate) -> str:
+    """Status, solver, gap, and agreement with enumeration.
+
+    Args:
+        certificate: The certificate of a decision.
+    """
+    compared = {
+        Agreement.AGREED: f"enumeration of all {certificate.alternatives} variants agrees",
+        Agreement.DISAGREED: f"enumeration of all {certificate.alternatives} variants DISAGREES",
+        Agreement.NOT_ENUMERATED: "not enumerated",
+    }[certificate.enumeration_agrees]
+    gap = value_in_words(certificate.gap)
+    return f"Certificate: {certificate.status.value} by {certificate.solver}, gap {gap}; {compared}."
+
+
+def notable_checks(checks: tuple[Check, ...]) -> list[str]:
+    """The checks that disagree, and those by another solver, in a sentence each."""
+    return [
+        f"Check: {check.text}." for check in checks if not check.agrees or check.kind is CheckKind.INDEPENDENT_SOLVER
+    ]
+
+
+def no_portfolio(fleet: PortfolioDecision) -> str:
+    """Why there is no portfolio; empty where there is one.
+
+    Args:
+        fleet: The choice of a portfolio.
+    """
+    if fleet.objective is not None:
+        return ""
+    if fleet.status is DecisionStatus.UNDECIDED:
+        return f"No fleet that serves every study was found{_cut(fleet)}; there may be one."
+    return f"No fleet of this size serves every study; unserved by itself: {', '.join(fleet.unserved) or 'none'}."
+
+
+def portfolio_proof(fleet: PortfolioDecision) -> str:
+    """Whether a portfolio is proven best, and by how much another can be better.
+
+    Args:
+        fleet: The choice of a portfolio.
+    """
+    if fleet.status is DecisionStatus.BEST_FOUND:
+        gap = value_in_words(fleet.gap)
+        return f"best found, not proven best: another one can be better by at most {gap}{_cut(fleet)}"
+    return "proven best" if fleet.cut is None else f"proven best; of fewer members not every value is{_cut(fleet)}"
+
+
+def noise_sentence(survival: ConflictSurvival | None) -> str:
+    """How the survival of conflicts under noise was computed.
+
+    Args:
+        survival: The survival; None where there is one replicate of each variant.
+    """
+    if survival is None:
+        return "Whether a conflict survives noise: unknown, it needs two replicates of each variant."
+    draws = f"all {survival.resamples}" if survival.exact else f"{survival.resamples:,}"
+    return (
+        f"Survives noise: the share of {draws} resamples of the replicates in which the conflict remains; "
+        f"nothing is feasible in {share_in_words(survival.nothing_feasible)} of them."
+    )
+
+
+def _gains(made: StudyDecision) -> str:
+    shown = sorted(made.gains, key=lambda gain: -abs(gain.amount))
+    parts = [f"{gain.measure} {gain.amount:+.4f}" for gain in shown if abs(gain.amount) > 5e-5]
+    return ", ".join(parts) or "less than rounding shows"
+
+
+def _cut(fleet: PortfolioDecision) -> str:
+    return "" if fleet.cut is None else f" ({fleet.cut.value})"

@@ -1,0 +1,25 @@
+"""Decision of a study as lines for a terminal."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
+    from rgss.reports.decision.text.effects import effects_lines
+    from rgss.reports.decision.text.page import decision_lines
+    from rgss.reports.decision.text.robustness import robustness_lines
+    from rgss.reports.decision.text.screening import reopened_lines, screening_lines
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "certificate_lines",
+    "choice_lines",
+    "decision_lines",
+    "effects_lines",
+    "portfolio_lines",
+    "reopened_lines",
+    "robustness_lines",
+    "screening_lines",
+]

@@ -1,0 +1,70 @@
+"""Choice, reasons, portfolio and certificate for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.decision.study_decision import SideBySide, StudyDecision
+from rgss.reports.decision.sentences import certificate_sentence, no_portfolio, notable_checks, portfolio_proof, reasons
+from rgss.reports.decision.text.conflicts import conflict_lines
+from rgss.reports.decision.words import score
+from rgss.reports.plain_text import aligned_table
+from rgss.trace.views import value_in_words
+from rgss.tradeoff import PortfolioDecision
+from rgss.tradeoff.programs import Certificate
+
+
+def choice_lines(made: StudyDecision) -> Iterator[str]:
+    """The chosen variant beside the runner-up, with reasons; or the conflicts that leave nothing to choose.
+
+    Args:
+        made: The decision.
+    """
+    if made.comparison is None:
+        yield from conflict_lines(made.decision)
+        return
+    yield from _comparison(made.comparison)
+    yield from ("", "Why")
+    for reason in reasons(made):
+        yield reason.text
+        yield from (f"  {detail}" for detail in reason.details)
+
+
+def certificate_lines(certificate: Certificate) -> Iterator[str]:
+    """The certificate, and the checks that disagree or are by another solver.
+
+    Args:
+        certificate: The certificate of the decision.
+    """
+    yield certificate_sentence(certificate)
+    yield from notable_checks(certificate.checks)
+
+
+def portfolio_lines(fleet: PortfolioDecision) -> Iterator[str]:
+    """A portfolio of designs, and the member that serves each study.
+
+    Args:
+        fleet: The choice of a portfolio.
+    """
+    yield from ("", "Fleet")
+    missing = no_portfolio(fleet)
+    if missing:
+        yield missing
+        return
+    yield f"{', '.join(fleet.members)} together serve every study; value {value_in_words(fleet.objective)}."
+    rows = [[one.task, one.member, str(one.variant), value_in_words(one.value)] for one in fleet.assignments]
+    yield from aligned_table(["study", "served by", "variant", "value"], rows, right=(2, 3))
+    sizes = ", ".join(f"{size}: {value_in_words(best)}" for size, best in enumerate(fleet.by_size, start=1))
+    yield f"Value with at most so many members: {sizes}."
+    yield f"Certificate: {portfolio_proof(fleet)}; enumeration of all fleets: {fleet.enumeration_agrees.value}."
+    yield from notable_checks(fleet.checks)
+
+
+def _comparison(compared: SideBySide) -> list[str]:
+    rows = [["variant", "", "", *map(str, compared.variants)]]
+    rows += [[row.name, row.unit, "", *map(str, row.cells)] for row in compared.parameters]
+    rows += [[row.measure, row.unit, f"{row.weight:.2f}", *map(value_in_words, row.cells)] for row in compared.measures]
+    rows.append(["value", "", "", *map(score, compared.values)])
+    rows += [[f"{row.place}. {row.name}", "", "", *map(value_in_words, row.cells)] for row in compared.objectives]
+    heads = ["chosen", "runner-up"][: len(compared.variants)]
+    return aligned_table(["", "unit", "weight", *heads], rows, right=(2, 3, 4))

@@ -1,0 +1,42 @@
+"""Decision of a study as a page for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.sentences import cautions
+from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
+from rgss.reports.decision.text.effects import effects_lines
+from rgss.reports.decision.text.robustness import robustness_lines
+from rgss.reports.decision.text.screening import reopened_lines, screening_lines
+from rgss.reports.decision.text.what_if import what_if_lines
+
+
+def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[str]:
+    """The lines of the page.
+
+    Args:
+        made: The decision.
+        effects: Whether the effects of each level on the measures of effectiveness are shown too.
+    """
+    yield from (f"Study {made.study}: {made.variants} variants, {made.trials} trials", "")
+    if made.what_if is not None:
+        yield from what_if_lines(made.what_if)
+        yield from ("", "The decision under these suppositions", "")
+    yield from choice_lines(made)
+    if made.robustness is not None:
+        yield from robustness_lines(made)
+        if effects:
+            yield from effects_lines(made.robustness.effects)
+    if made.portfolio is not None:
+        yield from portfolio_lines(made.portfolio)
+    yield ""
+    if made.decision.chosen is not None:
+        yield from (f"Caution: {caution}" for caution in cautions(made))
+    yield from certificate_lines(made.decision.certificate)
+    yield f"Evidence: {made.evidence}"
+    if made.screened is not None:
+        yield ""
+        yield from screening_lines(made.screened)
+        yield from reopened_lines(made.what_if.reopened if made.what_if is not None else ())

@@ -1,0 +1,61 @@
+"""Words for the figures of a decision: ids, quantities, limits and changes of weights."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from rgss.trace.views import rounded_away, value_in_words
+
+LONGEST_IDS = 12
+"""So many runs of ids are written out."""
+
+UNKNOWN = "–"
+
+
+def ids_text(variants: Iterable[int]) -> str:
+    """Ids in ascending order, runs of three and more joined: ``28–30, 64``."""
+    runs: list[list[int]] = []
+    for variant in sorted(variants):
+        if runs and variant == runs[-1][-1] + 1:
+            runs[-1].append(variant)
+        else:
+            runs.append([variant])
+    parts = []
+    for run in runs:
+        parts += [f"{run[0]}–{run[-1]}"] if len(run) > 2 else [str(variant) for variant in run]
+    more = " …" if len(parts) > LONGEST_IDS else ""
+    return ", ".join(parts[:LONGEST_IDS]) + more
+
+
+def variants_text(variants: Sequence[int]) -> str:
+    """``variant 28``, ``variants 28–30``, or ``nothing``."""
+    if not variants:
+        return "nothing"
+    return f"variant{'s' if len(variants) > 1 else ''} {ids_text(variants)}"
+
+
+def amount(value: float, unit: str) -> str:
+    """A quantity with its unit; money to the dollar."""
+    return f"{value:,.0f} USD" if unit == "USD" else value_in_words(value, unit)
+
+
+def moved_limit(limit: float, needed: float, unit: str) -> str:
+    """What a limit has to become, rounded away from what it is, so that the number as written is enough."""
+    return amount(rounded_away(limit, needed, unit), unit)
+
+
+def moves_text(before: Mapping[str, float], after: Mapping[str, float]) -> str:
+    """Which weights move, the largest moves first: ``C_total 0.25 → 0.17``."""
+    # Rounded, so that equal moves stay in the measures' order.
+    moved = sorted(before, key=lambda measure: -round(abs(after[measure] - before[measure]), 9))
+    parts = [
+        f"{measure} {before[measure]:.3g} → {after[measure]:.3g}"
+        for measure in moved
+        if abs(after[measure] - before[measure]) >= 5e-4
+    ]
+    return ", ".join(parts) or "no weight moves"
+
+
+def score(value: float | None) -> str:
+    """A weighted value, or a difference of two, with four places."""
+    return UNKNOWN if value is None else f"{value:.4f}"

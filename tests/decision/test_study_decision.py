@@ -1,0 +1,81 @@
+"""The decision of a study as one value: its pages show the same figures in the same words."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import pytest
+
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.robustness import robustness
+from rgss.decision.robustness.parts import NotComputed, Part
+from rgss.decision.study_decision import decide_study
+from rgss.decision.what_if import suppose
+from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
+from rgss.reports.decision.words import score
+
+
+@pytest.fixture(scope="module")
+def measured(shipped, filled, record_of):
+    store = filled(shipped, lambda spec: record_of(spec, planning_s=0.5 + 0.01 * spec.variant + 0.1 * spec.seed))
+    return measure_variants(shipped, store)
+
+
+@pytest.fixture(scope="module")
+def made(shipped, measured):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(robustness, "ITERATIONS", 200)
+        return decide_study(shipped, measured, evidence="evidence.sqlite")
+
+
+def test_the_terminal_and_the_report_word_reasons_and_cautions_once(made):
+    lines, part = list(decision_lines(made)), decision_part(made)
+
+    assert part["reasons"]
+    for reason in part["reasons"]:
+        assert any(reason.startswith(line) for line in lines if line), reason
+    assert [f"Caution: {caution}" for caution in part["cautions"]] == [
+        one for one in lines if one.startswith("Caution")
+    ]
+
+
+def test_every_page_has_the_same_figures(made):
+    text, part, document = "\n".join(decision_lines(made)), decision_part(made), trade_document(made)
+    section = decision_section(made)
+    move = made.robustness.nearest_move
+    nearest = min(
+        (one for one in document["robustness"]["weight_changes"]["nearest"] if one["distance"] > 0.0),
+        key=lambda one: one["moved"],
+    )
+
+    assert move.moved == nearest["moved"]
+    assert f"moving {move.moved:.3f} of weight" in text
+    assert f"Moving {move.moved:.3f} of weight" in section
+    assert f"| **value** | | {' | '.join(map(score, made.comparison.values))} |" in section
+    shares = {
+        one["variant"]: one["first"]
+        for one in document["robustness"]["weight_changes"]["acceptability"]["alternatives"]
+    }
+    for one in part["acceptability"]["variants"]:
+        assert one["first"] == pytest.approx(shares[one["variant"]], rel=1e-6)
+    assert [one["requirement"] for one in part["limits"]] == [one.requirement for one in made.robustness.limits]
+
+
+def test_suppositions_change_the_decision_and_keep_the_former(shipped, measured, made):
+    scenario = suppose(shipped, ["weight.t_e=0.9"])
+    other = decide_study(shipped, measured, evidence="evidence.sqlite", analysed=False, scenario=scenario)
+
+    assert other.robustness is None
+    assert other.what_if.before.decision == made.decision
+    assert other.what_if.after.decision == other.decision
+    assert other.what_if.before.lead == pytest.approx(sum(gain.amount for gain in made.gains))
+
+
+def test_a_missing_part_is_not_final(made):
+    analysis = dataclasses.replace(
+        made.robustness.analysis, not_computed={Part.PRICES: NotComputed(reason="no memory", remedy="")}
+    )
+    less = dataclasses.replace(made, robustness=dataclasses.replace(made.robustness, analysis=analysis))
+
+    assert made.is_final
+    assert not less.is_final
