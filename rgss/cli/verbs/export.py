@@ -87,12 +87,11 @@ def _model(project: Project, format_name: str, path: Path) -> bytes:
 
 
 def _write_ompl(project: Project, path: Path) -> dict[str, int]:
-    from importlib.metadata import version
-
     from rgss.cli.output import shown_path
     from rgss.evidence import EvidenceStore
     from rgss.exchange import write_ompl_database
     from rgss.sweep import planning_runs
+    from rgss.trials.code import versions
 
     planning = project.study.planning
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
@@ -102,7 +101,7 @@ def _write_ompl(project: Project, path: Path) -> dict[str, int]:
         runs,
         name=project.study.id,
         seed=project.study.seed,
-        version=version("ompl"),
+        version=versions()["ompl"],
         setup={
             "scene": project.scene.id,
             "planning clock": f"{planning.charge_per_check_s:g} s a validity check" if planning.counted else "wall",
