@@ -144,7 +144,7 @@ def test_without_evidence_the_sweep_is_named(tmp_path):
 
     assert light.returncode == 2
     assert len(light.stderr.splitlines()) == 1
-    assert "rgss sweep" in light.stderr
+    assert light.stderr.endswith("(run the sweep first)\n")
 
 
 def test_the_extra_brings_every_engine():
