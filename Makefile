@@ -3,7 +3,7 @@
 #   make PYTHON=/path/to/python3.11 setup     chooses the Python; otherwise the first suitable one is taken
 
 .DEFAULT_GOAL := help
-.PHONY: help setup study check format fast test regress bench lock clean rebuild
+.PHONY: help setup study check docs format fast test regress bench lock clean rebuild
 
 # Where Python is not to keep what it has compiled, each of the many processes of a test run compiles anew,
 # which takes half of its time.
@@ -19,12 +19,17 @@ study: setup ## check the project, run the whole study of designs/, and print th
 	@.venv/bin/rgss sweep
 	@.venv/bin/rgss trade
 
-check: setup ## format, lint, types, layers, and whether the repository keeps its own rules
+check: setup ## format, lint, types, layers, rules of the repository, documentation
 	@.venv/bin/ruff format --check --quiet .
 	@.venv/bin/ruff check --quiet .
 	@.venv/bin/mypy
 	@.venv/bin/lint-imports --no-logo
 	@.venv/bin/pytest --quiet tests/repository
+	@$(build_docs)
+
+docs: setup ## build the documentation site in build/site; warnings are errors
+	@$(build_docs)
+	@echo "Open build/site/index.html."
 
 format: setup ## format the code and mend what the linter can mend
 	@.venv/bin/ruff format --quiet .
@@ -46,11 +51,17 @@ bench: setup ## measure the sweep engine on an idle machine (well over an hour);
 
 lock: ## resolve requirements.lock anew from pyproject.toml (needs uv)
 	@UV_CUSTOM_COMPILE_COMMAND="make lock" uv pip compile --quiet --universal --python-version 3.10 \
-		--generate-hashes --no-emit-index-url --no-strip-extras --extra dev --output-file requirements.lock pyproject.toml
+		--generate-hashes --no-emit-index-url --no-strip-extras --extra sim --extra docs --extra dev \
+		--output-file requirements.lock pyproject.toml
 
 clean: ## remove the environment and all caches; evidence in .rgss stays
 	@rm -rf .venv .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache .grimp_cache build dist
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# Not with --quiet, which drops warnings before --strict counts them: the log is shown if there are any.
+# The variable silences the notice of the theme's authors about their next project.
+build_docs = mkdir -p build && { NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict >build/docs.log 2>&1 \
+	|| { grep -v '^INFO' build/docs.log >&2; false; }; }
 
 # The first suitable Python, or "none of" and the versions that were found. Each candidate is run: a name on
 # PATH may be a shim that stands for nothing.

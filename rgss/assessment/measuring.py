@@ -15,6 +15,7 @@ from rgss.measures import Estimate, StaleCause, Verdict, evaluate, judge
 from rgss.requirements import Criterion, Requirement
 from rgss.studies import Project, trial_specs
 from rgss.sweep import key_of
+from rgss.trials.code import assume_engines
 from rgss.trials.pieces import TrialSpec
 
 _UNDECIDED = (Verdict.NOT_RUN, Verdict.STALE)
@@ -68,6 +69,7 @@ def measure_variants(
         DefinitionError: A measure is not defined for a design.
         EvidenceError: The store is damaged.
     """
+    assume_engines(() if store is None else (trial.provenance.versions for trial in store.iterate()))
     variants = project.designs.expand()
     specs: dict[int, dict[str, TrialSpec]] = {}
     for spec in trial_specs(project, variants=variants):

@@ -13,6 +13,7 @@ from rgss.evidence import EvidenceStore, Fidelity
 from rgss.findings import Finding
 from rgss.studies import MOST_REPLICATES, Project, load_project, trial_specs
 from rgss.sweep import trials_of
+from rgss.trials.code import assume_engines
 from rgss.trials.pieces import TrialSpec
 
 
@@ -98,6 +99,7 @@ def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
     Raises:
         EvidenceError: The store is damaged.
     """
+    assume_engines(trial.provenance.versions for trial in store.iterate())
     screened = screen(project, store)
     return _keys(
         (*trial_specs(project), *screening_specs(project)) if screened is None else _screened_specs(project, screened)

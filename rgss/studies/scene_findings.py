@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rgss.documents import Document, read_document
+from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
 from rgss.scenes import Waypoint
@@ -49,7 +50,8 @@ def check_scene(project: Project) -> SceneCheck:
             ):
                 of_reach.setdefault(problem, []).append(file)
     except ImportError as error:
-        return SceneCheck(findings=(), skipped=f"the scene is not checked: {error.name or error} is not installed")
+        missing = f"{error.name or error} is not installed"
+        return SceneCheck(findings=(), skipped=f"the scene is not checked: {missing} ({INSTALL})")
     except DefinitionError as error:
         return SceneCheck(findings=(), skipped=f"the scene is not checked: {error}")
     label = project.study.scene

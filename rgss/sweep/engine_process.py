@@ -20,6 +20,7 @@ from functools import lru_cache
 from multiprocessing.connection import Connection, Pipe
 from typing import Any, TypeVar, cast
 
+from rgss.engines import require_engines
 from rgss.errors import RgssError, SimulationError
 from rgss.trials.code import is_in_force, numeric_environment
 
@@ -42,9 +43,11 @@ def compute(function: Callable[..., Result], *arguments: Any) -> Result:
         arguments: What it is called with; as its result, they must be picklable where another process is needed.
 
     Raises:
+        DefinitionError: An engine is not installed.
         RgssError: As the function raises it.
         SimulationError: The process ended while it was at it, or cannot be started.
     """
+    require_engines("a trial")
     if is_in_force():
         return function(*arguments)
     return cast("Result", _engine_process().call(function, arguments))

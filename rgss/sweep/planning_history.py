@@ -6,7 +6,7 @@ from rgss.evidence import EvidenceStore, PlanOutcome
 from rgss.evidence.records import PlanningRun
 from rgss.studies import Project, trial_specs
 from rgss.sweep.trial_keys import key_of
-from rgss.trials.code import versions
+from rgss.trials.code import assume_engines, versions
 from rgss.trials.pieces import TrialSpec, digests_of
 
 
@@ -23,6 +23,7 @@ def planning_runs(project: Project, store: EvidenceStore) -> tuple[PlanningRun, 
     Raises:
         EvidenceError: The store is damaged.
     """
+    assume_engines(trial.provenance.versions for trial in store.iterate())
     longest: dict[str, TrialSpec] = {}
     for spec in trial_specs(project):
         plan = digests_of(spec, versions()).plan

@@ -6,6 +6,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
+from rgss.engines import require_engines
 from rgss.errors import EvidenceError
 from rgss.evidence import (
     EvidenceStore,
@@ -69,12 +70,13 @@ def sweep(
             asked only if there is anything to be made.
 
     Raises:
-        DefinitionError: A planning limit is longer than the search.
+        DefinitionError: A planning limit is longer than the search, or an engine is not installed.
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
         StorageError: The disk is full; or the store was removed, replaced or damaged meanwhile, and the
             message says where what could be saved is.
         SimulationError: Worker processes cannot be started, or the workers are lost.
     """
+    require_engines("a sweep")
     trials = trials_of(specs)
     there = store.has(trial.key for trial in trials)
     made_with: dict[str, StoredTrial] = {}

@@ -50,9 +50,10 @@ def make(repository, tmp_path):
 
 def test_lock_pins_what_the_project_asks_for(project, lock):
     pinned: dict[str, list[Version]] = {}
-    for name, version in re.findall(r"^([a-z0-9._-]+)==(\S+)", lock, re.MULTILINE):
+    for name, version in re.findall(r"^([a-z0-9._-]+)(?:\[[a-z,]+\])?==(\S+)", lock, re.MULTILINE):
         pinned.setdefault(canonicalize_name(name), []).append(Version(version))
-    asked = [Requirement(text) for text in [*project["dependencies"], *project["optional-dependencies"]["dev"]]]
+    extras = [text for extra in ("sim", "docs", "dev") for text in project["optional-dependencies"][extra]]
+    asked = [Requirement(text) for text in [*project["dependencies"], *extras]]
 
     for requirement in asked:
         versions = pinned[canonicalize_name(requirement.name)]

@@ -43,9 +43,11 @@ def contents_and_studies(store: EvidencePlace) -> tuple[Contents, tuple[NamingSt
     from rgss.decision import naming_studies
     from rgss.evidence import EvidenceStore
     from rgss.evidence.store import contents_of
+    from rgss.trials.code import assume_engines
 
     with EvidenceStore.open(store.path, create=False, label=store.label) as evidence:
         contents = contents_of(evidence.database)
+        assume_engines(trial.provenance.versions for trial in evidence.iterate())
     seeds: dict[str, set[int]] = {}
     for trial in contents.trials:
         seeds.setdefault(trial.fidelity, set()).add(trial.seed)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from rgss.cli.output import shown_path
 from rgss.cli.safe_output import own_stream
+from rgss.engines import require_engines
 from rgss.errors import DefinitionError
 
 if TYPE_CHECKING:
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from rgss.trials.pieces import TrialSpec
 
 SUFFIXES = {"gif": ".gif", "filmstrip": ".png", "plots": ".png"}
-_PACKAGES = {"PIL": "pillow", "matplotlib": "matplotlib"}
 _CAMERA, _SIZE, _RATE_HZ = "overview+hand", "640x480", 12.0
 _SMALLEST, _LARGEST = 200, 2000
 _NEAREST_M, _FARTHEST_M = 0.3, 10.0
@@ -82,7 +82,7 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
             raise DefinitionError(f"--{option} is given, but no picture that it is for", hint=f"add {named}")
     if not files:
         return None
-    _require_packages()
+    require_engines("a picture of a trial", pictures=True)
     _check_files(files)
     width, height = picture_size(options.size or _SIZE)
     main, plus, inset = (options.camera or _CAMERA).partition("+")
@@ -186,14 +186,6 @@ def captioned(film: Film, index: int, record: TrialRecord) -> CaptionedPicture:
             caption += f"; {titled(record.failed_phase)}"
         caption += f": {'done' if record.failure is None else words(record.failure.value)}"
     return CaptionedPicture(picture=frame.picture, caption=caption)
-
-
-def _require_packages() -> None:
-    from importlib.util import find_spec
-
-    missing = [name for module, name in _PACKAGES.items() if find_spec(module) is None]
-    if missing:
-        raise DefinitionError(f"pictures need {' and '.join(missing)}", hint=f"run 'pip install {' '.join(missing)}'")
 
 
 def _check_files(files: dict[str, Path]) -> None:

@@ -79,6 +79,7 @@ def trial_pictures(
         DefinitionError: A package for pictures is missing.
         SimulationError: The physics engine cannot build or draw the world.
     """
+    from rgss.engines import INSTALL, missing_engines
     from rgss.evidence import Fidelity
     from rgss.studies import trial_specs
 
@@ -86,6 +87,8 @@ def trial_pictures(
         return (), "There are no trials to look at."
     if look is None:
         return (), "The report was made without films; each trial can be filmed by “rgss run ID --seed N --gif FILE”."
+    if missing_engines(pictures=True):
+        return (), f"The report was made without films, which need the simulation engines ({INSTALL})."
     if project.study.fidelity is not Fidelity.CONTACT:
         return (), f"Trials of {project.study.fidelity.value} fidelity have nothing to film; those with contact have."
     made = []

@@ -60,11 +60,13 @@ def run(options: argparse.Namespace) -> int:
         a stated reason.
     """
     from rgss.documents import require_no_source
+    from rgss.engines import require_engines
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
     from rgss.guard import baseline_name, guard_of
     from rgss.regression import read_baseline
 
+    require_engines("'rgss regress'")
     jobs = options.jobs if options.jobs is not None else (os.cpu_count() or 1)
     if jobs < 1:
         raise DefinitionError("--jobs must be at least 1", hint="leave it away for one process a core")

@@ -27,9 +27,11 @@ def run(options: argparse.Namespace) -> int:
     """Run it again; 1 if a bit differs, or 4 if that is within what other numerics explain."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json, shown_path
+    from rgss.engines import require_engines
     from rgss.evidence import EvidenceStore, record_digest
     from rgss.sweep import Agreement, deviation, find_trial, replay
 
+    require_engines("'rgss replay'")
     project = chosen_project(options)
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         stored = find_trial(project, store, options.trial)

@@ -29,12 +29,14 @@ def run(options: argparse.Namespace) -> int:
     """Run the trial; 1 if it does not succeed."""
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
+    from rgss.engines import require_engines
     from rgss.errors import DefinitionError
     from rgss.evidence import record_digest
     from rgss.studies import trial_specs
     from rgss.sweep import compute
     from rgss.trials.pieces import run_trial
 
+    require_engines("'rgss run'")
     order = ordered_pictures(options)
     project = chosen_project(options)
     seed = project.study.seed if options.seed is None else options.seed

@@ -69,9 +69,11 @@ def run(options: argparse.Namespace) -> int:
     )
     from rgss.decision import sweep_in_stages
     from rgss.designs import picked
+    from rgss.engines import require_engines
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
 
+    require_engines("'rgss sweep'")
     project = chosen_project(options)
     jobs_of(options)
     limits = _limits(options)

@@ -13,11 +13,10 @@ if TYPE_CHECKING:
 
 
 def _write(project: Project, path: Path, evidence: str) -> Mapping[str, int]:
-    from importlib.metadata import version
-
     from rgss.evidence import EvidenceStore
     from rgss.exchange.ompl_database import write_ompl_database
     from rgss.sweep import planning_runs
+    from rgss.trials.code import versions
 
     planning = project.study.planning
     with EvidenceStore.open(project.evidence, create=False, label=evidence) as store:
@@ -27,7 +26,7 @@ def _write(project: Project, path: Path, evidence: str) -> Mapping[str, int]:
         runs,
         name=project.study.id,
         seed=project.study.seed,
-        version=version("ompl"),
+        version=versions()["ompl"],
         setup={
             "scene": project.scene.id,
             "planning clock": f"{planning.charge_per_check_s:g} s a validity check" if planning.counted else "wall",

@@ -13,7 +13,14 @@ if TYPE_CHECKING:
         problem_here,
     )
     from rgss.trials.code.numeric_probe import fixed_numerics, numerics
-    from rgss.trials.code.piece_versions import ENTRIES, are_of_this_kind, code_of_trials, versions, versions_of
+    from rgss.trials.code.piece_versions import (
+        ENTRIES,
+        are_of_this_kind,
+        assume_engines,
+        code_of_trials,
+        versions,
+        versions_of,
+    )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -21,6 +28,7 @@ __all__ = [
     "ENTRIES",
     "ONE_THREAD",
     "are_of_this_kind",
+    "assume_engines",
     "code_of_trials",
     "fixed_numerics",
     "is_in_force",

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import importlib.metadata
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from types import MappingProxyType
 
+from rgss.engines import missing_engines, require_engines
 from rgss.trials.code.code_fingerprint import SourceClosure, own_sources
 
 ENGINES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -39,15 +41,50 @@ ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 _EVERYWHERE = ("rgss.trials.code.kernel_environment",)
 """What decides a result without being called for it: the kernels that a worker is started with."""
 
+NOT_INSTALLED = "not installed"
+"""Version of an engine of which neither the installation nor the evidence has one."""
+
 _CODE = "rgss-"
+
+_assumed: dict[str, str] = {}
 
 
 def versions() -> dict[str, str]:
     """Installed version of each engine, and for each piece a digest of the source that makes it.
 
-    The source is digested so that evidence of other code is never taken for evidence of this.
+    The source is digested so that evidence of other code is never taken for evidence of this. An installation
+    without engines has the versions that `assume_engines` was given.
+
+    Raises:
+        DefinitionError: An engine is not installed, and no versions are assumed.
     """
-    return dict(_found())
+    if not missing_engines():
+        return {**_installed(), **_code()}
+    if not _assumed:
+        require_engines("a trial")
+    return {**_assumed, **_code()}
+
+
+def assume_engines(recorded: Iterable[Mapping[str, str]]) -> None:
+    """Read evidence under the engine versions that it was made with, where engines are not installed.
+
+    An installation without engines makes no trial, so it has no versions of its own to look trials up by. The
+    versions of most trials of the present code are assumed, or of most trials if the code changed since. With
+    all engines installed, this does nothing.
+
+    Args:
+        recorded: The versions in the provenance of each stored trial; read only if an engine is missing.
+    """
+    if not missing_engines():
+        return
+    code, names = _code(), _engine_names()
+    census = Counter(
+        (all(found.get(name) == text for name, text in code.items()), tuple(found.get(name, "") for name in names))
+        for found in recorded
+    )
+    most = max(((present, count, texts) for (present, texts), count in census.items()), default=(False, 0, ()))[2]
+    _assumed.clear()
+    _assumed.update(dict(zip(names, most or [NOT_INSTALLED] * len(names), strict=True)))
 
 
 def versions_of(piece: str, among: Mapping[str, str]) -> dict[str, str]:
@@ -85,13 +122,18 @@ def code_of_trials() -> dict[str, str]:
     return {module: own_sources().module_digest(module)[:12] for module in modules}
 
 
+def _engine_names() -> tuple[str, ...]:
+    return tuple(sorted({name for names in ENGINES.values() for name in names}))
+
+
 @lru_cache(maxsize=1)
-def _found() -> Mapping[str, str]:
-    engines = sorted({name for names in ENGINES.values() for name in names})
-    found = {name: importlib.metadata.version(name) for name in engines}
-    for piece in ENTRIES:
-        found[f"{_CODE}{piece}"] = source_of(piece).digest
-    return found
+def _installed() -> Mapping[str, str]:
+    return {name: importlib.metadata.version(name) for name in _engine_names()}
+
+
+@lru_cache(maxsize=1)
+def _code() -> Mapping[str, str]:
+    return {f"{_CODE}{piece}": source_of(piece).digest for piece in ENTRIES}
 
 
 @lru_cache(maxsize=len(ENTRIES))

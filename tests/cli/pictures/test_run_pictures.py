@@ -204,14 +204,15 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("absent", "line"),
         [
-            (["PIL"], "pictures need pillow (run 'pip install pillow')"),
-            (["PIL", "matplotlib"], "pictures need pillow and matplotlib (run 'pip install pillow matplotlib')"),
+            (["PIL"], "pillow is not installed (pip install 'rgss[sim]')"),
+            (["PIL", "matplotlib"], "matplotlib, pillow are not installed (pip install 'rgss[sim]')"),
         ],
     )
     def test_packages_that_are_missing(self, capsys, tmp_path, monkeypatch, absent, line):
         monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name in absent else object())
 
-        assert refused(capsys, "--gif", str(tmp_path / "a.gif")) == line
+        told = refused(capsys, "--gif", str(tmp_path / "a.gif"))
+        assert told == f"a picture of a trial needs the simulation engines, of which {line}"
 
     @pytest.mark.parametrize("fidelity", ["kinematic", "dynamic"])
     def test_fidelities_that_have_nothing_to_show(self, capsys, tmp_path, fidelity):

@@ -128,7 +128,7 @@ def test_without_engines_the_rest_is_checked(monkeypatch, rgss, untouched):
 
     assert (told.status, told.errors) == (0, "")
     assert [line for line in told.output.splitlines() if line.startswith("Skipped: ")] == [
-        "Skipped: the scene is not checked: coal is not installed."
+        "Skipped: the scene is not checked: coal is not installed (pip install 'rgss[sim]')."
     ]
     assert "72 variants: 0 findings" in told.output
-    assert document["skipped"] == ["the scene is not checked: coal is not installed"]
+    assert document["skipped"] == ["the scene is not checked: coal is not installed (pip install 'rgss[sim]')"]
