@@ -173,7 +173,7 @@ def test_the_page_names_what_is_public(kind):
 
 
 def test_the_example_of_the_page_runs(empty, monkeypatch):
-    (example,) = re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    example, *_ = re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
     (empty / "example.py").write_text(example, encoding="utf-8")
     monkeypatch.chdir(empty)
     found = runpy.run_path("example.py")

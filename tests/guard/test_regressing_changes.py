@@ -140,8 +140,8 @@ def test_a_reason_lets_a_change_pass_once(compared):
 
 def test_another_version_of_an_engine(compared, monkeypatch):
     """Its trials are run again and are the same bit by bit; all others are unknown under it."""
-    found = dict(versions_module._found())
-    monkeypatch.setattr(versions_module, "_found", lambda: {**found, "toppra": "99.0"})
+    found = dict(versions_module._installed())
+    monkeypatch.setattr(versions_module, "_installed", lambda: {**found, "toppra": "99.0"})
     report = compared()
     assert report.verdict == "changed"
     assert report.behaviour.changed == ()

@@ -14,7 +14,6 @@ import time
 import pytest
 from distributed import LocalCluster
 
-from rgss.decision import until_decided
 from rgss.errors import EvidenceError
 from rgss.evidence.records.origin import machine
 from rgss.studies.expansion import trial_specs
@@ -98,7 +97,7 @@ def test_until_decided_runs_on_a_cluster_too(sweep, address, monkeypatch):
         ran.extend(trial.provenance.machine for trial in store.all())
         raise EvidenceError("that is enough")
 
-    monkeypatch.setattr(until_decided, "replicate_until_decided", run_a_few)
+    monkeypatch.setattr("rgss.decision.replicate_until_decided", run_a_few)
     told = sweep("--until", "decided", "--dask", address)
 
     assert (told.status, told.complaint) == (2, "rgss: that is enough")

@@ -51,7 +51,7 @@ def test_what_came_of_it(rgss, folder, monkeypatch):
         looks=2,
         rule=SequentialRule(),
     )
-    monkeypatch.setattr(until, "replicate_until_decided", lambda *_, **__: found)
+    monkeypatch.setattr("rgss.decision.replicate_until_decided", lambda *_, **__: found)
 
     told = rgss("sweep", "--until", "decided", "--project", folder)
     document = rgss("sweep", "--until", "decided", "--json", "--project", folder).document
@@ -89,7 +89,7 @@ def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypat
             rule=rule,
         )
 
-    monkeypatch.setattr(until, "replicate_until_decided", replicate)
+    monkeypatch.setattr("rgss.decision.replicate_until_decided", replicate)
 
     told = rgss("sweep", "--until", "decided", "--project", folder)
     rgss("sweep", "--until", "decided", "--cap", "60", "--project", folder)

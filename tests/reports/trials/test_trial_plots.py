@@ -41,7 +41,7 @@ def test_tool_speed_with_its_limit(axes, trace):
     shown = lines(axes[1])
 
     assert shown["tool speed"][:, 1] == pytest.approx(trace.tool_speed_m_s)
-    assert (shown["limit (d7) 1.5 m/s"][:, 1] == 1.5).all()
+    assert (shown["limit 1.5 m/s"][:, 1] == 1.5).all()
     assert axes[1].get_ylim()[1] > 1.5
 
 

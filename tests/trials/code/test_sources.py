@@ -210,6 +210,7 @@ DIGESTING = {
     # Whether a trial has a bench, and which, is an input of its digest.
     "rgss.trials.payload_bench.of_trial",
     "rgss.trials.code.piece_versions",
+    "rgss.engines",
 }
 BEFORE = {"timing": ["plan"], "execution": ["plan", "timing"], "record": ["plan", "timing", "execution"]}
 

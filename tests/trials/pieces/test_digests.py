@@ -178,6 +178,8 @@ def perturbed(value, path="scene"):
                 yield inner, (*value[:index], other, *value[index + 1 :])
     elif isinstance(value, str):
         yield path, value + "x"
+    elif value is None:  # not set: the design sets it
+        return
     else:
         yield path, value + 0.001
 
