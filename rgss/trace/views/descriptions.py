@@ -58,7 +58,7 @@ class Descriptions:
         Args:
             name: Its id.
             kind: What it is.
-            measure: Of a trial, the measure whose value is told.
+            measure: Of a trial, the measure whose value is shown.
         """
         if kind is ThingKind.REQUIREMENT:
             return self._verdict(name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rgss.tradeoff.portfolio.primal import Rows, Values
-from rgss.tradeoff.portfolio.work import TaskQueue
+from rgss.tradeoff.portfolio.work import WorkBudget
 
 MOST_EXCHANGES = 2_000
 """So many exchanges are made at one level before it is given up."""
@@ -14,7 +14,7 @@ TENURE = 3
 """For so many exchanges a member that left does not return."""
 
 
-def raised(values: Values, size: int, start: Rows, work: TaskQueue) -> Rows:
+def raised(values: Values, size: int, start: Rows, work: WorkBudget) -> Rows:
     """A portfolio whose worst task is served better, from one that is known.
 
     The level is raised above the worst task again and again. At each level members are exchanged so
@@ -47,7 +47,7 @@ def raised(values: Values, size: int, start: Rows, work: TaskQueue) -> Rows:
     return best
 
 
-def _covering(reached: Values, rows: list[int], work: TaskQueue) -> list[int] | None:
+def _covering(reached: Values, rows: list[int], work: WorkBudget) -> list[int] | None:
     """The members of a cover of as many members; None if none is met."""
     rows = list(rows)
     weights = np.ones(reached.shape[1])

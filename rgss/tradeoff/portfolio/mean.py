@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.portfolio.primal import Rows, Values, exchanged, merit, search_portfolio
-from rgss.tradeoff.portfolio.work import TaskQueue
+from rgss.tradeoff.portfolio.work import WorkBudget
 
 ROOT_STEPS = 400
 NODE_STEPS = 15
@@ -40,7 +40,7 @@ class _Node:
     bound: float
 
 
-def best_mean(profits: Values, size: int, start: Rows, tolerance: float, work: TaskQueue) -> SizeAnswer:
+def best_mean(profits: Values, size: int, start: Rows, tolerance: float, work: WorkBudget) -> SizeAnswer:
     """The portfolio of the highest mean value.
 
     ``max_S Σ_t max_{g in S} p_gt`` with ``|S| <= k``, the k-median problem (Cornuejols, Fisher and
@@ -85,7 +85,7 @@ def best_mean(profits: Values, size: int, start: Rows, tolerance: float, work: T
     return SizeAnswer(rows=best if known >= 0.0 else (), objective=known, bound=max(known, bound))
 
 
-def _bounded(profits: Values, size: int, node: _Node, known: float, steps: int, work: TaskQueue) -> tuple[_Node, Rows]:
+def _bounded(profits: Values, size: int, node: _Node, known: float, steps: int, work: WorkBudget) -> tuple[_Node, Rows]:
     """The node with a better bound, by the subgradient method, and the portfolio of its best multipliers."""
     inside, some = profits[list(node.inside)], profits[node.open]
     free = size - len(node.inside)

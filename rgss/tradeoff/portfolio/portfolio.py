@@ -18,7 +18,7 @@ from rgss.tradeoff.portfolio.checks import (
     portfolio_objective,
     solved_portfolio,
 )
-from rgss.tradeoff.portfolio.work import MOST_WORK, Cut, TaskQueue
+from rgss.tradeoff.portfolio.work import MOST_WORK, Cut, WorkBudget
 from rgss.tradeoff.problem import TIE_TOLERANCE, Weighting
 from rgss.tradeoff.programs import AdditiveValue, TradeProblem
 
@@ -252,11 +252,11 @@ def _by_size(
         # Half is kept for the last size, which is decided; of the other half each may take a quarter of what is left.
         last = size == sizes[-1]
         if time_limit is None:
-            work = TaskQueue(left if last else max(0, left - most_work // 2) // 4)
+            work = WorkBudget(left if last else max(0, left - most_work // 2) // 4)
         else:
             now = time.monotonic()
             end = began + time_limit if last else now + max(0.0, began + time_limit / 2.0 - now) / 4.0
-            work = TaskQueue(None, end)
+            work = WorkBudget(None, end)
         if problem.aim is PortfolioAim.MEAN:
             answer = best_mean(profits, size, rows, TIE_TOLERANCE, work)
         else:

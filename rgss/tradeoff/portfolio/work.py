@@ -16,7 +16,7 @@ class Cut(str, Enum):
     TIME = "time limit"
 
 
-class TaskQueue:
+class WorkBudget:
     """Counter of operations with a limit.
 
     Args:
@@ -42,7 +42,7 @@ class TaskQueue:
         if self._deadline is not None and time.monotonic() >= self._deadline:
             self.cut = self.cut or Cut.TIME
 
-    def part(self, parts: int) -> TaskQueue:
+    def part(self, parts: int) -> WorkBudget:
         """A counter with one of so many parts of the limit, whose operations count here as well."""
         deadline = self._deadline
         if deadline is not None:
@@ -56,10 +56,10 @@ class TaskQueue:
         return self.cut is not None
 
 
-class _Part(TaskQueue):
+class _Part(WorkBudget):
     """Counter whose operations count for another one as well."""
 
-    def __init__(self, whole: TaskQueue, most: int | None, deadline: float | None) -> None:
+    def __init__(self, whole: WorkBudget, most: int | None, deadline: float | None) -> None:
         super().__init__(most, deadline)
         self._whole = whole
 

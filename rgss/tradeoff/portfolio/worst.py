@@ -13,7 +13,7 @@ from rgss.tradeoff.portfolio.cover_bound import CoverBound, Reached, masks_of
 from rgss.tradeoff.portfolio.cover_search import raised
 from rgss.tradeoff.portfolio.mean import SizeAnswer
 from rgss.tradeoff.portfolio.primal import Rows, Values
-from rgss.tradeoff.portfolio.work import TaskQueue
+from rgss.tradeoff.portfolio.work import WorkBudget
 
 PARTS = 12
 """A cover is looked for with one such part of the work, so that some is left for other levels."""
@@ -32,7 +32,7 @@ class _Cover(Enum):
     UNKNOWN = "unknown"
 
 
-def best_worst(values: Values, size: int, start: Rows, tolerance: float, work: TaskQueue) -> SizeAnswer:
+def best_worst(values: Values, size: int, start: Rows, tolerance: float, work: WorkBudget) -> SizeAnswer:
     """The portfolio whose worst task is served best.
 
     The objective is one of the values, so it is bisected: members serve a task at a level where their value
@@ -90,7 +90,7 @@ def worst_of(values: Values, rows: Sequence[int]) -> float:
     return max(-1.0, float(values[list(rows)].max(axis=0).min())) if rows else -1.0
 
 
-def _unreached(values: Values, levels: NDArray[np.float64], low: int, size: int, work: TaskQueue) -> int:
+def _unreached(values: Values, levels: NDArray[np.float64], low: int, size: int, work: WorkBudget) -> int:
     """The first level from `low` on that the bounds alone exclude; their number if they exclude none."""
     high = len(levels)
     while low < high and not work.spent:
@@ -105,7 +105,7 @@ def _unreached(values: Values, levels: NDArray[np.float64], low: int, size: int,
     return high
 
 
-def _cover(values: Values, level: float, size: int, work: TaskQueue) -> Rows | _Cover:
+def _cover(values: Values, level: float, size: int, work: WorkBudget) -> Rows | _Cover:
     """At most so many members that serve every task at a level."""
     # Reads the clock, so that nothing is begun once the time is over.
     work.spend(0)
@@ -130,7 +130,7 @@ def _cover(values: Values, level: float, size: int, work: TaskQueue) -> Rows | _
     return found if isinstance(found, _Cover) else tuple(sorted(int(rows[kept[at]]) for at in found))
 
 
-def _needed(masks: Sequence[int], work: TaskQueue) -> list[int] | None:
+def _needed(masks: Sequence[int], work: WorkBudget) -> list[int] | None:
     """Members of which none covers what another covers as well, largest first; None where a limit ends it."""
     kept: list[int] = []
     for at in sorted(range(len(masks)), key=lambda at: (-masks[at].bit_count(), at)):
@@ -159,7 +159,7 @@ class _CoverSearch:
     masks: Sequence[int]
     by_task: Sequence[NDArray[np.intp]]
     bound: CoverBound
-    work: TaskQueue
+    work: WorkBudget
     failed: dict[int, int] = field(default_factory=dict)
 
     def covered(self, left: NDArray[np.float64], mask: int, size: int) -> Rows | _Cover:

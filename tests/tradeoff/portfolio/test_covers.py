@@ -15,7 +15,7 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff.portfolio.cover_bound import CoverBound, masks_of
 from rgss.tradeoff.portfolio.cover_search import raised
 from rgss.tradeoff.portfolio.primal import profits_of, search_portfolio
-from rgss.tradeoff.portfolio.work import Cut, TaskQueue
+from rgss.tradeoff.portfolio.work import Cut, WorkBudget
 from rgss.tradeoff.portfolio.worst import best_worst, worst_of
 
 
@@ -76,17 +76,17 @@ def test_the_search_never_loses_what_it_started_from(seed):
     values = np.where(draw.random((30, 12)) < 0.3, -1.0, draw.random((30, 12)))
     start = tuple(int(row) for row in draw.choice(30, 3, replace=False))
     for most in (1, 1_000, 10**7):
-        rows = raised(values, 4, start, TaskQueue(most))
+        rows = raised(values, 4, start, WorkBudget(most))
         assert len(set(rows)) <= 4
         assert worst_of(values, rows) >= worst_of(values, start)
     best = max(float(values[list(one)].max(axis=0).min()) for one in itertools.combinations(range(30), 4))
-    assert worst_of(values, raised(values, 4, (), TaskQueue(10**8))) == pytest.approx(best)
+    assert worst_of(values, raised(values, 4, (), WorkBudget(10**8))) == pytest.approx(best)
 
 
 def test_the_search_finds_what_exchanges_of_the_mean_do_not():
     values = np.random.default_rng(1).random((200, 60))
     start = search_portfolio(profits_of(values, np.full(60, 1.0 / 60.0)), 8, ())
-    assert worst_of(values, raised(values, 8, start, TaskQueue(10**8))) > worst_of(values, start) + 0.05
+    assert worst_of(values, raised(values, 8, start, WorkBudget(10**8))) > worst_of(values, start) + 0.05
 
 
 def test_no_cover_is_looked_for_once_the_time_is_over(monkeypatch):
@@ -94,7 +94,7 @@ def test_no_cover_is_looked_for_once_the_time_is_over(monkeypatch):
         raise AssertionError("a search was begun")
 
     monkeypatch.setattr(rgss.tradeoff.portfolio.worst, "_CoverSearch", none_is_made)
-    work = TaskQueue(None, time.monotonic() - 1.0)
+    work = WorkBudget(None, time.monotonic() - 1.0)
     values = np.random.default_rng(2).random((40, 20))
     answer = best_worst(values, 4, (0, 1, 2, 3), 1e-9, work)
     assert work.cut is Cut.TIME
