@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from rgss.studies.source_text import invisible_findings
     from rgss.studies.study import ValueAnchors, value_anchors
     from rgss.studies.unread_files import unread_findings
-    from rgss.studies.unused_parameters import unused_findings
+    from rgss.studies.unused_parameters import uncounted_mass_findings, unused_findings
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -58,6 +58,7 @@ __all__ = [
     "named_inputs",
     "project_of_study",
     "trial_specs",
+    "uncounted_mass_findings",
     "unread_findings",
     "unused_findings",
     "value_anchors",

@@ -1,4 +1,4 @@
-"""Findings about design parameters that nothing uses."""
+"""Findings about design parameters that nothing uses, and about actuators without mass."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from collections.abc import Iterator
 from rgss.designs import DESIGN_PREFIX
 from rgss.documents import read_document
 from rgss.findings import Finding, Severity
+from rgss.studies.design_settings import setters_of
 from rgss.studies.project import Project
+
+_ACTUATOR_MASS = "gripper.actuator.mass"
 
 
 def unused_findings(project: Project) -> Iterator[Finding]:
@@ -30,4 +33,24 @@ def unused_findings(project: Project) -> Iterator[Finding]:
                 ("parameters", index, "id"),
                 severity=Severity.WARNING,
                 hint="say what it sets under 'sets', or remove it",
+            )
+
+
+def uncounted_mass_findings(project: Project) -> Iterator[Finding]:
+    """Warn of actuators that have a mass which the simulated gripper does not carry.
+
+    Args:
+        project: The project with its study.
+    """
+    catalogue = project.designs.catalogue
+    if _ACTUATOR_MASS in setters_of(project.designs):
+        return
+    for index, role in enumerate(catalogue.roles):
+        if "mass" in role.properties and "actuator" in f"{role.id} {role.name}".lower():
+            yield catalogue.document.finding(
+                "design.uncounted-mass",
+                f"the mass of a {role.id} is in no trial",
+                ("roles", index, "id"),
+                severity=Severity.WARNING,
+                hint=f"add 'sets: {{mass: {_ACTUATOR_MASS}}}' to the role",
             )

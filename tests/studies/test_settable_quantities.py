@@ -8,7 +8,7 @@ import pytest
 
 from rgss.designs import SETTABLE_QUANTITIES, Application, ParameterKind, picked
 from rgss.errors import DocumentError
-from rgss.studies import unused_findings
+from rgss.studies import uncounted_mass_findings, unused_findings
 from rgss.studies.expansion import trial_settings, trial_specs
 from rgss.studies.project import load_project
 from rgss.studies.scaffolding import write_scaffold
@@ -82,6 +82,17 @@ def test_a_speed_that_is_a_fixed_value_of_the_robot(small):
         f"{SPACE}:2:10: warning: pace sets nothing, and no component, rule or measure uses it "
         "(say what it sets under 'sets', or remove it) [design.unused-parameter]"
     )
+
+
+def test_actuators_whose_mass_is_in_no_trial(small):
+    assert not list(uncounted_mass_findings(_space(small, TWO)))
+    _edit(small, CATALOGUE, "    sets: {mass: gripper.actuator.mass}", "   ")
+    (finding,) = uncounted_mass_findings(load_project(small))
+    assert "warning: the mass of a finger_actuator is in no trial (add 'sets: {mass: gripper.actuator.mass}'" in str(
+        finding
+    )
+    assert finding.file == CATALOGUE
+    assert finding.rule == "design.uncounted-mass"
 
 
 def test_twelve_parameters_in_any_order(small):

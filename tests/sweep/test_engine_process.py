@@ -81,5 +81,7 @@ def test_it_ends_with_the_process_that_started_it_even_if_that_is_killed():
         child = int(script.stdout.readline())
         os.kill(script.pid, signal.SIGKILL)
         script.wait()
+        end = time.monotonic() + 300.0
         while Path(f"/proc/{child}/stat").exists() and " Z " not in Path(f"/proc/{child}/stat").read_text("utf-8"):
+            assert time.monotonic() < end, f"process {child} lives on without its parent"
             time.sleep(0.01)

@@ -66,6 +66,7 @@ def _check(options: argparse.Namespace) -> int:
         impact_findings,
         invisible_findings,
         load_project,
+        uncounted_mass_findings,
         unread_findings,
         unused_findings,
     )
@@ -82,6 +83,7 @@ def _check(options: argparse.Namespace) -> int:
             *of_files,
             *guard_findings(project),
             *unused_findings(project),
+            *uncounted_mass_findings(project),
             *bench_findings(project),
             *impact_findings(project),
             *scene.findings,

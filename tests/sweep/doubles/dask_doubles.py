@@ -12,6 +12,9 @@ import worker_doubles
 from rgss.evidence import Piece, TrialRecord
 from rgss.trials.pieces.pieces import Task
 
+LONGEST_WAIT_S = 300.0
+"""So that a broken meeting ends a test instead of keeping the whole run."""
+
 
 def act(name: str, mine: str = "") -> object:
     """Do what a name says."""
@@ -29,7 +32,10 @@ def meet(mine: str) -> int:
     folder = Path(os.environ[worker_doubles.FOLDER]) / "meeting"
     folder.mkdir(exist_ok=True)
     (folder / mine).touch()
+    end = time.monotonic() + LONGEST_WAIT_S
     while len(list(folder.iterdir())) < 2:
+        if time.monotonic() > end:
+            raise TimeoutError(f"nobody else came to {folder}")
         time.sleep(0.01)
     return os.getpid()
 
