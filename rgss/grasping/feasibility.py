@@ -10,6 +10,7 @@ import numpy as np
 
 from rgss.errors import DefinitionError
 from rgss.grasping.contact import Matrix
+from rgss.nonnegative_least_squares import nonnegative_least_squares
 
 RANK_TOLERANCE = 1e-9
 """A singular value below this share of the greatest counts as zero."""
@@ -59,13 +60,10 @@ def positively_span(wrenches: Matrix) -> bool:
 
 
 def _nearest(matrix: Matrix, target: Matrix) -> tuple[Matrix, float]:
-    from scipy.optimize import nnls
-
     try:
-        solution, residual = nnls(matrix, target)
+        return nonnegative_least_squares(matrix, target)
     except RuntimeError as error:
         raise DefinitionError(
             f"the wrenches of a grasp were not judged: {error}",
             hint="check that the contacts' coefficients are of a sensible size",
         ) from error
-    return solution, float(residual)

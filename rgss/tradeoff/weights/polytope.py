@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import TradeoffError
+from rgss.nonnegative_least_squares import nonnegative_least_squares
 from rgss.tradeoff.milp import SOLVER_TOLERANCE, solve_linear
 from rgss.tradeoff.weights.weight_set import Array, WeightSet
 
@@ -175,8 +176,6 @@ class Polytope:
         Returns:
             The nearest point, shape (m,); None if the polytope is empty.
         """
-        from scipy.optimize import nnls
-
         if self.contradiction:
             return None
         directions = self.weights.directions()
@@ -187,7 +186,7 @@ class Polytope:
         stacked = np.vstack([-(self.rows @ directions).T, -gaps[None, :]])
         target = np.zeros(len(stacked))
         target[-1] = 1.0
-        multipliers, _ = nnls(stacked, target, maxiter=50 * stacked.shape[1])
+        multipliers, _ = nonnegative_least_squares(stacked, target, most_steps=50 * stacked.shape[1])
         residual = stacked @ multipliers - target
         if -residual[-1] < 1e-12:
             return None
