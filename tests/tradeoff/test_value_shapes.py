@@ -1,4 +1,4 @@
-"""The registry of value shapes: what a new shape must bring, and that its keys stand nowhere else."""
+"""Registry of value shapes: what a new shape must bring, and that its keys are nowhere else."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ import dataclasses
 import numpy as np
 import pytest
 
+from rgss.errors import TradeoffError
 from rgss.tradeoff import SHAPE_KEYS, AnchoredValue, ShapeKeys, shape_of
 from rgss.tradeoff.problem.values import (
     SHAPES,
     AnchoredExponential,
     AnchoredPiecewise,
+    AnchoredSCurve,
     AnchoredTarget,
     ExponentialValue,
     PiecewiseValue,
@@ -23,6 +25,7 @@ EXAMPLES: tuple[AnchoredValue, ...] = (
     AnchoredTarget(measure="m", target=0.5, too_low=-1.0, too_high=2.0),
     AnchoredPiecewise(measure="m", worst=2.0, best=-1.0, between=((1.0, 0.1),)),
     AnchoredExponential(measure="m", worst=-1.0, best=2.0, halfway=0.0),
+    AnchoredSCurve(measure="m", worst=2.0, best=-1.0, steepest=0.0),
 )
 
 
@@ -89,3 +92,15 @@ def test_anchors_move_and_resolve():
     assert halfway.function(float) == ExponentialValue(measure="m", worst=0.0, best=1.0, halfway=0.4)
     target = AnchoredTarget(measure="m", target=0.5, too_low=0.0, too_high=1.0)
     assert target.function(float) == TargetValue(measure="m", target=0.5, too_low=0.0, too_high=1.0)
+
+
+def test_an_s_curve_is_steepest_where_it_says_and_is_computed_alike_in_both_ways():
+    curve = AnchoredSCurve(measure="m", worst=2.0, best=-1.0, steepest=0.5).function(float)
+    quantities = np.linspace(-2.0, 3.0, 2001)
+    values = curve.values_at(quantities)
+
+    np.testing.assert_allclose(values, [curve.value_at(float(one)) for one in quantities], atol=1e-12)
+    assert quantities[np.argmin(np.gradient(values))] == pytest.approx(0.5, abs=0.005)
+    assert curve.value_at(0.5) == pytest.approx(0.5)
+    with pytest.raises(TradeoffError, match=r"^the steepest quantity 2 of 'm' is not between 2 and -1 "):
+        AnchoredSCurve(measure="m", worst=2.0, best=-1.0, steepest=2.0).function(float)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry, QuantityField, RequirementAnchor
     from rgss.tradeoff.problem.values.exponential import STEEPEST_EXPONENT, AnchoredExponential, ExponentialValue
     from rgss.tradeoff.problem.values.piecewise import AnchoredPiecewise, PiecewiseValue
+    from rgss.tradeoff.problem.values.s_curve import AnchoredSCurve, SCurveValue
     from rgss.tradeoff.problem.values.shapes import SHAPE_KEYS, SHAPES, ShapeKeys, shape_of
     from rgss.tradeoff.problem.values.target import AnchoredTarget, TargetValue
     from rgss.tradeoff.problem.values.value_function import TIE_TOLERANCE, AnchoredValue, ValueFunction
@@ -28,6 +29,7 @@ __all__ = [
     "AnchorField",
     "AnchoredExponential",
     "AnchoredPiecewise",
+    "AnchoredSCurve",
     "AnchoredTarget",
     "AnchoredValue",
     "ExponentialValue",
@@ -35,6 +37,7 @@ __all__ = [
     "PointEntry",
     "QuantityField",
     "RequirementAnchor",
+    "SCurveValue",
     "ShapeKeys",
     "TargetValue",
     "ValueFunction",

@@ -6,17 +6,18 @@ from collections.abc import Collection
 
 from rgss.tradeoff.problem.values.exponential import AnchoredExponential, ExponentialKeys
 from rgss.tradeoff.problem.values.piecewise import AnchoredPiecewise, PiecewiseKeys
+from rgss.tradeoff.problem.values.s_curve import AnchoredSCurve, SCurveKeys
 from rgss.tradeoff.problem.values.target import AnchoredTarget, TargetKeys
 from rgss.tradeoff.problem.values.value_function import AnchoredValue
 
-SHAPES: tuple[type[AnchoredValue], ...] = (AnchoredTarget, AnchoredPiecewise, AnchoredExponential)
+SHAPES: tuple[type[AnchoredValue], ...] = (AnchoredTarget, AnchoredPiecewise, AnchoredExponential, AnchoredSCurve)
 """The shapes, in the order in which their own keys decide."""
 
 SHAPE_KEYS = tuple(dict.fromkeys(key for shape in SHAPES for key in (*shape.required, *shape.optional)))
 """The keys of all shapes."""
 
 
-class ShapeKeys(TargetKeys, ExponentialKeys, PiecewiseKeys):
+class ShapeKeys(TargetKeys, SCurveKeys, ExponentialKeys, PiecewiseKeys):
     """Base of the document model with the keys of every shape; editors list the last base's first."""
 
 
