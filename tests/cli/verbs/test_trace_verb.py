@@ -11,10 +11,12 @@ import pytest
 from openpyxl import load_workbook
 
 from rgss.evidence import EvidenceStore
+from rgss.reports.trace.formats import TRACE_FORMATS
 from rgss.reports.trace.json_document import json_schema
 from rgss.studies.project import load_project
 
 TABLES = ["coverage", "gaps", "stakeholder-moe", "system-stakeholder", "system-architecture", "verification"]
+ENDINGS = ", ".join(one.suffix for one in TRACE_FORMATS)
 
 
 def test_the_whole_report_in_the_terminal(rgss, with_evidence):
@@ -199,7 +201,7 @@ def test_results_of_tests_decide(rgss, folder, tmp_path):
         (["--format", "csv"], "a CSV file holds one table (choose one with --table (coverage, gaps,"),
         (["-o", "x.csv"], "a CSV file holds one table"),
         (["--format", "html", "--table", "gaps"], "--table does not go with html, which holds everything"),
-        (["-o", "x.yaml"], "'x.yaml' does not end in .txt, .html, .md, .csv, .xlsx, .json (name the file so)"),
+        (["-o", "x.yaml"], f"'x.yaml' does not end in {ENDINGS} (name the file so)"),
         (["-o", "x.html", "--format", "md"], "'x.html' does not end in .md"),
         (["-o", "x"], "no format is given for the folder 'x'"),
         (["-o", "no/such/x.html"], "'no/such/x.html' cannot be written: there is no folder no/such"),
