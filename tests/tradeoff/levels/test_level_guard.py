@@ -12,12 +12,14 @@ import rgss.tradeoff.levels.selection
 from rgss.errors import TradeoffError
 from rgss.reports.decision.json import certificate_to_json
 from rgss.tradeoff import Agreement, CheckKind, DecisionStatus, decide_levels
+from rgss.tradeoff.levels.attempt import Attempt, Outcome
 from rgss.tradeoff.levels.bound import interval_bound
 from rgss.tradeoff.levels.grid import LevelGrid, compensated_sum
-from rgss.tradeoff.levels.guard import Attempt, GuardedStageSolver, Outcome
+from rgss.tradeoff.levels.guard import GuardedStageSolver
 from rgss.tradeoff.levels.search import search_levels
 from rgss.tradeoff.levels.selection import LevelModel, LevelSelection
-from rgss.tradeoff.milp.stage import FIRST_RUN, RUNS, SolverRun, StageSolver
+from rgss.tradeoff.milp.limited_runs import LimitedRuns
+from rgss.tradeoff.milp.stage import FIRST_RUN, RUNS, SolverRun, StageSolver, solve_program
 from rgss.tradeoff.programs.additive import additive_stage
 
 PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
@@ -112,13 +114,14 @@ def doctored(monkeypatch):
     """A solver whose first runs, or all of them, give another answer."""
 
     def make(answer, *, runs):
-        real = rgss.tradeoff.levels.guard.solve_program
         wrong = {run.name for run in RUNS[:runs]}
         gap = rgss.tradeoff.levels.guard.proven_gap
         monkeypatch.setattr(
-            rgss.tradeoff.levels.guard,
-            "solve_program",
-            lambda problem, run: answer(problem, run) if run.name in wrong else real(problem, run),
+            LimitedRuns,
+            "solve",
+            lambda self, problem, run, *, brief: (
+                answer(problem, run) if run.name in wrong else solve_program(problem, run)
+            ),
         )
         monkeypatch.setattr(
             rgss.tradeoff.levels.guard, "proven_gap", lambda problem: gap(problem) if problem.solver_stats else 0.0
@@ -232,7 +235,7 @@ def answered(monkeypatch):
     """A solver that answers the best design, or the worst feasible one, whatever HiGHS would come to."""
 
     def make(*, right):
-        def attempt(solver, stage, run):
+        def attempt(solver, stage, run, *, brief=True):
             grid = solver.grid
             designs = np.concatenate(list(grid.blocks()))
             scores = grid.scores(stage, solver.constraints, designs)
