@@ -4,26 +4,30 @@ from __future__ import annotations
 
 import math
 import time
+from collections import Counter
 from collections.abc import Callable, Mapping
 from types import SimpleNamespace, TracebackType
 from typing import Any
 
 from rgss.errors import TradeoffError
-from rgss.tradeoff.milp.solver_process import SolverLimitError, SolverProcess
+from rgss.tradeoff.milp.solver_process import RunLimit, SolverLimitError, SolverProcess
 from rgss.tradeoff.milp.stage import FIRST_RUN, SolverRun, solve_program
 
 LONGEST_RUN_S = 300.0
-"""So long a run may take whose answer is needed. The solver's own limit, a count of nodes, is reached before."""
+"""Processor time that a run may take whose answer is needed. The solver's own limit counts nodes."""
 
 LONGEST_BRIEF_RUN_S = 30.0
-"""So long a run may take that only confirms what is proven without it, or that is made again where it is needed."""
+"""Processor time of a run that only confirms what is proven, or that is made again where it is needed."""
+
+WALL_FACTOR = 20.0
+"""By so much the wall clock may exceed the limit of processor time, on a loaded machine."""
 
 
 class LimitedRuns:
     """Solves programs in a process that is killed where a run exceeds its limit; a context manager.
 
-    The limits of time only turn a run into no answer. Without a time limit of the user, each overrun halves the
-    limit of the runs that follow, so that all of them together take less than twice the longest run.
+    The limits of time only turn a run into no answer. By default they are of processor time, so that a loaded
+    machine comes to the same, and each overrun halves the limit of the same run of later stages.
 
     Args:
         time_limit: Seconds for all runs together; each may take half of what is left, or a quarter. None for the
@@ -49,7 +53,7 @@ class LimitedRuns:
         self._process = SolverProcess() if process is None else process
         self._clock = clock
         self._end = None if time_limit is None else clock() + time_limit
-        self._overruns = 0
+        self._overruns: Counter[tuple[str, bool]] = Counter()
 
     def __enter__(self) -> LimitedRuns:
         """Start nothing yet."""
@@ -61,16 +65,18 @@ class LimitedRuns:
         """End the process."""
         self._process.close()
 
-    def limit_s(self, *, brief: bool) -> float:
-        """Seconds that the next run may take; 0 where the time limit is reached.
+    def limit_of(self, run: SolverRun, *, brief: bool) -> RunLimit:
+        """Limit of the next run; 0 s where the time limit is reached.
 
         Args:
-            brief: Whether the decision can do without the run.
+            run: The run.
+            brief: Whether the decision can do without it.
         """
         if self._end is None:
-            return (LONGEST_BRIEF_RUN_S if brief else LONGEST_RUN_S) / 2.0**self._overruns
+            processor_s = (LONGEST_BRIEF_RUN_S if brief else LONGEST_RUN_S) / 2.0 ** self._overruns[run.name, brief]
+            return RunLimit(processor_s=processor_s, wall_s=WALL_FACTOR * processor_s)
         left = max(0.0, self._end - self._clock())
-        return min(left / 4.0, LONGEST_BRIEF_RUN_S) if brief else left / 2.0
+        return RunLimit(processor_s=math.inf, wall_s=left / (4.0 if brief else 2.0))
 
     def half_over(self) -> Callable[[], bool]:
         """A predicate that holds from when half of the time that is left now is over; never without a time limit."""
@@ -92,20 +98,20 @@ class LimitedRuns:
             SolverLimitError: The run exceeded its limit.
             TradeoffError: As for `solve_program`, or the process of the solver ended.
         """
-        limit_s = self.limit_s(brief=brief)
-        if limit_s <= 0.0:
+        limit = self.limit_of(run, brief=brief)
+        if limit.wall_s <= 0.0:
             raise SolverLimitError("the time limit is reached", hint="allow more time: rgss trade --time-limit")
         try:
-            return solve_program(problem, run, solve=lambda: self._solve(problem, run, limit_s))
+            return solve_program(problem, run, solve=lambda: self._solve(problem, run, limit))
         except SolverLimitError:
-            self._overruns += 1
+            self._overruns[run.name, brief] += 1
             raise
 
-    def _solve(self, problem: Any, run: SolverRun, limit_s: float) -> None:
+    def _solve(self, problem: Any, run: SolverRun, limit: RunLimit) -> None:
         """What `Problem.solve` does, with the solver in the other process."""
         data, chain, inverse = problem.get_problem_data(run.solver, solver_opts=dict(run.options))
         request = highs_request(data) if run.solver == "HIGHS" else {"data": _picklable(data)}
-        answer = self._process.solve({**request, "solver": run.solver, "options": dict(run.options)}, limit_s=limit_s)
+        answer = self._process.solve({**request, "solver": run.solver, "options": dict(run.options)}, limit=limit)
         results = _highs_results(answer, len(data["b"])) if run.solver == "HIGHS" else answer
         problem.unpack_results(results, chain, inverse)
 

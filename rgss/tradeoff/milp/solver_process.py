@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Mapping
+from dataclasses import dataclass
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from types import TracebackType
@@ -24,8 +25,23 @@ from rgss.errors import TradeoffError
 STARTING_S = 120.0
 """So long the process may take to start: it imports NumPy's C library and little else."""
 
+MORE_TIME = "allow more time: rgss trade --time-limit"
+
 WORKER = "rgss.tradeoff.milp.solver_worker"
 """The module whose `serve` answers."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunLimit:
+    """Limit of a run; infinite for none.
+
+    Attributes:
+        processor_s: Seconds of processor time, after which the kernel ends the process.
+        wall_s: Seconds by the clock, after which the parent ends it.
+    """
+
+    processor_s: float = math.inf
+    wall_s: float = math.inf
 
 
 class SolverLimitError(TradeoffError):
@@ -57,12 +73,12 @@ class SolverProcess:
         """End the process."""
         self.close()
 
-    def solve(self, request: Mapping[str, Any], *, limit_s: float) -> dict[str, Any]:
+    def solve(self, request: Mapping[str, Any], *, limit: RunLimit) -> dict[str, Any]:
         """Solve a program.
 
         Args:
             request: The solver, its options and the program's arrays.
-            limit_s: Seconds after which the run is ended; infinite for none.
+            limit: When the run is ended.
 
         Returns:
             What the solver answered.
@@ -72,7 +88,9 @@ class SolverProcess:
             TradeoffError: The solver failed, or its process ended.
         """
         connection = self._connected()
-        error, answer = self._answer(connection, {**request, "limit_s": limit_s}, limit_s)
+        error, answer = self._answer(
+            connection, {**request, "processor_s": limit.processor_s, "wall_s": limit.wall_s}, limit
+        )
         if error is not None:
             raise TradeoffError(f"the solver failed: {error}", hint="check that highspy is installed: pip install rgss")
         return dict(answer)
@@ -117,32 +135,39 @@ class SolverProcess:
             ) from None
         finally:
             theirs.close()
-        self._answer(ours, None, STARTING_S)
+        self._answer(ours, None, RunLimit(wall_s=STARTING_S))
         return ours
 
-    def _answer(self, connection: Connection, request: Mapping[str, Any] | None, limit_s: float) -> tuple[Any, Any]:
+    def _answer(self, connection: Connection, request: Mapping[str, Any] | None, limit: RunLimit) -> tuple[Any, Any]:
         """Send a request, if there is one, and wait for the answer; without one the process is killed."""
         try:
             if request is not None:
                 connection.send(request)
-            in_time = connection.poll(limit_s if math.isfinite(limit_s) else None)
+            in_time = connection.poll(limit.wall_s if math.isfinite(limit.wall_s) else None)
             answer = connection.recv() if in_time else None
         except (EOFError, OSError):
-            process = self._process
-            self._connection = None
-            connection.close()
-            status = None if process is None else process.wait()
-            self.close()
-            raise TradeoffError(
-                f"the process of the solver ended by itself with the status {status}",
-                hint="look for free memory; only a proven optimum is accepted",
-            ) from None
+            raise self._ended(limit) from None
         except BaseException:
             self.close()
             raise
         if answer is None:
             self.close()
-            raise SolverLimitError(
-                f"the solver was ended after {limit_s:.3g} s", hint="allow more time: rgss trade --time-limit"
-            )
+            raise SolverLimitError(f"the solver was ended after {limit.wall_s:.3g} s", hint=MORE_TIME)
         return tuple(answer)
+
+    def _ended(self, limit: RunLimit) -> TradeoffError:
+        """The error of a process that closed its end of the pipe, which it only does by ending."""
+        process = self._process
+        status = None
+        if process is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                status = process.wait(timeout=STARTING_S)
+        self.close()
+        if status == -signal.SIGPROF:
+            return SolverLimitError(
+                f"the solver was ended after {limit.processor_s:.3g} s of processor time", hint=MORE_TIME
+            )
+        return TradeoffError(
+            f"the process of the solver ended by itself with the status {status}",
+            hint="look for free memory; only a proven optimum is accepted",
+        )

@@ -12,7 +12,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 GRACE_S = 10.0
-"""So long after its limit the kernel ends a run that no parent has ended."""
+"""So long after its limit by the clock the kernel ends a run that no parent has ended."""
 
 INFORMATION = (
     "objective_function_value",
@@ -30,36 +30,43 @@ INFORMATION = (
 def serve(descriptor: int) -> None:
     """Answer requests one after another.
 
-    A request is a mapping with the solver, its options, the limit in seconds and the program's arrays. An answer is
+    A request is a mapping with the solver, its options, the limits in seconds and the program's arrays. An answer is
     a pair: an error text or None, and the solver's results or None.
 
     Args:
         descriptor: The file descriptor of this end of the pipe.
     """
-    # What a solver prints must not reach the terminal, and the alarm must end the process whatever was inherited.
+    # What a solver prints must not reach the terminal, and timers end the process whatever was inherited.
     nowhere = os.open(os.devnull, os.O_RDWR)
     for standard in (0, 1, 2):
         os.dup2(nowhere, standard)
-    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    for ending in (signal.SIGALRM, signal.SIGPROF):
+        signal.signal(ending, signal.SIG_DFL)
     connection = Connection(descriptor)
     requests: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
     threading.Thread(target=_receive, args=(connection, requests), daemon=True).start()
     connection.send((None, None))
     while True:
         request = requests.get()
-        limit_s = float(request["limit_s"])
-        if math.isfinite(limit_s):
-            # The default action of the kernel needs no interpreter, so that it ends a run that never returns too.
-            signal.setitimer(signal.ITIMER_REAL, limit_s + GRACE_S)
+        # The default action of the kernel needs no interpreter, so that it ends a run that never returns too.
+        _set_timer(signal.ITIMER_PROF, request["processor_s"])
+        _set_timer(signal.ITIMER_REAL, request["wall_s"] + GRACE_S)
         answer: tuple[str | None, dict[str, Any] | None]
         try:
             answer = (None, solved(request))
         except Exception as error:  # every failure of a solver is an answer
             answer = (f"{type(error).__name__}: {error}", None)
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        for timer in (signal.ITIMER_PROF, signal.ITIMER_REAL):
+            signal.setitimer(timer, 0.0)
         # A parent that is gone is noticed by the other thread.
         with contextlib.suppress(OSError):
             connection.send(answer)
+
+
+def _set_timer(timer: int, seconds: float) -> None:
+    """Let the kernel end the process after so many seconds of a timer; an infinite number sets none."""
+    if math.isfinite(seconds):
+        signal.setitimer(timer, seconds)
 
 
 def solved(request: dict[str, Any]) -> dict[str, Any]:
