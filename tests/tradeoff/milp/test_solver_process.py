@@ -72,7 +72,6 @@ def test_the_answers_are_those_of_a_run_in_this_process(run):
 
 
 def test_an_independent_solver_runs_there_too():
-    pytest.importorskip("pyscipopt")
     problem = knapsack()
     with LimitedRuns() as runs:
         assert runs.solve(problem, independent_run(SolverCheck.SCIP))
