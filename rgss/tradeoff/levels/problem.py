@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.levels.selection import LevelModel, LevelSelection, LevelTable
-from rgss.tradeoff.milp import DecisionStatus, LimitedRuns, SolverProcess, SolverRun, StageSolution
+from rgss.tradeoff.milp import DecisionStatus, LimitedRuns, SolverRun, StageSolution
 from rgss.tradeoff.problem import Alternative, LevelSpace, Risk, Threshold, ValueFunction, WeightBounds, Weighting
 from rgss.tradeoff.programs import (
     AdditiveValue,
@@ -168,7 +168,6 @@ def decide_levels(
     *,
     independent: tuple[SolverRun, ...] = (),
     time_limit: float | None = None,
-    process: SolverProcess | None = None,
 ) -> LevelDecision:
     """Choose the best combination of levels and prove it.
 
@@ -186,7 +185,6 @@ def decide_levels(
         independent: Runs of other solvers than HiGHS, made on every stage as further checks.
         time_limit: Seconds for the proofs, in place of the limits of each run; the answer then depends on the
             machine.
-        process: The process of the solver, which is ended afterwards; by default a new one.
 
     Raises:
         TradeoffError: Neither a feasible design was found nor that there is none was proved, the
@@ -209,7 +207,7 @@ def decide_levels(
     tabulated = (
         problem.among(grid.table()) if problem.space.size <= min(LARGEST_TABULATED, LARGEST_ENUMERATED) else None
     )
-    with LimitedRuns(time_limit, process=process) as runs:
+    with LimitedRuns(time_limit) as runs:
         solver = GuardedStageSolver(
             select=lambda: LevelSelection(model),
             constraints=problem.constraints,
