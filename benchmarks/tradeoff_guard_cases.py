@@ -202,8 +202,14 @@ def _rule(rng: np.random.Generator, counts: tuple[int, ...]) -> Incompatibility:
     )
 
 
+def _quantiles(grid: Grid, shares: float | list[float]) -> Any:
+    """Quantiles of what is known; 0 where nothing is, so that a measure may be unknown of every combination."""
+    known = grid[~np.isnan(grid)]
+    return np.quantile(known if known.size else np.zeros(1), shares)
+
+
 def _function(rng: np.random.Generator, name: str, grid: Grid, *, plain: bool) -> PiecewiseValue | TargetValue:
-    low, high = (float(one) for one in np.nanquantile(grid, [0.05, 0.95]))
+    low, high = (float(one) for one in _quantiles(grid, [0.05, 0.95]))
     if high - low < 0.1:
         low, high = low - 1.0, low + 1.0
     if not plain and rng.random() < 0.2:
@@ -220,7 +226,7 @@ def _threshold(rng: np.random.Generator, requirement: str, name: str, grid: Grid
         requirement=requirement,
         measure=name,
         comparison=Comparison.AT_LEAST if at_least else Comparison.AT_MOST,
-        value=float(np.nanquantile(grid, share if at_least else 1.0 - share)),
+        value=float(_quantiles(grid, share if at_least else 1.0 - share)),
         unit="1",
     )
 

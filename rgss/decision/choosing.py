@@ -73,6 +73,7 @@ def choose(
     *,
     problem: TradeProblem | None = None,
     independent: tuple[SolverRun, ...] = (),
+    time_limit: float | None = None,
 ) -> Decision:
     """Decide which variant is best.
 
@@ -81,6 +82,7 @@ def choose(
         measured: Every variant with its estimates.
         problem: What `trade_problem` gives for them, where it is there already.
         independent: Runs of other solvers than HiGHS, as further checks.
+        time_limit: Seconds for the runs of a solver over levels.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -89,7 +91,7 @@ def choose(
     """
     margin = project.study.trade_off.practical_margin
     posed = trade_problem(project, measured) if problem is None else problem
-    return decide(posed, margin=margin, seed=project.study.seed, independent=independent)
+    return decide(posed, margin=margin, seed=project.study.seed, independent=independent, time_limit=time_limit)
 
 
 def double_counting(project: Project) -> tuple[Overlap, ...]:

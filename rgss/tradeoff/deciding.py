@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,8 @@ from rgss.tradeoff.milp import (
     Check,
     CheckKind,
     Exclusion,
-    Selection,
+    LimitedRuns,
+    SolverLimitError,
     SolverRun,
     StageSolver,
     VariantSelection,
@@ -38,6 +38,7 @@ def decide(
     seed: int = 0,
     resamples: int | None = None,
     independent: tuple[SolverRun, ...] = (),
+    time_limit: float | None = None,
 ) -> Decision:
     """Choose the best feasible alternative, prove it, and explain it.
 
@@ -52,13 +53,15 @@ def decide(
         seed: Seed of the draws that test a conflict against the noise of the replicates.
         resamples: How many draws; 0 for none, 1,000 by default, fewer where alternatives are many.
         independent: Runs of other solvers than HiGHS; each solves the whole program as a further check.
+        time_limit: Seconds for the runs of a solver over levels, in place of the limits of each run. One that
+            exceeds it is a check that was not finished; the decision is then solved over the alternatives instead.
 
     Returns:
         The decision. That nothing is feasible is a decision too, with the status infeasible.
 
     Raises:
-        TradeoffError: The margin is not one; the solver failed, proved neither optimality nor
-            infeasibility, or contradicts enumeration. No decision is made then.
+        TradeoffError: The margin is not one, or the time limit is not positive; the solver failed, proved
+            neither optimality nor infeasibility, or contradicts enumeration. No decision is made then.
     """
     # Imported here so that the package itself loads without NumPy.
     from rgss.tradeoff.explanation import (
@@ -75,7 +78,7 @@ def decide(
     if not (math.isfinite(margin) and margin >= 0.0):
         raise TradeoffError(f"the practical margin is {margin:g}", hint="give a value from 0 on, such as 0.01")
     enumeration = enumerate_alternatives(problem)
-    certificate = _certified(problem, enumeration, (), independent)
+    certificate = _certified(problem, enumeration, (), independent, time_limit)
     ties = tuple(int(variant) for variant in enumeration.variants[enumeration.tied])
     ranking = rank(enumeration)
     chosen = ties[0] if ties else None
@@ -141,64 +144,112 @@ def _certified(
     enumeration: Enumeration,
     excluded: tuple[Alternative, ...],
     independent: tuple[SolverRun, ...] = (),
+    time_limit: float | None = None,
 ) -> Certificate:
     """Solve the program without some alternatives; the certificate of an answer that enumeration shares."""
-    if problem.levels is None:
-        from rgss.tradeoff.reduction import reduced_rows
+    with LimitedRuns(time_limit) as runs:
+        if problem.levels is not None:
+            form = _level_form(problem, enumeration, excluded, runs)
+            found = _first_agreeing(problem, enumeration, form, independent)
+            if isinstance(found, Certificate):
+                return found
+            if not isinstance(found, SolverLimitError):
+                raise found
+            # Enumeration decides. The same choice over alternatives is small, so that no run of it is limited.
+            certificate = _first_agreeing(
+                problem, enumeration, _variant_form(problem, enumeration, excluded), independent
+            )
+            if isinstance(certificate, Certificate):
+                return _noted(certificate, found)
+            raise certificate
+    found = _first_agreeing(problem, enumeration, _variant_form(problem, enumeration, excluded), independent)
+    if isinstance(found, Certificate):
+        return found
+    raise found
 
-        considered = tuple(enumeration.table[int(row)] for row in reduced_rows(enumeration))
-        left = {alternative.variant for alternative in considered}
-        select: Callable[[], Selection] = lambda: VariantSelection.of(considered)  # noqa: E731
-        exclusions = tuple(Exclusion(alternative=one) for one in excluded if one.variant in left)
-    else:
-        from rgss.tradeoff.levels import LevelModel, LevelSelection
 
-        considered = tuple(enumeration.table)
-        model = LevelModel.of(problem.levels, considered, tuple(problem.measures_named))
-        select = lambda: LevelSelection(model)  # noqa: E731
-        exclusions = tuple(Exclusion(alternative=one) for one in excluded)
+def _variant_form(
+    problem: TradeProblem, enumeration: Enumeration, excluded: tuple[Alternative, ...]
+) -> tuple[int, StageSolver]:
+    """The program with a variable for each alternative that exact reduction leaves, and their number."""
+    from rgss.tradeoff.reduction import reduced_rows
+
+    considered = tuple(enumeration.table[int(row)] for row in reduced_rows(enumeration))
+    left = {alternative.variant for alternative in considered}
+    exclusions = tuple(Exclusion(alternative=one) for one in excluded if one.variant in left)
+    constraints = (*problem.constraints, *exclusions)
+    return len(considered), StageSolver(select=lambda: VariantSelection.of(considered), constraints=constraints)
+
+
+def _level_form(
+    problem: TradeProblem, enumeration: Enumeration, excluded: tuple[Alternative, ...], runs: LimitedRuns
+) -> tuple[int, StageSolver]:
+    """The program with variables for the levels, whose runs end, and the number of alternatives."""
+    from rgss.tradeoff.levels import LevelModel, LevelSelection
+
+    assert problem.levels is not None  # noqa: S101 - the caller looks
+    considered = tuple(enumeration.table)
+    model = LevelModel.of(problem.levels, considered, tuple(problem.measures_named))
+    exclusions = tuple(Exclusion(alternative=one) for one in excluded)
+    solver = StageSolver(
+        select=lambda: LevelSelection(model),
+        constraints=(*problem.constraints, *exclusions),
+        solve_by=lambda program, run: runs.solve(program, run, brief=True),
+    )
+    return len(considered), solver
+
+
+def _first_agreeing(
+    problem: TradeProblem, enumeration: Enumeration, form: tuple[int, StageSolver], independent: tuple[SolverRun, ...]
+) -> Certificate | TradeoffError:
+    """The certificate of the first run that enumeration agrees with, checked by the independent runs.
+
+    Returns:
+        The certificate; or the error of the last run, of which an exceeded limit is the least.
+    """
+    count, solver = form
 
     def answer_of(run: SolverRun) -> Certificate | TradeoffError:
         """The certificate of a run that enumeration agrees with; or why there is none."""
-        solver = StageSolver(select=select, constraints=(*problem.constraints, *exclusions), run=run)
         try:
-            solutions = problem.program.solve(problem, solver)
+            solutions = problem.program.solve(problem, replace(solver, run=run))
         except TradeoffError as error:
             return error
-        certificate = certify(problem, enumeration, solutions, considered=len(considered))
+        certificate = certify(problem, enumeration, solutions, considered=count)
         agrees = certificate.enumeration_agrees is Agreement.AGREED
         return certificate if agrees else _disagreement(enumeration, certificate)
 
-    contradicted: TradeoffError | None = None
+    error: TradeoffError | None = None
     for run in RUNS:
         answer = answer_of(run)
         if isinstance(answer, Certificate):
-            certificate = _noted(answer, contradicted)
+            certificate = answer if error is None else _noted(answer, error)
             for other in independent:
                 certificate = _checked_by(certificate, other, answer_of(other))
             return certificate
-        contradicted = answer
-    assert contradicted is not None  # noqa: S101 - there is at least one run
-    raise contradicted
+        if error is None or not isinstance(answer, SolverLimitError):
+            error = answer
+    assert error is not None  # noqa: S101 - there is at least one run
+    return error
 
 
 def _checked_by(certificate: Certificate, run: SolverRun, answer: Certificate | TradeoffError) -> Certificate:
     """The certificate with the answer of an independent solver, whose name it takes on where that agrees."""
     if isinstance(answer, TradeoffError):
-        detail = f"{run.name}: {answer.message}"
-        check = Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=False, detail=detail)
+        agrees = None if isinstance(answer, SolverLimitError) else False
+        check = Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=agrees, detail=f"{run.name}: {answer.message}")
         return replace(certificate, checks=(*certificate.checks, check))
     check = Check(kind=CheckKind.INDEPENDENT_SOLVER, agrees=True, detail=f"{run.name} comes to the same answer")
     return replace(certificate, solver=f"{certificate.solver} and {run.solver}", checks=(*certificate.checks, check))
 
 
-def _noted(certificate: Certificate, contradicted: TradeoffError | None) -> Certificate:
-    """The certificate with the answer of an earlier run that was discarded."""
-    if contradicted is None:
-        return certificate
-    check = Check(
-        kind=CheckKind.SECOND_RUN, agrees=False, detail=f"an earlier run was discarded: {contradicted.message}"
-    )
+def _noted(certificate: Certificate, error: TradeoffError) -> Certificate:
+    """The certificate with what became of an earlier run."""
+    if isinstance(error, SolverLimitError):
+        check = Check(kind=CheckKind.SECOND_RUN, agrees=None, detail=f"an earlier run over levels: {error.message}")
+    else:
+        detail = f"an earlier run was discarded: {error.message}"
+        check = Check(kind=CheckKind.SECOND_RUN, agrees=False, detail=detail)
     return replace(certificate, checks=(*certificate.checks, check))
 
 

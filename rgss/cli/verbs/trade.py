@@ -43,8 +43,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--time-limit",
         metavar="TIME",
-        help='how long to prove a fleet best, such as "60 s" (default: a count of operations, some 20 s, which '
-        "gives the same answer on every machine)",
+        help='how long to prove a fleet or a choice of levels, such as "60 s" (default: counts of operations, some '
+        "20 s for a fleet, which give the same answer on every machine)",
     )
     parser.add_argument(
         "--solver-check",
@@ -97,6 +97,7 @@ def run(options: argparse.Namespace) -> int:
         screened=screened,
         scenario=scenario,
         reopened=more,
+        time_limit=time_limit,
     )
     _print(options, made, text)
     return CLEAN if made.is_final else FINDINGS

@@ -81,6 +81,7 @@ def decide_study(
     screened: ScreeningResult | None = None,
     scenario: Scenario | None = None,
     reopened: tuple[int, ...] = (),
+    time_limit: float | None = None,
 ) -> StudyDecision:
     """Decide a study, and analyse the decision; nothing is simulated.
 
@@ -94,6 +95,7 @@ def decide_study(
         screened: The outcome of screening; None without.
         scenario: Suppositions that the decision is made under; None for the study as it is.
         reopened: Designs that screening would let pass under the suppositions.
+        time_limit: Seconds for the runs of a solver over levels, for each decision that is made.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -101,14 +103,14 @@ def decide_study(
         DefinitionError: As for `trade_problem`.
     """
     problem = trade_problem(project, measured)
-    decision = choose(project, measured, problem=problem, independent=independent)
+    decision = choose(project, measured, problem=problem, independent=independent, time_limit=time_limit)
     what_if = None
     if scenario is not None:
         before = decision_side(project, measured, decision)
         units = {measure: project.measures.measure(measure).unit for measure in before.estimates}
         project, measured = scenario.project, measured_in(scenario, measured)
         problem = trade_problem(project, measured)
-        decision = choose(project, measured, problem=problem, independent=independent)
+        decision = choose(project, measured, problem=problem, independent=independent, time_limit=time_limit)
         after = decision_side(project, measured, decision)
         what_if = WhatIf(scenario=scenario, units=units, before=before, after=after, reopened=reopened)
     return study_decision(

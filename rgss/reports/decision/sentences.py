@@ -95,6 +95,8 @@ def certificate_sentence(certificate: Certificate) -> str:
     compared = {
         Agreement.AGREED: f"enumeration of all {certificate.alternatives} variants agrees",
         Agreement.DISAGREED: f"enumeration of all {certificate.alternatives} variants DISAGREES",
+        Agreement.NOT_COMPARED: f"enumeration of all {certificate.alternatives} variants decides, the solver gave "
+        "no answer in its time",
         Agreement.NOT_ENUMERATED: "not enumerated",
     }[certificate.enumeration_agrees]
     gap = value_in_words(certificate.gap)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,6 +42,7 @@ def interval_bound(
     known: float,
     tolerance: float,
     most: int = MOST_PARTIAL,
+    is_over: Callable[[], bool] = lambda: False,
 ) -> IntervalBound:
     """Bound a stage's objective over all designs.
 
@@ -56,6 +57,7 @@ def interval_bound(
         known: The objective of a feasible design; minus infinity if none is known.
         tolerance: By so much a bound must exceed it to be of interest.
         most: The largest number of partial designs.
+        is_over: Whether the time for it is over; the bound that is reached then is the answer.
     """
     order = _order(grid)
     partial: Designs = np.zeros((1, len(order)), dtype=np.intp)
@@ -76,7 +78,7 @@ def interval_bound(
             bound = np.broadcast_to(stage_bound(stage, constraints, quantities.of(children)), len(children))
             rows = np.flatnonzero((bound > known + tolerance) & np.isfinite(bound))
             kept += rows.size
-            if kept > most:
+            if kept > most or is_over():
                 # The parents' bounds hold for all that is below them.
                 return IntervalBound(bound=float(bounds.max()), complete=False, better=None)
             kept_designs.append(children[rows])

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.levels.selection import LevelModel, LevelSelection, LevelTable
-from rgss.tradeoff.milp import DecisionStatus, SolverRun, StageSolution
+from rgss.tradeoff.milp import DecisionStatus, LimitedRuns, SolverRun, StageSolution
 from rgss.tradeoff.problem import Alternative, LevelSpace, Risk, Threshold, ValueFunction, WeightBounds, Weighting
 from rgss.tradeoff.programs import (
     AdditiveValue,
@@ -163,22 +163,32 @@ class LevelDecision:
     enumerated: bool
 
 
-def decide_levels(problem: LevelProblem, *, independent: tuple[SolverRun, ...] = ()) -> LevelDecision:
+def decide_levels(
+    problem: LevelProblem,
+    *,
+    independent: tuple[SolverRun, ...] = (),
+    time_limit: float | None = None,
+) -> LevelDecision:
     """Choose the best combination of levels and prove it.
 
     The size of the program is that of the tables, not of all combinations. Of equally good ones,
     any may be chosen. Every answer of the solver is checked: by evaluating all combinations where
-    these are few enough, elsewhere by a second run with other options, a primal search and interval
-    branch and bound. An answer that a check contradicts is replaced by the better one; what then is
+    these are few enough, elsewhere by a primal search, interval branch and bound, and a second run with
+    other options. An answer that a check contradicts is replaced by the better one; what then is
     not proven is called best found, with its gap.
+
+    The solver runs in a process of its own, which is killed where it exceeds its limit of time. Such a run is a
+    check that was not finished: the answer may still be proven by the others.
 
     Args:
         problem: The problem.
         independent: Runs of other solvers than HiGHS, made on every stage as further checks.
+        time_limit: Seconds for the proofs, in place of the limits of each run; the answer then depends on the
+            machine.
 
     Raises:
         TradeoffError: Neither a feasible design was found nor that there is none was proved, the
-            stages contradict each other, or no combination is a design.
+            stages contradict each other, no combination is a design, or the time limit is not positive.
     """
     from rgss.tradeoff.levels.grid import LevelGrid
     from rgss.tradeoff.levels.guard import GuardedStageSolver
@@ -194,27 +204,29 @@ def decide_levels(problem: LevelProblem, *, independent: tuple[SolverRun, ...] =
     )
     exhaustive = problem.space.size <= LARGEST_ENUMERATED
     grid = LevelGrid.of(problem.space, problem.tables)
-    solver = GuardedStageSolver(
-        select=lambda: LevelSelection(model),
-        constraints=problem.constraints,
-        grid=grid,
-        model=model,
-        exhaustive=exhaustive,
-        independent=independent,
-    )
     tabulated = (
         problem.among(grid.table()) if problem.space.size <= min(LARGEST_TABULATED, LARGEST_ENUMERATED) else None
     )
-    for _ in range(MOST_ROUNDS):
-        solutions = problem.program.solve(problem, solver)
-        certificate = _certified(problem, first, solutions, tabulated)
-        if certificate is not None:
-            break
-    else:
-        raise TradeoffError(
-            f"the stages of the {problem.program.name} program contradict each other",
-            hint="no decision is made on contradictory answers; look for measures of extreme magnitude",
+    with LimitedRuns(time_limit) as runs:
+        solver = GuardedStageSolver(
+            select=lambda: LevelSelection(model),
+            constraints=problem.constraints,
+            grid=grid,
+            model=model,
+            exhaustive=exhaustive,
+            runs=runs,
+            independent=independent,
         )
+        for _ in range(MOST_ROUNDS):
+            solutions = problem.program.solve(problem, solver)
+            certificate = _certified(problem, first, solutions, tabulated)
+            if certificate is not None:
+                break
+        else:
+            raise TradeoffError(
+                f"the stages of the {problem.program.name} program contradict each other",
+                hint="no decision is made on contradictory answers; look for measures of extreme magnitude",
+            )
     last = solutions[-1].alternative
     levels = () if last is None else problem.levels_of(last.variant)
     return LevelDecision(

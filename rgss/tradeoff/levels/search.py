@@ -55,6 +55,14 @@ def search_levels(
     return best
 
 
+def improve_design(
+    grid: LevelGrid, stage: Stage, constraints: Sequence[Constraint], start: Designs
+) -> tuple[float, Designs] | None:
+    """The local optimum above a design, with its objective; None if it is not feasible. Arguments: `search_levels`."""
+    score, design = _climb(grid, stage, constraints, start, _moves(grid))
+    return (score, design) if np.isfinite(score) else None
+
+
 def _climb(
     grid: LevelGrid,
     stage: Stage,

@@ -7,8 +7,10 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.tradeoff.milp.checks import Agreement, Check, CheckKind
     from rgss.tradeoff.milp.independent_solver import SolverCheck, independent_run
+    from rgss.tradeoff.milp.limited_runs import LimitedRuns
     from rgss.tradeoff.milp.linear import SOLVER_TOLERANCE, solve_linear
     from rgss.tradeoff.milp.selection import INTEGRALITY_TOLERANCE, Row, Selection, VariantSelection, read_choice
+    from rgss.tradeoff.milp.solver_process import SolverLimitError, SolverProcess
     from rgss.tradeoff.milp.stage import (
         FIRST_RUN,
         OBJECTIVE_SCALE,
@@ -48,12 +50,15 @@ __all__ = [
     "DecisionStatus",
     "EvidenceConstraint",
     "Exclusion",
+    "LimitedRuns",
     "LinearQuantity",
     "ObjectiveTerm",
     "QuantityRank",
     "Row",
     "Selection",
     "SolverCheck",
+    "SolverLimitError",
+    "SolverProcess",
     "SolverRun",
     "Stage",
     "StageSolution",

@@ -7,10 +7,14 @@ from enum import Enum
 
 
 class Agreement(str, Enum):
-    """Outcome of comparing a decision with exhaustive enumeration; true only where the two agree."""
+    """Outcome of comparing the solver's answers with exhaustive enumeration; true only where the two agree.
+
+    Not compared: everything was enumerated, but a run of the solver was ended before it had an answer.
+    """
 
     AGREED = "agreed"
     DISAGREED = "disagreed"
+    NOT_COMPARED = "not compared"
     NOT_ENUMERATED = "not enumerated"
 
     def __bool__(self) -> bool:
@@ -34,15 +38,17 @@ class Check:
 
     Attributes:
         kind: The method.
-        agrees: False where it contradicted the solver. The better answer is then used.
+        agrees: False where it contradicted the solver. The better answer is then used. None where a limit ended
+            the check before it had an answer, which counts neither for nor against the decision.
         detail: What was compared, for people.
     """
 
     kind: CheckKind
-    agrees: bool
+    agrees: bool | None
     detail: str
 
     @property
     def text(self) -> str:
         """One line."""
-        return f"{self.kind.value} {'agrees' if self.agrees else 'DISAGREES'}: {self.detail}"
+        word = "not finished" if self.agrees is None else "agrees" if self.agrees else "DISAGREES"
+        return f"{self.kind.value} {word}: {self.detail}"

@@ -137,11 +137,13 @@ class StageSolver:
         select: Makes new decision variables.
         constraints: The constraints of every stage.
         run: The options of the solver.
+        solve_by: Solves a problem with a run; in this process by default.
     """
 
     select: Callable[[], Selection]
     constraints: tuple[Constraint, ...]
     run: SolverRun = FIRST_RUN
+    solve_by: Callable[[Any, SolverRun], bool] | None = None
 
     def solve(self, stage: Stage) -> StageSolution:
         """Solve a stage to proven optimality or proven infeasibility.
@@ -150,7 +152,7 @@ class StageSolver:
             TradeoffError: The solver is missing, failed, or proved neither.
         """
         problem, selection = self.compiled(stage)
-        if not solve_program(problem, self.run):
+        if not (self.solve_by or solve_program)(problem, self.run):
             return StageSolution(
                 name=stage.name,
                 status=DecisionStatus.INFEASIBLE,
@@ -182,12 +184,13 @@ class StageSolver:
         return cvxpy.Problem(cvxpy.Maximize(stage.scale * maximised), constraints), selection
 
 
-def solve_program(problem: Any, run: SolverRun = FIRST_RUN) -> bool:
+def solve_program(problem: Any, run: SolverRun = FIRST_RUN, *, solve: Callable[[], None] | None = None) -> bool:
     """Solve a CVXPY problem.
 
     Args:
         problem: The problem, whose objective is bounded.
         run: The solver and its options.
+        solve: Solves the problem with that run; by default in this process.
 
     Returns:
         True if an optimum is proven, False if it is proven that there is none.
@@ -202,7 +205,10 @@ def solve_program(problem: Any, run: SolverRun = FIRST_RUN) -> bool:
             # These two only repeat the status, which is judged below.
             warnings.filterwarnings("ignore", message=r"\s*Solution may be inaccurate")
             warnings.filterwarnings("ignore", message=r"\s*The problem is either infeasible or unbounded")
-            problem.solve(solver=run.solver, **run.options)
+            if solve is None:
+                problem.solve(solver=run.solver, **run.options)
+            else:
+                solve()
     except cvxpy.SolverError as error:
         raise TradeoffError(
             f"the solver failed: {' '.join(str(error).split())}",
@@ -227,6 +233,9 @@ def proven_gap(problem: Any) -> float:
     """How far the bound that the solver proved is from the objective that it found; 0 if that is proven best."""
     information = problem.solver_stats.extra_stats
     if isinstance(information, Mapping):
+        if "gap" in information:
+            # SCIP in a process of its own.
+            return float(information["gap"])
         # SCIP minimises, and its model outlives the run.
         model = information["model"]
         return max(0.0, float(model.getObjVal()) - float(model.getDualbound()))

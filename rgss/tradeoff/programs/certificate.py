@@ -177,8 +177,10 @@ def _checks(
         checks.append(Check(kind=CheckKind.ENUMERATION, agrees=agrees, detail=detail))
     elif not all(solution.exhaustive for solution in solutions):
         return Agreement.NOT_ENUMERATED, tuple(checks)
-    right = all(check.agrees for check in checks if check.kind is CheckKind.ENUMERATION)
-    return Agreement.AGREED if right else Agreement.DISAGREED, tuple(checks)
+    compared = [check.agrees for check in checks if check.kind is CheckKind.ENUMERATION]
+    if False in compared:
+        return Agreement.DISAGREED, tuple(checks)
+    return Agreement.NOT_COMPARED if None in compared else Agreement.AGREED, tuple(checks)
 
 
 def stage_certificates(solutions: Sequence[StageSolution]) -> tuple[StageCertificate, ...]:

@@ -106,6 +106,7 @@ def test_the_exit_status_is_0_only_where_all_is_proven(status, fleet, settled):
     [
         (Agreement.AGREED, "enumeration of all 5 variants agrees."),
         (Agreement.DISAGREED, "enumeration of all 5 variants DISAGREES."),
+        (Agreement.NOT_COMPARED, "enumeration of all 5 variants decides, the solver gave no answer in its time."),
         (Agreement.NOT_ENUMERATED, "not enumerated."),
     ],
 )

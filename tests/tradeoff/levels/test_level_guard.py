@@ -12,12 +12,15 @@ import rgss.tradeoff.levels.selection
 from rgss.errors import TradeoffError
 from rgss.reports.decision.json import certificate_to_json
 from rgss.tradeoff import Agreement, CheckKind, DecisionStatus, decide_levels
+from rgss.tradeoff.levels.attempt import Attempt, Outcome
 from rgss.tradeoff.levels.bound import interval_bound
 from rgss.tradeoff.levels.grid import LevelGrid, compensated_sum
-from rgss.tradeoff.levels.guard import Attempt, GuardedStageSolver, Outcome
+from rgss.tradeoff.levels.guard import GuardedStageSolver
 from rgss.tradeoff.levels.search import search_levels
 from rgss.tradeoff.levels.selection import LevelModel, LevelSelection
-from rgss.tradeoff.milp.stage import FIRST_RUN, RUNS, SolverRun, StageSolver
+from rgss.tradeoff.milp.limited_runs import LimitedRuns
+from rgss.tradeoff.milp.solver_process import SolverLimitError
+from rgss.tradeoff.milp.stage import FIRST_RUN, RUNS, SolverRun, StageSolver, solve_program
 from rgss.tradeoff.programs.additive import additive_stage
 
 PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
@@ -107,18 +110,23 @@ def no_answer(problem, run):
     raise TradeoffError("the solver ended with the status 'user_limit'", hint="")
 
 
+def exceeded(problem, run):
+    raise SolverLimitError("the solver was ended after 30 s of processor time", hint="")
+
+
 @pytest.fixture
 def doctored(monkeypatch):
     """A solver whose first runs, or all of them, give another answer."""
 
     def make(answer, *, runs):
-        real = rgss.tradeoff.levels.guard.solve_program
         wrong = {run.name for run in RUNS[:runs]}
         gap = rgss.tradeoff.levels.guard.proven_gap
         monkeypatch.setattr(
-            rgss.tradeoff.levels.guard,
-            "solve_program",
-            lambda problem, run: answer(problem, run) if run.name in wrong else real(problem, run),
+            LimitedRuns,
+            "solve",
+            lambda self, problem, run, *, brief: (
+                answer(problem, run) if run.name in wrong else solve_program(problem, run)
+            ),
         )
         monkeypatch.setattr(
             rgss.tradeoff.levels.guard, "proven_gap", lambda problem: gap(problem) if problem.solver_stats else 0.0
@@ -161,6 +169,67 @@ def test_a_wrong_first_run_is_outvoted(guard_cases, sums_kept, path, doctored, p
     assert case.missed_by(decision.variant - 1) <= 1e-9
     assert decision.status is DecisionStatus.OPTIMAL
     assert {check.kind for check in decision.certificate.checks if not check.agrees} >= {CheckKind.SECOND_RUN}
+
+
+@pytest.mark.parametrize("name", ["enumerated", "bounds", "runs"])
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_runs_that_are_ended_agree_with_nothing(guard_cases, sums_kept, path, doctored, program, name):
+    """What is proven without the solver stays proven; elsewhere the best that is known has its gap."""
+    case = guard_cases.small_case(1, (3, 4, 3, 4), program)
+    path(name)
+    doctored(exceeded, runs=len(RUNS))
+    decision = decide_levels(case.problem)
+    certificate = decision.certificate
+    assert case.missed_by(decision.variant - 1) <= 1e-9
+    assert (decision.status, certificate.enumeration_agrees) == {
+        "enumerated": (DecisionStatus.OPTIMAL, Agreement.NOT_COMPARED),
+        "bounds": (DecisionStatus.OPTIMAL, Agreement.NOT_ENUMERATED),
+        "runs": (DecisionStatus.BEST_FOUND, Agreement.NOT_ENUMERATED),
+    }[name]
+    assert (certificate.gap > 0.0) == (name == "runs")
+    assert None in {check.agrees for check in certificate.checks}
+    assert False not in {check.agrees for check in certificate.checks}
+    assert any("not finished" in check.text for check in certificate.checks)
+    assert not certificate.enumeration_agrees
+
+
+@pytest.mark.parametrize("name", ["enumerated", "runs"])
+def test_one_run_that_is_ended_is_replaced_by_another(guard_cases, sums_kept, path, doctored, name):
+    path(name)
+    doctored(exceeded, runs=1)
+    decision = decide_levels(guard_cases.small_case(1, (3, 4, 3, 4), "additive").problem)
+    assert decision.status is DecisionStatus.OPTIMAL
+    text = " ".join(check.text for check in decision.certificate.checks)
+    assert ("1 run exceeded the limit" if name == "enumerated" else "HiGHS without presolve: not finished") in text
+
+
+def test_a_run_that_is_needed_gets_more_time(guard_cases, sums_kept, path, monkeypatch):
+    """Where nothing else proves the answer, what was ended early is made again with the whole limit."""
+    path("runs")
+    made = []
+
+    def solve(self, problem, run, *, brief):
+        made.append((run.name, brief))
+        return exceeded(problem, run) if brief else solve_program(problem, run)
+
+    monkeypatch.setattr(LimitedRuns, "solve", solve)
+    case = guard_cases.small_case(1, (3, 4, 3, 4), "additive")
+    decision = decide_levels(case.problem)
+    assert made[:4] == [(RUNS[0].name, True), (RUNS[1].name, True), (RUNS[2].name, True), (RUNS[0].name, False)]
+    assert decision.status is DecisionStatus.OPTIMAL
+    assert case.missed_by(decision.variant - 1) <= 1e-9
+
+
+def test_a_time_limit_ends_the_interval_bound(guard_cases):
+    """The bound that is reached when the time is over still holds."""
+    problem = guard_cases.small_case(1, (3, 4, 3, 4), "additive").problem
+    grid = LevelGrid.of(problem.space, problem.tables)
+    stage = additive_stage(problem)
+    bound = interval_bound(grid, stage, problem.constraints, known=-np.inf, tolerance=0.0, is_over=lambda: True)
+    assert not bound.complete
+    assert bound.bound >= grid.best(stage, problem.constraints)[0]
+    with pytest.raises(TradeoffError, match="the time limit must be positive"):
+        decide_levels(problem, time_limit=0.0)
 
 
 def test_nothing_found_and_nothing_proved_is_no_decision(guard_cases, path, doctored, monkeypatch):
@@ -232,7 +301,7 @@ def answered(monkeypatch):
     """A solver that answers the best design, or the worst feasible one, whatever HiGHS would come to."""
 
     def make(*, right):
-        def attempt(solver, stage, run):
+        def attempt(solver, stage, run, *, brief=True):
             grid = solver.grid
             designs = np.concatenate(list(grid.blocks()))
             scores = grid.scores(stage, solver.constraints, designs)

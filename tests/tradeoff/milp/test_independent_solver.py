@@ -20,6 +20,7 @@ from rgss.tradeoff import (
     independent_run,
 )
 from rgss.tradeoff.levels.bound import interval_bound
+from rgss.tradeoff.milp.limited_runs import LimitedRuns
 from rgss.tradeoff.milp.stage import RUNS
 
 PROGRAMS = ("additive", "tchebycheff", "lexicographic", "epsilon_constraint", "minimax_regret")
@@ -77,11 +78,11 @@ def test_without_the_option_nothing_is_different(guard_cases, runs_alone):
 
 def doctored(monkeypatch, wrong):
     """The named solvers call everything infeasible."""
-    real = rgss.tradeoff.levels.guard.solve_program
+    real = LimitedRuns.solve
     monkeypatch.setattr(
-        rgss.tradeoff.levels.guard,
-        "solve_program",
-        lambda problem, run: False if run.solver in wrong else real(problem, run),
+        LimitedRuns,
+        "solve",
+        lambda self, problem, run, *, brief: False if run.solver in wrong else real(self, problem, run, brief=brief),
     )
 
 
