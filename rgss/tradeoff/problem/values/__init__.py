@@ -11,6 +11,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry, QuantityField, RequirementAnchor
+    from rgss.tradeoff.problem.values.bent import bent_values, half_value_share
     from rgss.tradeoff.problem.values.exponential import STEEPEST_EXPONENT, AnchoredExponential, ExponentialValue
     from rgss.tradeoff.problem.values.piecewise import AnchoredPiecewise, PiecewiseValue
     from rgss.tradeoff.problem.values.shapes import SHAPE_KEYS, SHAPES, ShapeKeys, shape_of
@@ -38,5 +39,7 @@ __all__ = [
     "ShapeKeys",
     "TargetValue",
     "ValueFunction",
+    "bent_values",
+    "half_value_share",
     "shape_of",
 ]

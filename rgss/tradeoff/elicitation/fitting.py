@@ -1,0 +1,197 @@
+"""Weights from pairwise answers: logarithmic least squares, or the centre of the weights that agree."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.elicitation.answers import PairwiseAnswer, connected_parts
+from rgss.tradeoff.elicitation.consistency import Consistency, consistency_of
+from rgss.tradeoff.elicitation.contradictions import contradiction_of
+from rgss.tradeoff.elicitation.least_squares import Array, bounded_fit, design_matrix
+from rgss.tradeoff.milp import solve_linear
+from rgss.tradeoff.problem import WeightBounds
+from rgss.tradeoff.weights import Polytope, WeightSet, centroid
+
+_LOOSENED = 1.0 + 1e-9
+"""Bounds are met up to rounding by the weights that were fitted to them."""
+
+
+class FitMethod(str, Enum):
+    """How answers became weights.
+
+    Attributes:
+        LEAST_SQUARES: Least squares of the logarithms of the ratios, within the bounds.
+        CENTRE: The centroid of all weights that agree with the answers.
+    """
+
+    LEAST_SQUARES = "least_squares"
+    CENTRE = "centre"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ElicitedWeights:
+    """Weights of the members of a group from pairwise answers.
+
+    Attributes:
+        answers: The answers.
+        weights: The weight of each member; all are positive and they sum to 1.
+        method: How they were found.
+        factor: By how much the worst ratio is missed, at least 1.
+        low: The least weight of each: over the weights that agree with all bounds, and with each ratio within
+            `factor`, and over the fits without any one of the ratios.
+        high: The greatest such weight.
+        consistency: How far the ratios agree; None if no ratio was stated.
+    """
+
+    answers: tuple[PairwiseAnswer, ...]
+    weights: Mapping[str, float] = field(hash=False)
+    method: FitMethod
+    factor: float
+    low: Mapping[str, float] = field(hash=False)
+    high: Mapping[str, float] = field(hash=False)
+    consistency: Consistency | None
+
+    @property
+    def bounds(self) -> tuple[PairwiseAnswer, ...]:
+        """The answers that are bounds: orders and ranges."""
+        return tuple(answer for answer in self.answers if not answer.is_ratio)
+
+
+def weights_from_answers(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> ElicitedWeights:
+    """Weights that answers imply.
+
+    Ratios, and the geometric means of ranges, are fitted by least squares of logarithms where they connect
+    all members; orders and ranges hold exactly. Where they do not connect all, the weights are the
+    centroid of those that agree with the bounds and, within the least factor that is possible, with the
+    ratios. Of a complete order alone that is the rank-order centroid.
+
+    Args:
+        names: The members; at least one.
+        answers: The answers, which name no other.
+
+    Raises:
+        TradeoffError: A member is in no answer, or bounds contradict each other.
+    """
+    missing = [name for name in names if not any(name in (one.swing_of, one.over) for one in answers)]
+    if missing and len(names) > 1:
+        raise TradeoffError(
+            f"no answer names {', '.join(map(repr, missing))}", hint="compare each criterion with another, or drop it"
+        )
+    bounds = [answer for answer in answers if not answer.is_ratio]
+    contradiction = contradiction_of(names, bounds)
+    if contradiction is not None:
+        raise TradeoffError(
+            f"{contradiction.words} cannot hold together: around the circle the product is "
+            f"{contradiction.factor:.3g}, above 1",
+            hint="withdraw one of them, or loosen one by that factor",
+        )
+    measured = [answer for answer in answers if math.isfinite(answer.most)]
+    if len(connected_parts(names, measured)) == 1:
+        method, logs = FitMethod.LEAST_SQUARES, _fitted(names, measured, bounds)
+        factor = _factor(names, answers, logs)
+        weights = _normalised(logs)
+        polytope = _agreeing(names, answers, factor * _LOOSENED)
+    else:
+        method, factor = FitMethod.CENTRE, _least_factor(names, answers, bounds)
+        polytope = _agreeing(names, answers, factor * _LOOSENED)
+        weights = centroid(_agreeing(names, answers, factor))
+    low, high = polytope.extent()
+    fits = np.array([weights, *(_normalised(logs) for logs in _fits_without_one(names, measured, bounds))])
+    return ElicitedWeights(
+        answers=tuple(answers),
+        weights=_by_name(names, weights),
+        method=method,
+        factor=factor,
+        low=_by_name(names, np.minimum(low, fits.min(axis=0))),
+        high=_by_name(names, np.maximum(high, fits.max(axis=0))),
+        consistency=consistency_of(names, answers),
+    )
+
+
+def _fitted(names: Sequence[str], measured: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]) -> Array:
+    matrix, logs = design_matrix(names, measured)
+    return bounded_fit(matrix, logs, *_bounds(names, bounds))
+
+
+def _fits_without_one(
+    names: Sequence[str], measured: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]
+) -> list[Array]:
+    """The fits without each of the ratios, where the others connect all members."""
+    fits = []
+    for place, answer in enumerate(measured):
+        others = [one for number, one in enumerate(measured) if number != place]
+        if answer.is_ratio and len(connected_parts(names, others)) == 1:
+            fits.append(_fitted(names, others, bounds))
+    return fits
+
+
+def _normalised(logs: Array) -> Array:
+    weights = np.exp(logs - logs.max())
+    return np.asarray(weights / weights.sum(), dtype=np.float64)
+
+
+def _bounds(names: Sequence[str], bounds: Sequence[PairwiseAnswer]) -> tuple[Array, Array]:
+    """Bounds on the logarithms of weights as ``rows u >= limits``."""
+    rows, limits = [], []
+    for answer in bounds:
+        row = design_matrix(names, [answer])[0][0] if math.isfinite(answer.most) else _row(names, answer)
+        rows.append(row)
+        limits.append(math.log(answer.least))
+        if math.isfinite(answer.most):
+            rows.append(-row)
+            limits.append(-math.log(answer.most))
+    return np.array(rows).reshape(-1, len(names)), np.array(limits)
+
+
+def _row(names: Sequence[str], answer: PairwiseAnswer) -> Array:
+    row = np.zeros(len(names))
+    row[names.index(answer.swing_of)], row[names.index(answer.over)] = 1.0, -1.0
+    return row
+
+
+def _factor(names: Sequence[str], answers: Sequence[PairwiseAnswer], logs: Array) -> float:
+    """By how much the worst ratio is missed."""
+    missed = [abs(float(_row(names, one) @ logs) - math.log(one.ratio)) for one in answers if one.is_ratio]
+    return math.exp(max(missed, default=0.0))
+
+
+def _least_factor(names: Sequence[str], answers: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]) -> float:
+    """The least factor within which all ratios can hold together with the bounds."""
+    ratios = [answer for answer in answers if answer.is_ratio]
+    if not ratios:
+        return 1.0
+    rows, limits = _bounds(names, bounds)
+    signed = np.vstack([sign * _row(names, one) for one in ratios for sign in (1.0, -1.0)])
+    logs = np.array([sign * math.log(one.ratio) for one in ratios for sign in (1.0, -1.0)])
+    found = solve_linear(
+        np.concatenate([np.zeros(len(names)), [1.0]]),
+        np.vstack([np.hstack([signed, -np.ones((len(signed), 1))]), np.hstack([-rows, np.zeros((len(rows), 1))])]),
+        np.concatenate([logs, -limits]),
+        np.concatenate([[1.0], np.zeros(len(names))])[None, :],
+        np.zeros(1),
+        [(None, None)] * len(names) + [(0.0, None)],
+    )
+    if found is None:
+        raise TradeoffError("no weights satisfy all answers", hint="withdraw one of the bounds")
+    return math.exp(float(found[-1]))
+
+
+def _agreeing(names: Sequence[str], answers: Sequence[PairwiseAnswer], factor: float) -> Polytope:
+    """The weights that agree with the bounds, and with the ratios within a factor."""
+    orders = tuple(
+        order
+        for answer in answers
+        for order in answer.orders(factor=factor if answer.is_ratio else min(factor, _LOOSENED))
+    )
+    rows, limits = WeightBounds(orders=orders).inequalities(names)
+    return Polytope.of(WeightSet.cut(rows, limits))
+
+
+def _by_name(names: Sequence[str], weights: Array) -> dict[str, float]:
+    return dict(zip(names, (float(weight) for weight in weights), strict=True))
