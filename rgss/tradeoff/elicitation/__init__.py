@@ -8,7 +8,8 @@ if TYPE_CHECKING:
     from rgss.tradeoff.elicitation.answers import PairwiseAnswer
     from rgss.tradeoff.elicitation.consistency import GREATEST_RATIO, Consistency, Triad, WorstAnswer
     from rgss.tradeoff.elicitation.contradictions import Contradiction, contradiction_of
-    from rgss.tradeoff.elicitation.fitting import ElicitedWeights, FitMethod, weights_from_answers
+    from rgss.tradeoff.elicitation.elicited_weights import ElicitedWeights, FitMethod
+    from rgss.tradeoff.elicitation.fitting import weights_from_answers
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from enum import Enum
+from collections.abc import Sequence
 
 import numpy as np
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.elicitation.answers import PairwiseAnswer, connected_parts
-from rgss.tradeoff.elicitation.consistency import Consistency, consistency_of
+from rgss.tradeoff.elicitation.consistency import consistency_of
 from rgss.tradeoff.elicitation.contradictions import contradiction_of
+from rgss.tradeoff.elicitation.elicited_weights import ElicitedWeights, FitMethod
 from rgss.tradeoff.elicitation.least_squares import Array, bounded_fit, design_matrix
 from rgss.tradeoff.milp import solve_linear
 from rgss.tradeoff.problem import WeightBounds
@@ -20,47 +19,6 @@ from rgss.tradeoff.weights import Polytope, WeightSet, centroid
 
 _LOOSENED = 1.0 + 1e-9
 """Bounds are met up to rounding by the weights that were fitted to them."""
-
-
-class FitMethod(str, Enum):
-    """How answers became weights.
-
-    Attributes:
-        LEAST_SQUARES: Least squares of the logarithms of the ratios, within the bounds.
-        CENTRE: The centroid of all weights that agree with the answers.
-    """
-
-    LEAST_SQUARES = "least_squares"
-    CENTRE = "centre"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ElicitedWeights:
-    """Weights of the members of a group from pairwise answers.
-
-    Attributes:
-        answers: The answers.
-        weights: The weight of each member; all are positive and they sum to 1.
-        method: How they were found.
-        factor: By how much the worst ratio is missed, at least 1.
-        low: The least weight of each: over the weights that agree with all bounds, and with each ratio within
-            `factor`, and over the fits without any one of the ratios.
-        high: The greatest such weight.
-        consistency: How far the ratios agree; None if no ratio was stated.
-    """
-
-    answers: tuple[PairwiseAnswer, ...]
-    weights: Mapping[str, float] = field(hash=False)
-    method: FitMethod
-    factor: float
-    low: Mapping[str, float] = field(hash=False)
-    high: Mapping[str, float] = field(hash=False)
-    consistency: Consistency | None
-
-    @property
-    def bounds(self) -> tuple[PairwiseAnswer, ...]:
-        """The answers that are bounds: orders and ranges."""
-        return tuple(answer for answer in self.answers if not answer.is_ratio)
 
 
 def weights_from_answers(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> ElicitedWeights:
