@@ -1,9 +1,11 @@
 """Alternatives worth keeping: those within a margin of the best for some admitted weights, and what beats the rest.
 
-An alternative i is kept if some admitted weights w give ``max_j (v_j - v_i) w <= margin``. The least such
-maximum is a linear program; with a margin of 0 its alternatives are the potentially optimal ones (Hazen,
-"Partial information, dominance, and potential optimality in multiattribute utility theory", 1986). The dual
-of the program names the alternatives that beat one that is not kept.
+An alternative i that no other dominates is kept if some admitted weights w give
+``max_j (v_j - v_i) w <= margin``. The least such maximum is a linear program; with a margin of 0 its
+alternatives are the potentially optimal ones (Hazen, "Partial information, dominance, and potential
+optimality in multiattribute utility theory", 1986). The dual of the program names the alternatives that beat
+one that is not kept. One that another dominates over the weights is not kept, though at some weights, such as
+those of a measure in which all are equal, they tie; unless the other never leads by more than the margin.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from numpy.typing import NDArray
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import SOLVER_TOLERANCE
 from rgss.tradeoff.problem import TIE_TOLERANCE, Array, Mask, checked_values, checked_weights, classes, nondominated
-from rgss.tradeoff.robustness.row_comparisons import best_pairwise_rival
+from rgss.tradeoff.robustness.row_comparisons import dominating_rival
 from rgss.tradeoff.weights import WeightSet
 
 _SHARE_OF_MIXTURE = 1e-6
@@ -31,7 +33,7 @@ class KeptFor(str, Enum):
         BEST_AS_STATED: It is best at the weights of the study.
         BEST_FOR_SOME: It is best for some admitted weights.
         WITHIN_MARGIN: It comes within the margin of the best for some admitted weights.
-        DOMINATED: Another is worth at least as much at all admitted weights.
+        DOMINATED: Another is worth at least as much at all admitted weights, and more by over the margin at some.
         MIXTURE: At any admitted weights one of several others is worth more by at least the shortfall.
     """
 
@@ -49,10 +51,11 @@ class KeptAlternative:
     Attributes:
         row: The alternative.
         reason: Why.
-        shortfall: The least by which the best is worth more, over all admitted weights; at least 0. Of one
-            that another leads by more than the margin at all admitted weights, the least lead of that one.
+        shortfall: The least by which the best is worth more, over all admitted weights; of one that another
+            dominates, the least lead of that one. At least 0.
+        behind: What the best is worth more at the weights of the study.
         weights: Admitted weights at which the shortfall is reached, shape (m,); None of one that another
-            leads by more than the margin.
+            dominates.
         beaten_by: Of one that is not kept, the alternative that dominates it, or several of which one beats
             it at any admitted weights; ascending. Empty of one that is kept.
     """
@@ -60,6 +63,7 @@ class KeptAlternative:
     row: int
     reason: KeptFor
     shortfall: float
+    behind: float
     weights: Array | None
     beaten_by: tuple[int, ...]
 
@@ -106,6 +110,7 @@ def worth_keeping(
             row=int(row),
             reason=found[kind].reason,
             shortfall=found[kind].shortfall,
+            behind=found[kind].behind,
             weights=found[kind].weights,
             beaten_by=found[kind].beaten_by,
         )
@@ -127,32 +132,33 @@ class _Placing:
     def of(self, kind: int) -> KeptAlternative:
         others = self.front[self.front != kind]
         leads = self.values[others] - self.values[kind]
-        if float((leads @ self.here).max(initial=0.0)) <= TIE_TOLERANCE:
-            return self._made(kind, KeptFor.BEST_AS_STATED, 0.0, self.here)
-        rival, lead = best_pairwise_rival(leads, self.among)
-        dominating = (self.first_of[int(others[rival])],)
-        if lead > self.margin + TIE_TOLERANCE:
-            return self._made(kind, KeptFor.DOMINATED, lead, None, dominating)
+        behind = max(0.0, float((leads @ self.here).max(initial=0.0)))
+
+        def made(
+            reason: KeptFor, shortfall: float, weights: Array | None, beaten_by: tuple[int, ...] = ()
+        ) -> KeptAlternative:
+            return KeptAlternative(
+                row=self.first_of[kind],
+                reason=reason,
+                shortfall=max(0.0, shortfall),
+                behind=behind,
+                weights=weights,
+                beaten_by=beaten_by,
+            )
+
+        if behind <= TIE_TOLERANCE:
+            return made(KeptFor.BEST_AS_STATED, 0.0, self.here)
+        dominating = dominating_rival(leads, self.here, self.among, margin=self.margin)
+        if dominating is not None:
+            rival, least = dominating
+            return made(KeptFor.DOMINATED, least, None, (self.first_of[int(others[rival])],))
         shortfall, weights, mixture = _least_shortfall(leads, self.among)
         if shortfall <= TIE_TOLERANCE:
-            return self._made(kind, KeptFor.BEST_FOR_SOME, shortfall, weights)
+            return made(KeptFor.BEST_FOR_SOME, shortfall, weights)
         if shortfall <= self.margin + TIE_TOLERANCE:
-            return self._made(kind, KeptFor.WITHIN_MARGIN, shortfall, weights)
-        if lead >= -SOLVER_TOLERANCE:
-            return self._made(kind, KeptFor.DOMINATED, shortfall, weights, dominating)
+            return made(KeptFor.WITHIN_MARGIN, shortfall, weights)
         beaten_by = sorted(self.first_of[int(others[one])] for one in np.flatnonzero(mixture > _SHARE_OF_MIXTURE))
-        return self._made(kind, KeptFor.MIXTURE, shortfall, weights, tuple(beaten_by))
-
-    def _made(
-        self, kind: int, reason: KeptFor, shortfall: float, weights: Array | None, beaten_by: tuple[int, ...] = ()
-    ) -> KeptAlternative:
-        return KeptAlternative(
-            row=self.first_of[kind],
-            reason=reason,
-            shortfall=max(0.0, shortfall),
-            weights=weights,
-            beaten_by=beaten_by,
-        )
+        return made(KeptFor.MIXTURE, shortfall, weights, tuple(beaten_by))
 
 
 def _least_shortfall(leads: Array, among: WeightSet) -> tuple[float, Array, Array]:
