@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.robustness import NotComputed, Part, PartComputer, Remeasuring, Robustness
@@ -18,7 +19,6 @@ from rgss.decision.sensitivity.uncertain_inputs import uncertain_inputs, undecid
 from rgss.errors import DocumentError
 from rgss.studies import Project
 from rgss.tradeoff import AdditiveValue, Decision, TradeProblem
-from rgss.tradeoff.elicitation import ElicitedWeights
 from rgss.tradeoff.problem import tabulated
 from rgss.tradeoff.robustness import (
     KeptAlternative,
@@ -36,6 +36,7 @@ class Sensitivity:
     Attributes:
         variants: The ids of the rows of everything below, ascending.
         measures: The measures with a weight above 0.
+        weights: Their weights, shape (m,).
         tornado: Swing of the advantage over each input; None where `refused` or `not_computed` says why.
         bends: The choice under bent value functions.
         kept: The feasible designs with the reason that each is worth keeping, or what beats it; None where it
@@ -45,14 +46,13 @@ class Sensitivity:
         agreement: The choices of the stakeholders; None where the study names none.
         accept_within: Distance from a stakeholder's best value up to which a design is accepted.
         flat: The weights that separate nothing.
-        elicited: The groups whose weights follow from pairwise answers.
-        elicited_by: The same of the stakeholders, by name.
         refused: Why the sensitivity to inputs is not analysed; empty where it is.
         not_computed: Why a part could not be computed.
     """
 
     variants: tuple[int, ...]
     measures: tuple[str, ...]
+    weights: NDArray[np.float64]
     tornado: Tornado | None
     bends: tuple[BentValue, ...]
     kept: tuple[KeptAlternative, ...] | None
@@ -61,8 +61,6 @@ class Sensitivity:
     agreement: StakeholderAgreement | None
     accept_within: float
     flat: tuple[FlatWeight, ...]
-    elicited: tuple[ElicitedWeights, ...]
-    elicited_by: Mapping[str, ElicitedWeights] = field(hash=False)
     refused: str
     not_computed: Mapping[Part, NotComputed]
 
@@ -109,6 +107,7 @@ def analyse_sensitivity(
     return Sensitivity(
         variants=found.variants,
         measures=problem.weighting.deciding_measures,
+        weights=found.weights,
         tornado=tornado,
         bends=bends,
         kept=kept,
@@ -117,8 +116,6 @@ def analyse_sensitivity(
         agreement=agreement,
         accept_within=trade_off.accept_within,
         flat=flat_weights(project, measured, decision),
-        elicited=trade_off.elicited,
-        elicited_by={one.name: one.elicited for one in trade_off.stakeholders if one.elicited is not None},
         refused=refused,
         not_computed=parts.missing,
     )

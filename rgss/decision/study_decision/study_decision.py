@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
@@ -17,6 +17,7 @@ from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
 from rgss.studies import Project
 from rgss.tradeoff import Decision, DecisionStatus, Overlap, PortfolioDecision, SharedPart, SolverRun, TradeProblem
+from rgss.tradeoff.elicitation import ElicitedWeights
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -40,6 +41,8 @@ class StudyDecision:
         screened: The outcome of screening; None without screening.
         what_if: The suppositions that the decision is made under; None without.
         sensitivity: How the decision follows from its inputs; None if not analysed.
+        elicited: Groups whose weights follow from pairwise answers.
+        elicited_by: The same of stakeholders, by name.
     """
 
     study: str
@@ -58,6 +61,8 @@ class StudyDecision:
     screened: ScreeningResult | None = None
     what_if: WhatIf | None = None
     sensitivity: Sensitivity | None = None
+    elicited: tuple[ElicitedWeights, ...] = ()
+    elicited_by: Mapping[str, ElicitedWeights] = field(default_factory=dict)
 
     @property
     def is_final(self) -> bool:
@@ -167,6 +172,8 @@ def study_decision(
         shared_parts=shared_measures(project),
         robustness=None if found is None else robustness_findings(project, found),
         sensitivity=None if found is None else analyse_sensitivity(project, measured, decision, found, problem=problem),
+        elicited=project.study.trade_off.elicited,
+        elicited_by=project.study.trade_off.elicited_by,
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,

@@ -5,7 +5,13 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.reports.decision.json import decision_to_json, robustness_to_json, screening_to_json, trade_document
+    from rgss.reports.decision.json import (
+        decision_to_json,
+        elicitation_to_json,
+        robustness_to_json,
+        screening_to_json,
+        trade_document,
+    )
     from rgss.reports.decision.markdown import decision_section, text_with_place, with_section
     from rgss.reports.decision.report_conflicts import conflict_part
     from rgss.reports.decision.report_part import decision_part
@@ -19,6 +25,7 @@ __all__ = [
     "decision_part",
     "decision_section",
     "decision_to_json",
+    "elicitation_to_json",
     "robustness_to_json",
     "screening_lines",
     "screening_to_json",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rgss.studies.trade_off.anchored_programs import StatedProgram
@@ -60,6 +61,11 @@ class TradeOff:
     def weighting(self) -> Weighting:
         """The weight of every measure."""
         return weighting_of(self.criteria)
+
+    @property
+    def elicited_by(self) -> Mapping[str, ElicitedWeights]:
+        """The weights of stakeholders that follow from pairwise answers, by name."""
+        return {one.name: one.elicited for one in self.stakeholders if one.elicited is not None}
 
     @property
     def weight_bounds(self) -> WeightBounds:

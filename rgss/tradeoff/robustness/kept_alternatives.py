@@ -20,7 +20,7 @@ from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import SOLVER_TOLERANCE
 from rgss.tradeoff.problem import TIE_TOLERANCE, Array, Mask, checked_values, checked_weights, classes, nondominated
 from rgss.tradeoff.robustness.row_comparisons import dominating_rival
-from rgss.tradeoff.weights import WeightSet
+from rgss.tradeoff.weights import Polytope, WeightSet
 
 _SHARE_OF_MIXTURE = 1e-6
 """A smaller share of a mixture is rounding of the solver."""
@@ -54,8 +54,9 @@ class KeptAlternative:
         shortfall: The least by which the best is worth more, over all admitted weights; of one that another
             dominates, the least lead of that one. At least 0.
         behind: What the best is worth more at the weights of the study.
-        weights: Admitted weights at which the shortfall is reached, shape (m,); None of one that another
-            dominates.
+        weights: The admitted weights nearest to the study's, by the sum of differences, at which it is best, or
+            within the margin of the best, shape (m,); of one that is not kept for a mixture, weights at which
+            the shortfall is reached; None of one that another dominates.
         beaten_by: Of one that is not kept, the alternative that dominates it, or several of which one beats
             it at any admitted weights; ascending. Empty of one that is kept.
     """
@@ -154,11 +155,17 @@ class _Placing:
             return made(KeptFor.DOMINATED, least, None, (self.first_of[int(others[rival])],))
         shortfall, weights, mixture = _least_shortfall(leads, self.among)
         if shortfall <= TIE_TOLERANCE:
-            return made(KeptFor.BEST_FOR_SOME, shortfall, weights)
+            return made(KeptFor.BEST_FOR_SOME, shortfall, self._nearest(leads, shortfall, weights))
         if shortfall <= self.margin + TIE_TOLERANCE:
-            return made(KeptFor.WITHIN_MARGIN, shortfall, weights)
+            return made(KeptFor.WITHIN_MARGIN, shortfall, self._nearest(leads, max(shortfall, self.margin), weights))
         beaten_by = sorted(self.first_of[int(others[one])] for one in np.flatnonzero(mixture > _SHARE_OF_MIXTURE))
         return made(KeptFor.MIXTURE, shortfall, weights, tuple(beaten_by))
+
+    def _nearest(self, leads: Array, allowed: float, otherwise: Array) -> Array:
+        """The admitted weights nearest to the study's at which no other leads by more than is allowed."""
+        region = Polytope.of(self.among, leads, np.full(len(leads), allowed))
+        found = region.nearest_in_sum(self.here)
+        return otherwise if found is None else found
 
 
 def _least_shortfall(leads: Array, among: WeightSet) -> tuple[float, Array, Array]:
