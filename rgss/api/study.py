@@ -168,6 +168,10 @@ class Study:
         """What each level of each factor does to each measure; as of `trade`."""
         return self._trade.effects()
 
+    def tornado(self) -> pd.DataFrame:
+        """What each uncertain input does to the lead of the choice; as of `trade`."""
+        return self._trade.tornado()
+
     def fleet(self) -> pd.DataFrame:
         """The designs that together serve the studies of the fleet best, by each study's own evidence.
 

@@ -56,8 +56,8 @@ def consistency_sentences(found: Consistency) -> Iterator[str]:
         )
         return
     yield (
-        f"Geometric consistency index {found.index:.3f}, limit {found.index_limit:.3f} (Aguarón and Moreno-Jiménez 2003); "
-        f"{found.checks} answer{'s check' if found.checks > 1 else ' checks'} the others."
+        f"Geometric consistency index {found.index:.3f}, limit {found.index_limit:.3f} (Aguarón and Moreno-Jiménez "
+        f"2003); {found.checks} answer{'s check' if found.checks > 1 else ' checks'} the others."
     )
     if found.ratio is not None:
         yield f"Consistency ratio {found.ratio:.3f}, limit {GREATEST_RATIO:g} (Saaty 1980)."
