@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -87,7 +88,9 @@ class RangeBook:
         ignored = set(others)
         for one in self._stated.values():
             if one.input not in ignored:
-                self._report(one, f"{one.input!r} is no input of this decision", f"inputs: {', '.join(self._known)}")
+                near = difflib.get_close_matches(one.input, self._known, n=3)
+                hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(self._known[:4])}"
+                self._report(one, f"{one.input!r} is no input of this decision", hint)
         if self._findings:
             raise DocumentError(sorted(self._findings))
 

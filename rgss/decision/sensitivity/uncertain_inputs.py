@@ -48,16 +48,16 @@ def _weights(standings: Standings, found: Robustness, book: RangeBook) -> Iterat
         return
     admitted = admitted_weights(standings.problem)
     extent = None if admitted.is_simplex else Polytope.of(admitted).extent()
+    answered = _answered(standings)
     ranges = None if found.weighting is None else found.weighting.ranges
     for place, measure in enumerate(standings.measures):
         name, weight = f"weight.{measure}", float(standings.weights[place])
         low, high, basis = book.range_of(name, "1", weight, book.choice.weights * weight, least=0.0, most=1.0)
-        if basis is RangeBasis.SHARE and extent is not None:
-            low, high, basis = (
-                min(weight, float(extent[0][place])),
-                max(weight, float(extent[1][place])),
-                RangeBasis.ELICITED,
-            )
+        known = answered.get(measure) if basis is RangeBasis.SHARE else None
+        if known is None and basis is RangeBasis.SHARE and extent is not None:
+            known = float(extent[0][place]), float(extent[1][place])
+        if known is not None:
+            low, high, basis = min(weight, known[0]), max(weight, known[1]), RangeBasis.ELICITED
         flips: tuple[Flip | None, Flip | None] = (None, None)
         if ranges is not None:
             one = ranges[place]
@@ -78,6 +78,19 @@ def _weights(standings: Standings, found: Robustness, book: RangeBook) -> Iterat
             exact=ranges is not None,
             known_flips=flips,
         )
+
+
+def _answered(standings: Standings) -> dict[str, tuple[float, float]]:
+    """The least and the greatest weight of each measure whose weight follows from pairwise answers."""
+    weights = standings.problem.weighting.weights
+    found = {}
+    for elicited in standings.project.study.trade_off.elicited:
+        for name, weight in elicited.weights.items():
+            if name in weights:
+                # Of a member of a group, in the whole.
+                share = weights[name] / weight
+                found[name] = (share * elicited.low[name], share * elicited.high[name])
+    return found
 
 
 def _anchors(standings: Standings, book: RangeBook) -> Iterator[UncertainInput]:

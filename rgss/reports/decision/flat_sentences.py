@@ -17,7 +17,7 @@ def flat_sentences(flat: tuple[FlatWeight, ...]) -> Iterator[str]:
     for one in flat:
         among = "feasible variants" if one.among_feasible else "variants"
         yield (
-            f"{one.measure} is worth the same for all {among}, so its weight of {one.weight:g} decides nothing: "
+            f"{one.measure} is worth the same for all {among}, so its weight of {one.weight:.3g} decides nothing: "
             f"{_remedy(one)}"
         )
     if len(flat) and flat[0].effective:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,9 +17,6 @@ from rgss.tradeoff.elicitation.least_squares import Array, bounded_fit, design_m
 from rgss.tradeoff.milp import solve_linear
 from rgss.tradeoff.problem import WeightBounds
 from rgss.tradeoff.weights import Polytope, WeightSet, centroid
-
-_LOOSENED = 1.0 + 1e-9
-"""Bounds are met up to rounding by the weights that were fitted to them."""
 
 
 def weights_from_answers(names: Sequence[str], answers: Sequence[PairwiseAnswer]) -> ElicitedWeights:
@@ -52,14 +50,12 @@ def weights_from_answers(names: Sequence[str], answers: Sequence[PairwiseAnswer]
     measured = [answer for answer in answers if math.isfinite(answer.most)]
     if len(connected_parts(names, measured)) == 1:
         method, logs = FitMethod.LEAST_SQUARES, _fitted(names, measured, bounds)
-        factor = _factor(names, answers, logs)
-        weights = _normalised(logs)
-        polytope = _agreeing(names, answers, factor * _LOOSENED)
+        factor, weights = _factor(names, answers, logs), _normalised(logs)
     else:
-        method, factor = FitMethod.CENTRE, _least_factor(names, answers, bounds)
-        polytope = _agreeing(names, answers, factor * _LOOSENED)
-        weights = centroid(_agreeing(names, answers, factor))
-    low, high = polytope.extent()
+        method = FitMethod.CENTRE
+        logs, factor = _least_missing(names, answers, bounds)
+        weights = centroid(_agreeing(names, answers, logs))
+    low, high = weight_extents(names, answers, factor)
     fits = np.array([weights, *(_normalised(logs) for logs in _fits_without_one(names, measured, bounds))])
     return ElicitedWeights(
         answers=tuple(answers),
@@ -119,13 +115,13 @@ def _factor(names: Sequence[str], answers: Sequence[PairwiseAnswer], logs: Array
     return math.exp(max(missed, default=0.0))
 
 
-def _least_factor(names: Sequence[str], answers: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]) -> float:
-    """The least factor within which all ratios can hold together with the bounds."""
+def _least_missing(
+    names: Sequence[str], answers: Sequence[PairwiseAnswer], bounds: Sequence[PairwiseAnswer]
+) -> tuple[Array, float]:
+    """Logarithms of weights that satisfy the bounds and miss all ratios by the least factor, and that factor."""
     ratios = [answer for answer in answers if answer.is_ratio]
-    if not ratios:
-        return 1.0
     rows, limits = _bounds(names, bounds)
-    signed = np.vstack([sign * _row(names, one) for one in ratios for sign in (1.0, -1.0)])
+    signed = np.array([sign * _row(names, one) for one in ratios for sign in (1.0, -1.0)]).reshape(-1, len(names))
     logs = np.array([sign * math.log(one.ratio) for one in ratios for sign in (1.0, -1.0)])
     found = solve_linear(
         np.concatenate([np.zeros(len(names)), [1.0]]),
@@ -137,18 +133,54 @@ def _least_factor(names: Sequence[str], answers: Sequence[PairwiseAnswer], bound
     )
     if found is None:
         raise TradeoffError("no weights satisfy all answers", hint="withdraw one of the bounds")
-    return math.exp(float(found[-1]))
+    return found[:-1], math.exp(float(found[-1]))
 
 
-def _agreeing(names: Sequence[str], answers: Sequence[PairwiseAnswer], factor: float) -> Polytope:
-    """The weights that agree with the bounds, and with the ratios within a factor."""
-    orders = tuple(
-        order
-        for answer in answers
-        for order in answer.orders(factor=factor if answer.is_ratio else min(factor, _LOOSENED))
-    )
+def _agreeing(names: Sequence[str], answers: Sequence[PairwiseAnswer], logs: Array) -> Polytope:
+    """The weights that agree with the bounds, and with the ratios as some weights have them."""
+    # Ratios that disagree leave no room within the least factor; those of weights agree exactly.
+    met = [
+        replace(one, least=ratio, most=ratio)
+        for one in answers
+        if one.is_ratio
+        for ratio in [math.exp(float(_row(names, one) @ logs))]
+    ]
+    orders = tuple(order for one in (*met, *(one for one in answers if not one.is_ratio)) for order in one.orders())
     rows, limits = WeightBounds(orders=orders).inequalities(names)
     return Polytope.of(WeightSet.cut(rows, limits))
+
+
+def weight_extents(names: Sequence[str], answers: Sequence[PairwiseAnswer], factor: float) -> tuple[Array, Array]:
+    """The least and the greatest of each weight that agrees with bounds, and with ratios within a factor.
+
+    In logarithms these are difference constraints. The tightest bounds that they imply on the differences from
+    one criterion can all be reached at once (they are the shortest paths from it), so that the extents follow
+    without a program: the greatest weight is ``1 / Σ_j exp(lower_j)``.
+
+    Args:
+        names: The criteria.
+        answers: The answers.
+        factor: The factor, at least 1.
+
+    Returns:
+        Shapes (n,) each.
+    """
+    # lower[i, j] is the greatest lower bound of the logarithm of w_j / w_i.
+    lower = np.full((len(names), len(names)), -np.inf)
+    np.fill_diagonal(lower, 0.0)
+    slack = math.log(factor)
+    for answer in answers:
+        one, other = names.index(answer.swing_of), names.index(answer.over)
+        room = slack if answer.is_ratio else 0.0
+        lower[other, one] = max(lower[other, one], math.log(answer.least) - room)
+        if math.isfinite(answer.most):
+            lower[one, other] = max(lower[one, other], -math.log(answer.most) - room)
+    for through in range(len(names)):
+        lower = np.maximum(lower, lower[:, through, None] + lower[None, through, :])
+    high = 1.0 / np.exp(lower).sum(axis=1)
+    with np.errstate(over="ignore"):
+        low = 1.0 / np.exp(-lower).sum(axis=0)
+    return low, np.asarray(high, dtype=np.float64)
 
 
 def _by_name(names: Sequence[str], weights: Array) -> dict[str, float]:
