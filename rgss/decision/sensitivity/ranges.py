@@ -44,7 +44,7 @@ class RangeBook:
             self._report(one, f"{name}: {error.message}", error.hint)
             return None
         if not low <= base <= high:
-            message = f"{name} is {base:g} {unit}, outside of its range {low:g} to {high:g}"
+            message = f"{name} is {base:g}{'' if unit == '1' else ' ' + unit}, outside of its range {low:g} to {high:g}"
             self._report(one, message, "give a low and a high end with the value of the study between them")
             return None
         return low, high

@@ -70,8 +70,8 @@ def _bar(bar: TornadoBar, top: float, base: float, across: Callable[[float], flo
             f'<rect class="{"missed" if missed else kind}" x="{left:.2f}" y="{middle - thickness / 2.0:.2f}" '
             f'width="{right - left:.2f}" height="{thickness:g}"><title>{_safe(f"{title}; {wins}")}</title></rect>'
         )
-        if missed:
-            yield _text(_LEFT + 2.0, middle + 4.0, "✕", "middle")
+    if not all(end.feasible for end, _ in ends):
+        yield _text(_LEFT - 5.0, middle + 4.0, "✕", "middle")
 
 
 def _length(end: TornadoEnd, base: float) -> float:
