@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.reports.decision.elicitation_sentences import elicitation_sentences
+    from rgss.reports.decision.answers_in_words import elicitation_sentences
     from rgss.reports.decision.json import (
         decision_to_json,
         elicitation_to_json,
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rgss.reports.decision.report_part import decision_part
     from rgss.reports.decision.report_sensitivity import sensitivity_part
     from rgss.reports.decision.text import decision_lines, question_lines, screening_lines, weighing_lines
-    from rgss.reports.decision.tornado_svg import tornado_svg
+    from rgss.reports.decision.tornado_picture import tornado_svg
     from rgss.reports.decision.words import quantity_text
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.decision.study_decision import StudyDecision
-from rgss.reports.decision.elicitation_sentences import elicitation_sentences
+from rgss.reports.decision.answers_in_words import elicitation_sentences
 from rgss.reports.decision.sentences import cautions
 from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
 from rgss.reports.decision.text.effects import effects_lines

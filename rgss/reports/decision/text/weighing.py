@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator, Mapping
 
-from rgss.reports.decision.elicitation_sentences import consistency_sentences, method_sentence, verdict_phrase
+from rgss.reports.decision.answers_in_words import consistency_sentences, method_sentence, verdict_phrase
 from rgss.reports.plain_text import aligned_table
 from rgss.tradeoff.elicitation import ElicitedWeights
 
