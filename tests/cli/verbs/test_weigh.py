@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 
+import pytest
 import yaml
 
 from rgss.cli.main import main
@@ -41,7 +42,7 @@ def test_consistent_enough(folder, capsys):
     assert main(["weigh", "--project", str(folder), "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
     study, safety = document["elicitation"]
-    assert study["consistency"]["worst_triad"]["mends"] == [0.6, 0.4, 0.375]
+    assert study["consistency"]["worst_triad"]["mends"] == pytest.approx([0.6, 0.4, 0.375])
     assert {one["criterion"]: one["weight"] for one in study["weights"]} == document["weights"]
     assert f"SHA-256 {study['digest']}" in text
     assert safety["stakeholder"] == "safety"

@@ -81,11 +81,11 @@ def test_stakeholders_have_weights_of_the_measures_that_weigh(read_trade_off_of)
 FINDINGS = [
     (
         (*PLAIN, *answers("{swing_of: P_max, over: t_e, ratio: 2}")),
-        "6:3: error: no answer names 'S' (compare each criterion with another, or drop it) [study.elicitation]",
+        "7:5: error: no answer names 'S' (compare each criterion with another, or drop it) [study.elicitation]",
     ),
     (
         (*PLAIN, *answers("{swing_of: P_max, over: t_e, ratio: 2, between: [1, 2]}")),
-        "7:53: error: an answer is a ratio or a range of ratios (keep 'ratio' or 'between')",
+        "7:55: error: an answer is a ratio or a range of ratios (keep 'ratio' or 'between')",
     ),
     (
         (*PLAIN, *answers("{swing_of: P_max, over: t_e, ratio: 0}")),
@@ -117,11 +117,11 @@ FINDINGS = [
     ),
     (
         (*WEIGHED, "stakeholders: {me: {rationale: all}}"),
-        "5:21: error: stakeholder 'me' has no weights (give one of 'weights', 'points' and 'answers')",
+        "5:22: error: stakeholder 'me' has no weights (give one of 'weights', 'points' and 'answers')",
     ),
     (
         (*WEIGHED, "stakeholders: {me: {weights: {t_e: 1}, points: {t_e: 1}}}"),
-        "5:21: error: stakeholder 'me' has 'weights' and 'points'",
+        "5:22: error: stakeholder 'me' has 'weights' and 'points'",
     ),
     ((*WEIGHED, "stakeholders: {me: {weights: {t_e: 0.6}}}"), "error: the weights sum to 0.6, not to 1"),
     ((*WEIGHED, "stakeholders: {me: {weights: {t_p: 1}}}"), "error: measure 't_p' has no weight in the study"),
