@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from rgss.api.column import Column, Kind
 from rgss.api.columns import FRAMES
+from rgss.api.fleet import fleet_frame
 from rgss.api.frames import (
     described_frame,
     frame_of,
@@ -23,10 +24,9 @@ from rgss.api.missing_trials import sweep_hint, with_trials
 from rgss.api.suppositions import WhatIf, suppositions_of
 from rgss.api.sweep import sweep_study
 from rgss.api.trade import Trade
-from rgss.api.trade_frames import portfolio_frame
 from rgss.api.trial import Drawing, Trial, payload_of, run_one
 from rgss.assessment import VariantMeasures, read_record
-from rgss.decision import ScreeningResult, choose_portfolio, measure_survivors, portfolio_projects
+from rgss.decision import ScreeningResult, measure_survivors
 from rgss.decision.robustness import Robustness
 from rgss.decision.what_if import measured_in, suppose
 from rgss.designs import DesignVariant, picked
@@ -168,6 +168,10 @@ class Study:
         """What each level of each factor does to each measure; as of `trade`."""
         return self._trade.effects()
 
+    def tornado(self) -> pd.DataFrame:
+        """What each uncertain input does to the lead of the choice; as of `trade`."""
+        return self._trade.tornado()
+
     def fleet(self) -> pd.DataFrame:
         """The designs that together serve the studies of the fleet best, by each study's own evidence.
 
@@ -176,10 +180,7 @@ class Study:
             EvidenceError: Trials of one of the studies have no evidence.
             TradeoffError: The choice is ill posed.
         """
-        projects = portfolio_projects(self.project)
-        with EvidenceStore.open(self.project.evidence, create=False) as store:
-            measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
-        return portfolio_frame(choose_portfolio(self.project, measured))
+        return fleet_frame(self.project)
 
     def columns(self, frame: str) -> pd.DataFrame:
         """What the columns of a frame mean, with their units.

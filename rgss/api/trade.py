@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from rgss.api.sensitivity_frames import stakeholders_frame, tornado_frame, worth_keeping_frame
 from rgss.api.trade_frames import (
     acceptability_frame,
     changes_frame,
@@ -18,6 +19,7 @@ from rgss.api.trade_frames import (
 from rgss.assessment import VariantMeasures
 from rgss.decision import choose, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
+from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.what_if import Scenario
 from rgss.reports.decision import decision_to_json
 from rgss.studies import Project
@@ -82,6 +84,18 @@ class Trade:
         """How far each weight may move alone before another variant is chosen."""
         return weights_frame(self._robustness)
 
+    def tornado(self) -> pd.DataFrame:
+        """What each uncertain input does to the lead of the choice, the largest swing first."""
+        return tornado_frame(self._sensitivity)
+
+    def worth_keeping(self) -> pd.DataFrame:
+        """The feasible variants: why each is worth keeping, or what beats it."""
+        return worth_keeping_frame(self._sensitivity)
+
+    def stakeholders(self) -> pd.DataFrame:
+        """What each feasible variant is worth to each stakeholder."""
+        return stakeholders_frame(self._sensitivity)
+
     def acceptability(self) -> pd.DataFrame:
         """For what share of all weights, and of the noise, each variant is the best (SMAA-2)."""
         return acceptability_frame(self._robustness)
@@ -89,6 +103,11 @@ class Trade:
     def to_dict(self) -> dict[str, Any]:
         """The decision as plain values for JSON."""
         return decision_to_json(self.decision)
+
+    @cached_property
+    def _sensitivity(self) -> Sensitivity:
+        problem = trade_problem(self.project, self.measured)
+        return analyse_sensitivity(self.project, self.measured, self.decision, self._robustness, problem=problem)
 
     @cached_property
     def _robustness(self) -> Robustness:

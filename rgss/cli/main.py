@@ -28,6 +28,7 @@ VERBS = (
     "replay",
     "measure",
     "trade",
+    "weigh",
     "regress",
     "trace",
     "report",

@@ -42,6 +42,7 @@ _SECTIONS = (
     ("verdicts", "Verdicts"),
     ("measures", "Measures"),
     ("pareto", "Pareto front"),
+    ("sensitivity", "Sensitivity"),
     ("weights", "Weights"),
     ("acceptability", "Acceptability"),
     ("effects", "Main effects"),
@@ -81,6 +82,7 @@ def study_report_to_html(
     drawings_notice: str = "",
     pictures: Sequence[TrialPictures] = (),
     pictures_notice: str = "",
+    tornado: str = "",
 ) -> str:
     """Write a study's report as one page, which makes no request and runs only what it carries.
 
@@ -93,6 +95,7 @@ def study_report_to_html(
         drawings_notice: What there is to say of the diagrams.
         pictures: Pictures of the trials that are worth looking at.
         pictures_notice: What there is to say of the pictures, such as why there are none.
+        tornado: The picture of the sensitivity, as `rgss.reports.decision.tornado_svg` draws it.
 
     Raises:
         DefinitionError: The package ``jinja2`` or ``plotly`` is not installed.
@@ -117,6 +120,7 @@ def study_report_to_html(
         report_sections=_SECTIONS,
         pictures=[_picture(one) for one in pictures],
         pictures_notice=pictures_notice,
+        tornado=_markup(tornado),
         data=_markup(packed_json(embedded_json(first)) if packed else plain),
         later=_markup(packed_json(embedded_json(later))),
         packed=packed,

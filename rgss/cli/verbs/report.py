@@ -65,6 +65,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
     from rgss.reports import study_report_to_html
+    from rgss.reports.decision import tornado_svg
     from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
     from rgss.reports.study import notable_trials, report_document
 
@@ -88,6 +89,7 @@ def run(options: argparse.Namespace) -> int:
     notable = notable_trials(measured, made.decision.chosen)
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
     pictures, notice = trial_pictures(project, notable, look=look)
+    sensitivity = made.sensitivity
     page = study_report_to_html(
         document,
         _trace(project, measured, made.decision, state),
@@ -95,6 +97,7 @@ def run(options: argparse.Namespace) -> int:
         drawings_notice=missing_diagrams(project.requirements),
         pictures=pictures,
         pictures_notice=notice,
+        tornado="" if sensitivity is None or sensitivity.tornado is None else tornado_svg(sensitivity.tornado),
     ).encode("utf-8")
     _write(options.out, page)
     _print_result(options, document, len(page))

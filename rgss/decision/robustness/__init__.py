@@ -9,8 +9,10 @@ if TYPE_CHECKING:
     from rgss.decision.robustness.cost_box import CostBox
     from rgss.decision.robustness.effect_findings import FactorLevels, MeasureEffects, StudyEffects, leading_factors
     from rgss.decision.robustness.findings import RequirementPrice, Robustness, WeightRobustness
-    from rgss.decision.robustness.parts import Part, not_computed_lines
+    from rgss.decision.robustness.parts import NotComputed, Part, PartComputer, not_computed_lines
+    from rgss.decision.robustness.remeasuring import Remeasuring
     from rgss.decision.robustness.robustness import analyse_robustness
+    from rgss.decision.robustness.rules import allowed_variants
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -19,11 +21,15 @@ __all__ = [
     "CostBox",
     "FactorLevels",
     "MeasureEffects",
+    "NotComputed",
     "Part",
+    "PartComputer",
+    "Remeasuring",
     "RequirementPrice",
     "Robustness",
     "StudyEffects",
     "WeightRobustness",
+    "allowed_variants",
     "analyse_robustness",
     "leading_factors",
     "not_computed_lines",

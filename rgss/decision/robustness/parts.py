@@ -27,6 +27,9 @@ class Part(str, Enum):
     REVERSALS = "rank_reversals.of_the_program"
     STRETCHED = "rank_reversals.if_values_were_stretched_over_the_sample"
     EFFECTS = "effects"
+    TORNADO = "sensitivity.tornado"
+    KEPT = "sensitivity.worth_keeping"
+    STAKEHOLDERS = "sensitivity.stakeholders"
 
     @property
     def words(self) -> str:
@@ -47,6 +50,9 @@ _TITLES = MappingProxyType(
         Part.REVERSALS: "rank reversal",
         Part.STRETCHED: "rank reversal of values stretched over the sample",
         Part.EFFECTS: "effects of the factors",
+        Part.TORNADO: "tornado",
+        Part.KEPT: "designs worth keeping",
+        Part.STAKEHOLDERS: "stakeholders",
     }
 )
 

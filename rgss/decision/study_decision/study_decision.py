@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.screening_result import ScreeningResult
+from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
@@ -16,6 +17,7 @@ from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
 from rgss.studies import Project
 from rgss.tradeoff import Decision, DecisionStatus, Overlap, PortfolioDecision, SharedPart, SolverRun, TradeProblem
+from rgss.tradeoff.elicitation import ElicitedWeights
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -38,6 +40,9 @@ class StudyDecision:
         portfolio: The portfolio of designs; None if the study has none.
         screened: The outcome of screening; None without screening.
         what_if: The suppositions that the decision is made under; None without.
+        sensitivity: How the decision follows from its inputs; None if not analysed.
+        elicited: Groups whose weights follow from pairwise answers.
+        elicited_by: The same of stakeholders, by name.
     """
 
     study: str
@@ -55,11 +60,15 @@ class StudyDecision:
     portfolio: PortfolioDecision | None = None
     screened: ScreeningResult | None = None
     what_if: WhatIf | None = None
+    sensitivity: Sensitivity | None = None
+    elicited: tuple[ElicitedWeights, ...] = ()
+    elicited_by: Mapping[str, ElicitedWeights] = field(default_factory=dict)
 
     @property
     def is_final(self) -> bool:
         """Whether a choice is proven best, the portfolio's too, and no part of the analysis is missing."""
         is_whole = self.robustness is None or not self.robustness.analysis.not_computed
+        is_whole &= self.sensitivity is None or not self.sensitivity.not_computed
         return is_settled(self.decision, self.portfolio) and is_whole
 
 
@@ -164,6 +173,9 @@ def study_decision(
         double_counted=double_counting(project),
         shared_parts=shared_measures(project),
         robustness=None if found is None else robustness_findings(project, found),
+        sensitivity=None if found is None else analyse_sensitivity(project, measured, decision, found, problem=problem),
+        elicited=project.study.trade_off.elicited,
+        elicited_by=project.study.trade_off.elicited_by,
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,

@@ -5,11 +5,21 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.reports.decision.json import decision_to_json, robustness_to_json, screening_to_json, trade_document
+    from rgss.reports.decision.answers_in_words import elicitation_sentences
+    from rgss.reports.decision.json import (
+        decision_to_json,
+        elicitation_to_json,
+        robustness_to_json,
+        screening_to_json,
+        trade_document,
+    )
     from rgss.reports.decision.markdown import decision_section, text_with_place, with_section
     from rgss.reports.decision.report_conflicts import conflict_part
     from rgss.reports.decision.report_part import decision_part
-    from rgss.reports.decision.text import decision_lines, screening_lines
+    from rgss.reports.decision.report_sensitivity import sensitivity_part
+    from rgss.reports.decision.text import decision_lines, question_lines, screening_lines, weighing_lines
+    from rgss.reports.decision.tornado_picture import tornado_svg
+    from rgss.reports.decision.words import quantity_text
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -19,10 +29,17 @@ __all__ = [
     "decision_part",
     "decision_section",
     "decision_to_json",
+    "elicitation_sentences",
+    "elicitation_to_json",
+    "quantity_text",
+    "question_lines",
     "robustness_to_json",
     "screening_lines",
     "screening_to_json",
+    "sensitivity_part",
     "text_with_place",
+    "tornado_svg",
     "trade_document",
+    "weighing_lines",
     "with_section",
 ]

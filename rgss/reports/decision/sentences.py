@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.flat_sentences import flat_sentences
 from rgss.reports.decision.words import amount, ids_text, variants_text
 from rgss.trace.views import share_in_words, value_in_words
 from rgss.tradeoff import Agreement, Check, CheckKind, ConflictSurvival, DecisionStatus, PortfolioDecision
@@ -81,6 +82,9 @@ def cautions(made: StudyDecision) -> Iterator[str]:
         yield f"{overlap.whole} contains {overlap.part}, so {overlap.part} counts twice.{instead}"
     for shared in made.shared_parts:
         yield f"{shared.first} and {shared.second} both depend on {', '.join(shared.parts)}."
+    if made.sensitivity is not None:
+        yield from flat_sentences(made.sensitivity.flat)
+        return
     for flat in made.decision.flat_measures:
         among = "feasible variants" if flat.among_feasible else "variants"
         yield f"{flat.measure} is the same for all {among}, so its weight of {flat.weight:g} decides nothing."

@@ -39,6 +39,11 @@ def amount(value: float, unit: str) -> str:
     return f"{value:,.0f} USD" if unit == "USD" else value_in_words(value, unit)
 
 
+def quantity_text(value: float, unit: str) -> str:
+    """A quantity as a file of a study takes it."""
+    return f"{value:g}" if unit == "1" else f"{value:g} {unit}"
+
+
 def moved_limit(limit: float, needed: float, unit: str) -> str:
     """What a limit has to become, rounded away from what it is, so that the number as written is enough."""
     return amount(rounded_away(limit, needed, unit), unit)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from rgss.assessment import VariantMeasures
 from rgss.decision.study_decision import StudyDecision
 from rgss.evidence import EvidenceStore
-from rgss.reports.decision import conflict_part, decision_part
+from rgss.reports.decision import conflict_part, decision_part, elicitation_sentences, sensitivity_part
 from rgss.reports.plain_numbers import Plain
 from rgss.reports.study.effects import effect_columns, factor_columns
 from rgss.reports.study.planning import planning_columns
@@ -64,6 +64,8 @@ def report_document(
         "weights": weight_columns(project, found),
         "decision": decision_part(made),
         "conflicts": conflict_part(decision),
+        "sensitivity": sensitivity_part(made.sensitivity),
+        "elicitation": list(elicitation_sentences(made.elicited, made.elicited_by)),
         "factors": factor_columns(measured, found.effects),
         "effects": effect_columns(found.effects),
         "trials": trial_columns(measured, notable),

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from rgss.studies.trade_off.places import TradeOffPlaces
     from rgss.studies.trade_off.reading import read_trade_off
     from rgss.studies.trade_off.sections import TradeOff
+    from rgss.studies.trade_off.sensitivity import SensitivityChoice, StatedRange
+    from rgss.studies.trade_off.stakeholders import Stakeholder
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -23,6 +25,9 @@ __all__ = [
     "PortfolioEntry",
     "RequirementBound",
     "RiskChoice",
+    "SensitivityChoice",
+    "Stakeholder",
+    "StatedRange",
     "TailChoice",
     "TradeOff",
     "TradeOffEntry",

@@ -40,6 +40,49 @@ class OrderEntry(DocumentModel):
     times: Dimensionless = 1.0
 
 
+class AnswerEntry(DocumentModel):
+    """Pairwise answer: what the swing of one criterion is worth relative to that of another.
+
+    A ``ratio``, a range of ratios in ``between``, or neither: then the first is worth at least as much.
+    """
+
+    swing_of: Identifier
+    over: Identifier
+    ratio: Dimensionless | None = None
+    between: tuple[Dimensionless, Dimensionless] | None = None
+    rationale: Text | None = None
+
+
+class StakeholderEntry(DocumentModel):
+    """Weights of one stakeholder: weights, points or pairwise answers."""
+
+    weights: dict[Identifier, Dimensionless] | None = None
+    points: dict[Identifier, Dimensionless] | None = None
+    answers: Annotated[tuple[AnswerEntry, ...], Field(min_length=1)] | None = None
+    rationale: Text | None = None
+
+
+class RangeEntry(DocumentModel):
+    """Range over which one input of the decision is moved."""
+
+    input: Text
+    low: QuantityField
+    high: QuantityField
+    rationale: Text | None = None
+
+
+class SensitivityEntry(DocumentModel):
+    """How far the inputs of the decision are moved, and how far from the best a design is kept."""
+
+    weights: Dimensionless = 0.25
+    anchors: Dimensionless = 0.10
+    thresholds: Dimensionless = 0.10
+    assumptions: Dimensionless = 0.25
+    risk_tolerance: Dimensionless = 0.3
+    keep_within: Dimensionless | None = None
+    ranges: tuple[RangeEntry, ...] = ()
+
+
 class AimEntry(DocumentModel):
     """A measure of which the best is wanted, and what of it may be given up."""
 
@@ -141,6 +184,10 @@ class TradeOffEntry(DocumentModel):
     values: Annotated[tuple[ValueEntry, ...], Field(min_length=1)]
     rank_rule: RankRule | None = None
     weight_order: tuple[OrderEntry, ...] = ()
+    elicitation: tuple[AnswerEntry, ...] = ()
+    stakeholders: dict[Identifier, StakeholderEntry] = Field(default_factory=dict)
+    accept_within: Dimensionless = 0.05
+    sensitivity: SensitivityEntry | None = None
     decide_by: ProgramField = AdditiveEntry(program="additive")
     chance: tuple[ChanceEntry, ...] = ()
     tail: tuple[TailEntry, ...] = ()

@@ -50,7 +50,11 @@ class TradeOffPlaces:
 
     def report(self, rule: str, message: str, at: Place, *, hint: str = "") -> None:
         """Record a finding."""
-        self.findings.append(self._document.finding(f"study.{rule}", message, at, hint=hint))
+        self.findings.append(self.finding(rule, message, at, hint=hint))
+
+    def finding(self, rule: str, message: str, at: Place, *, hint: str = "") -> Finding:
+        """A finding at a place, which is not recorded."""
+        return self._document.finding(f"study.{rule}", message, at, hint=hint)
 
     def knows(self, measure: str, at: Place) -> bool:
         """Tell whether a measure is defined; a finding if it is not."""

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from rgss.studies.trade_off.document import TradeOffEntry
+from rgss.studies.trade_off.elicitation import AnswerReader
 from rgss.studies.trade_off.places import SECTION, TradeOffPlaces
 from rgss.studies.trade_off.programs import ProgramReader, check_portfolio, read_risks
 from rgss.studies.trade_off.sections import TradeOff
+from rgss.studies.trade_off.sensitivity import read_sensitivity
+from rgss.studies.trade_off.stakeholders import read_stakeholders
 from rgss.studies.trade_off.values import ValueReader
 from rgss.tradeoff import weighting_of
 
@@ -20,17 +23,25 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
     Returns:
         The trade-off; None if its weights or its program are wrong. It can be used where nothing was found.
     """
-    reader = ValueReader(places)
+    answers = AnswerReader(places, entry.elicitation, (*SECTION, "elicitation"))
+    reader = ValueReader(places, answers)
     nodes = reader.read(entry.values, entry.rank_rule, (*SECTION, "values"))
     orders = reader.orders(entry.weight_order, nodes)
     reader.check_bounds(nodes, orders)
+    answers.check_used(reader.names)
     weights = {} if nodes is None else weighting_of(nodes).weights
+    deciding = [measure for measure, weight in weights.items() if weight > 0.0]
+    stakeholders = read_stakeholders(places, entry.stakeholders, deciding) if deciding else ()
+    sensitivity = read_sensitivity(places, entry.sensitivity)
     program = ProgramReader(places, reader.valued, weights).read(entry.decide_by)
     name = entry.decide_by.program
     risks = read_risks(places, entry.chance, entry.tail)
     fleet = entry.fleet
     if fleet is not None:
         check_portfolio(places, fleet)
+    if not 0.0 <= entry.accept_within <= 1.0:
+        message = f"accept_within must be from 0 to 1, got {entry.accept_within:g}"
+        places.report("stakeholders", message, (*SECTION, "accept_within"), hint="a difference of value, such as 0.05")
     if entry.practical_margin < 0.0:
         message = f"the practical margin is {entry.practical_margin:g}"
         places.report("margin", message, (*SECTION, "practical_margin"), hint="give a value from 0 on, such as 0.01")
@@ -53,4 +64,8 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         practical_margin=entry.practical_margin,
         choose_levels=entry.choose == "levels",
         fleet=fleet,
+        elicited=tuple(answers.elicited),
+        stakeholders=stakeholders,
+        accept_within=entry.accept_within,
+        sensitivity=sensitivity,
     )

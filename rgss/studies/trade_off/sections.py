@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rgss.studies.trade_off.anchored_programs import StatedProgram
 from rgss.studies.trade_off.demands import RiskChoice
 from rgss.studies.trade_off.document import PortfolioEntry
+from rgss.studies.trade_off.sensitivity import SensitivityChoice
+from rgss.studies.trade_off.stakeholders import Stakeholder
 from rgss.tradeoff import (
     AdditiveValue,
     AnchoredValue,
@@ -17,6 +20,7 @@ from rgss.tradeoff import (
     Weighting,
     weighting_of,
 )
+from rgss.tradeoff.elicitation import ElicitedWeights
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,6 +37,10 @@ class TradeOff:
         practical_margin: Alternatives within it of the best are near-ties.
         choose_levels: Whether levels of factors are chosen instead of variants.
         fleet: The portfolio; None if none is wanted.
+        elicited: The groups whose weights follow from pairwise answers.
+        stakeholders: Stakeholders with weights of their own.
+        accept_within: Distance from a stakeholder's best value up to which they accept a design.
+        sensitivity: How far the inputs of the decision are moved.
     """
 
     valued: tuple[AnchoredValue, ...]
@@ -44,11 +52,20 @@ class TradeOff:
     practical_margin: float = 0.0
     choose_levels: bool = False
     fleet: PortfolioEntry | None = None
+    elicited: tuple[ElicitedWeights, ...] = ()
+    stakeholders: tuple[Stakeholder, ...] = ()
+    accept_within: float = 0.05
+    sensitivity: SensitivityChoice = field(default_factory=SensitivityChoice)
 
     @property
     def weighting(self) -> Weighting:
         """The weight of every measure."""
         return weighting_of(self.criteria)
+
+    @property
+    def elicited_by(self) -> Mapping[str, ElicitedWeights]:
+        """The weights of stakeholders that follow from pairwise answers, by name."""
+        return {one.name: one.elicited for one in self.stakeholders if one.elicited is not None}
 
     @property
     def weight_bounds(self) -> WeightBounds:

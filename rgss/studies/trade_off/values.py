@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from rgss.errors import TradeoffError
 from rgss.studies.trade_off.document import OrderEntry, ValueEntry
+from rgss.studies.trade_off.elicitation import AnswerReader
 from rgss.studies.trade_off.places import SECTION, Place, TradeOffPlaces
 from rgss.tradeoff import (
     SHAPE_KEYS,
@@ -41,11 +43,12 @@ class ValueReader:
         intervals: The elicited bounds that were read.
     """
 
-    def __init__(self, places: TradeOffPlaces) -> None:
+    def __init__(self, places: TradeOffPlaces, answers: AnswerReader) -> None:
         self.valued: list[AnchoredValue] = []
         self.intervals: list[ElicitedInterval] = []
         self._places = places
-        self._seen: set[str] = set()
+        self._answers = answers
+        self._names: list[str] = []
 
     def read(
         self, entries: Sequence[ValueEntry], rank_rule: str | None, at: Place, *, top: bool = True
@@ -82,14 +85,28 @@ class ValueReader:
             self._interval(entry, node, group, (*at, index, "weight_between"))
         return nodes
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The measures and criteria that were read."""
+        return tuple(self._names)
+
     def orders(self, entries: Sequence[OrderEntry], nodes: Sequence[CriterionNode] | None) -> tuple[ElicitedOrder, ...]:
-        """Read the elicited orders of weights."""
+        """Read the elicited orders of weights, after those of the answers."""
         known = _by_name(nodes or ())
-        found = []
+        if nodes is None:
+            return ()
+        found = [
+            replace(
+                order,
+                heavier_measures=known[order.heavier].measures,
+                lighter_measures=known[order.lighter].measures,
+            )
+            for elicited in self._answers.elicited
+            for answer in elicited.bounds
+            for order in answer.orders()
+        ]
         for index, entry in enumerate(entries):
             at = (*SECTION, "weight_order", index)
-            if nodes is None:
-                continue
             named = (("heavier", entry.heavier), ("lighter", entry.lighter))
             unknown = [(key, name) for key, name in named if name not in known]
             for key, name in unknown:
@@ -135,10 +152,10 @@ class ValueReader:
             return False
         name = name_of(entry)
         key = "measure" if entry.measure is not None else "criterion"
-        if name in self._seen:
+        if name in self._names:
             self._places.report("repeated", f"{key} {name!r} is valued twice", (*at, key), hint="keep one")
             return False
-        self._seen.add(name)
+        self._names.append(name)
         if entry.measure is None:
             for each in SHAPE_KEYS:
                 if getattr(entry, each) is not None:
@@ -156,6 +173,9 @@ class ValueReader:
         return True
 
     def _weights(self, entries: Sequence[ValueEntry], rank_rule: str | None, at: Place) -> Mapping[str, float] | None:
+        if self._answers and not any(getattr(entry, kind) is not None for entry in entries for kind in _WEIGHTS):
+            elicited = self._answers.weights([name_of(entry) for entry in entries])
+            return None if elicited is None else elicited.weights
         kinds: dict[str, str] = {}
         for index, entry in enumerate(entries):
             given = [kind for kind in _WEIGHTS if getattr(entry, kind) is not None]

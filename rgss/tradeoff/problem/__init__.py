@@ -37,6 +37,8 @@ if TYPE_CHECKING:
         ShapeKeys,
         TargetValue,
         ValueFunction,
+        bent_values,
+        half_value_share,
         shape_of,
     )
     from rgss.tradeoff.problem.weight_bounds import ElicitedInterval, ElicitedOrder, WeightBounds
@@ -84,11 +86,13 @@ __all__ = [
     "ValueFunction",
     "WeightBounds",
     "Weighting",
+    "bent_values",
     "bootstrap",
     "check_evidence",
     "checked_values",
     "checked_weights",
     "classes",
+    "half_value_share",
     "interval",
     "nondominated",
     "replicates_of",

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.cost_box import BoxProblem, BoxRange, box_range
     from rgss.tradeoff.robustness.effects import Effect, FactorialAnalysis, factorial_effects, largest_complete_block
     from rgss.tradeoff.robustness.flip import WeightRange, WeightShift, weight_ranges, weight_shifts
+    from rgss.tradeoff.robustness.kept_alternatives import KeptAlternative, KeptFor, worth_keeping
     from rgss.tradeoff.robustness.outcomes import admitted_weights, condition_masks, noisy_outcomes, replicate_number
     from rgss.tradeoff.robustness.overlap import Overlap, SharedPart, overlapping_measures, shared_parts
     from rgss.tradeoff.robustness.pareto import ParetoFront, Support, pareto_front
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
     from rgss.tradeoff.robustness.resampled_outcomes import ResampledOutcomes
     from rgss.tradeoff.robustness.sampled_effects import FEWEST_PER_CLASS, SampledIndex, classes_of, first_order_indices
+    from rgss.tradeoff.robustness.stakeholders import StakeholderAgreement, StakeholderView, stakeholder_agreement
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -28,6 +30,8 @@ __all__ = [
     "BoxRange",
     "Effect",
     "FactorialAnalysis",
+    "KeptAlternative",
+    "KeptFor",
     "OutcomeSource",
     "Outcomes",
     "Overlap",
@@ -37,6 +41,8 @@ __all__ = [
     "ResampledOutcomes",
     "SampledIndex",
     "SharedPart",
+    "StakeholderAgreement",
+    "StakeholderView",
     "Standing",
     "Support",
     "WeightRange",
@@ -60,7 +66,9 @@ __all__ = [
     "scanned_range",
     "shared_parts",
     "smaa2",
+    "stakeholder_agreement",
     "step_at",
     "weight_ranges",
     "weight_shifts",
+    "worth_keeping",
 ]

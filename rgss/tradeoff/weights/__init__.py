@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.tradeoff.weights.centroids import centroid
     from rgss.tradeoff.weights.polytope import THINNEST, Polytope
     from rgss.tradeoff.weights.sampling import Drawing, sample_weights
     from rgss.tradeoff.weights.weight_region import (
@@ -25,6 +26,7 @@ __all__ = [
     "Polytope",
     "WeightRegion",
     "WeightSet",
+    "centroid",
     "never_best",
     "rivals_of",
     "sample_weights",

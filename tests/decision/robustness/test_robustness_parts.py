@@ -74,7 +74,7 @@ def test_some_parts_fail(monkeypatch, shipped, measured, decision, whole, first)
     assert document["not_computed"] == {
         one.value: {"reason": "the solver gave no answer", "remedy": "ask for less"} for one in failed
     }
-    for other in Part:
+    for other in {*FUNCTIONS, Part.STRETCHED}:
         assert at(document, other.value) == (None if other in failed else at(whole, other.value)), other
     json.dumps(document, allow_nan=False)
 

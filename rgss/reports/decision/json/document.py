@@ -6,8 +6,10 @@ from typing import Any
 
 from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.json.decision import checks_to_json, decision_to_json
+from rgss.reports.decision.json.elicitation import elicitation_to_json
 from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
 from rgss.reports.decision.json.screening import screening_to_json
+from rgss.reports.decision.json.sensitivity import sensitivity_to_json
 from rgss.tradeoff import PortfolioDecision
 
 SCHEMA = 2
@@ -29,6 +31,8 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         {"first": shared.first, "second": shared.second, "parts": list(shared.parts)} for shared in made.shared_parts
     ]
     document["robustness"] = None if made.robustness is None else robustness_to_json(made.robustness.analysis)
+    document["sensitivity"] = None if made.sensitivity is None else sensitivity_to_json(made.sensitivity)
+    document["elicitation"] = elicitation_to_json(made.elicited, made.elicited_by)
     document["fleet"] = None if made.portfolio is None else portfolio_to_json(made.portfolio)
     document["what_if"] = (
         None

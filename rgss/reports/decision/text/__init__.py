@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from rgss.reports.decision.text.page import decision_lines
     from rgss.reports.decision.text.robustness import robustness_lines
     from rgss.reports.decision.text.screening import reopened_lines, screening_lines
+    from rgss.reports.decision.text.weighing import question_lines, weighing_lines
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -19,7 +20,9 @@ __all__ = [
     "decision_lines",
     "effects_lines",
     "portfolio_lines",
+    "question_lines",
     "reopened_lines",
     "robustness_lines",
     "screening_lines",
+    "weighing_lines",
 ]

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from rgss.decision.robustness import Part, WeightRobustness
 from rgss.decision.study_decision import Contender, RobustnessFindings
+from rgss.reports.decision.meanings import CONFIDENCE_MEANING, FIRST_MEANING, WEIGHTS_MEANING
 from rgss.reports.decision.words import UNKNOWN, ids_text, variants_text
 from rgss.reports.plain_text import aligned_table
 from rgss.trace.views import share_in_words
@@ -89,3 +90,7 @@ def _legend(found: RobustnessFindings, weighting: WeightRobustness, indices: Acc
     if indices.drawn_by is Drawing.HIT_AND_RUN:
         yield "(weights are drawn by random walks, hit-and-run: uniform up to an error that is tested, not proven)"
     yield "confidence: probability that they are best at their own typical weights; feasible: in how many draws"
+    yield from (
+        "In other words,",
+        *(f"  {meaning}" for meaning in (WEIGHTS_MEANING, FIRST_MEANING, CONFIDENCE_MEANING)),
+    )

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.answers_in_words import elicitation_sentences
 from rgss.reports.decision.sentences import cautions
 from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
 from rgss.reports.decision.text.effects import effects_lines
 from rgss.reports.decision.text.robustness import robustness_lines
 from rgss.reports.decision.text.screening import reopened_lines, screening_lines
+from rgss.reports.decision.text.sensitivity import sensitivity_lines
 from rgss.reports.decision.text.what_if import what_if_lines
 
 
@@ -27,6 +29,8 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
     yield from choice_lines(made)
     if made.robustness is not None:
         yield from robustness_lines(made)
+        if made.sensitivity is not None and made.decision.chosen is not None:
+            yield from sensitivity_lines(made.sensitivity)
         if effects:
             yield from effects_lines(made.robustness.effects)
     if made.portfolio is not None:
@@ -35,6 +39,7 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
     if made.decision.chosen is not None:
         yield from (f"Caution: {caution}" for caution in cautions(made))
     yield from certificate_lines(made.decision.certificate)
+    yield from elicitation_sentences(made.elicited, made.elicited_by)
     yield f"Evidence: {made.evidence}"
     if made.screened is not None:
         yield ""

@@ -11,6 +11,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry, QuantityField, RequirementAnchor
+    from rgss.tradeoff.problem.values.bent import bent_values, half_value_share
     from rgss.tradeoff.problem.values.exponential import STEEPEST_EXPONENT, AnchoredExponential, ExponentialValue
     from rgss.tradeoff.problem.values.piecewise import AnchoredPiecewise, PiecewiseValue
     from rgss.tradeoff.problem.values.s_curve import AnchoredSCurve, SCurveValue
@@ -41,5 +42,7 @@ __all__ = [
     "ShapeKeys",
     "TargetValue",
     "ValueFunction",
+    "bent_values",
+    "half_value_share",
     "shape_of",
 ]

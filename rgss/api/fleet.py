@@ -1,0 +1,27 @@
+"""Designs that serve the studies of a fleet, as a frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rgss.api.trade_frames import portfolio_frame
+from rgss.decision import choose_portfolio, measure_survivors, portfolio_projects
+from rgss.evidence import EvidenceStore
+from rgss.studies import Project
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def fleet_frame(project: Project) -> pd.DataFrame:
+    """One row for each study of the fleet, chosen by each study's own evidence.
+
+    Raises:
+        DefinitionError: The study asks for no fleet.
+        EvidenceError: Trials of one of the studies have no evidence.
+        TradeoffError: The choice is ill posed.
+    """
+    projects = portfolio_projects(project)
+    with EvidenceStore.open(project.evidence, create=False) as store:
+        measured = {name: (each, measure_survivors(each, store)[0]) for name, each in projects.items()}
+    return portfolio_frame(choose_portfolio(project, measured))

@@ -1,0 +1,78 @@
+"""Columns of the frames on the sensitivity of a decision."""
+
+from __future__ import annotations
+
+from rgss.api.column import Column, FrameDescription, Kind
+from rgss.api.shared_columns import AS_UNIT, UNIT, VARIANT
+
+TORNADO = FrameDescription(
+    name="tornado",
+    row="an uncertain input of the decision, the largest swing first",
+    index=(Column(name="input", meaning="its name as what_if takes it, or shape.MEASURE for a curvature"),),
+    columns=(
+        Column(name="kind", meaning="weight, anchor, threshold, assumption or shape"),
+        UNIT,
+        Column(name="base", meaning="its value in the study", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="low", meaning="low end of its range", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="high", meaning="high end of its range", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="range_is", meaning="stated, elicited, or a share of the value"),
+        Column(
+            name="lead_low",
+            meaning="lead of the choice over the best rival at the low end; missing where it misses a requirement",
+            unit="1",
+            kind=Kind.NUMBER,
+        ),
+        Column(name="lead_high", meaning="the same at the high end", unit="1", kind=Kind.NUMBER),
+        Column(
+            name="swing",
+            meaning="greatest less least lead; infinite where the choice misses a requirement at an end",
+            unit="1",
+            kind=Kind.NUMBER,
+        ),
+        Column(name="wins_low", meaning="variants that are best at the low end, with commas between"),
+        Column(name="wins_high", meaning="variants that are best at the high end, with commas between"),
+        Column(
+            name="flip_low",
+            meaning="value below which the choice changes; missing if it does not",
+            unit=AS_UNIT,
+            kind=Kind.NUMBER,
+        ),
+        Column(
+            name="flip_high",
+            meaning="value above which the choice changes; missing if it does not",
+            unit=AS_UNIT,
+            kind=Kind.NUMBER,
+        ),
+    ),
+)
+
+
+WORTH_KEEPING = FrameDescription(
+    name="worth_keeping",
+    row="a feasible variant",
+    index=(VARIANT,),
+    columns=(
+        Column(name="kept", meaning="whether it is worth keeping", kind=Kind.TRUTH),
+        Column(name="reason", meaning="best_as_stated, best_for_some, within_margin, dominated or mixture"),
+        Column(
+            name="shortfall", meaning="least by which the best is worth more, over weights", unit="1", kind=Kind.NUMBER
+        ),
+        Column(name="behind", meaning="what the best is worth more at the study's weights", unit="1", kind=Kind.NUMBER),
+        Column(name="beaten_by", meaning="variants that beat one that is not kept, with commas between"),
+    ),
+)
+
+
+STAKEHOLDERS = FrameDescription(
+    name="stakeholders",
+    row="a stakeholder and a feasible variant",
+    index=(Column(name="stakeholder", meaning="name of the stakeholder"), VARIANT),
+    columns=(
+        Column(
+            name="regret", meaning="what their best is worth more, by their own weights", unit="1", kind=Kind.NUMBER
+        ),
+        Column(name="best", meaning="whether it is their best", kind=Kind.TRUTH),
+        Column(name="accepted", meaning="whether it is within the accepted distance of their best", kind=Kind.TRUTH),
+        Column(name="compromise", meaning="whether its largest regret over all is least", kind=Kind.TRUTH),
+    ),
+)

@@ -1,0 +1,31 @@
+"""Sensitivity of a study's decision: tornado, bent values, designs worth keeping, stakeholders, flat weights."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.decision.sensitivity.analysis import Sensitivity, analyse_sensitivity
+    from rgss.decision.sensitivity.bends import BentEnd, BentValue
+    from rgss.decision.sensitivity.flat_weights import FlatRemedy, FlatWeight
+    from rgss.decision.sensitivity.inputs import Flip, FlipSearch, InputKind, RangeBasis, UncertainInput
+    from rgss.decision.sensitivity.tornado import Tornado, TornadoBar, TornadoEnd
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "BentEnd",
+    "BentValue",
+    "FlatRemedy",
+    "FlatWeight",
+    "Flip",
+    "FlipSearch",
+    "InputKind",
+    "RangeBasis",
+    "Sensitivity",
+    "Tornado",
+    "TornadoBar",
+    "TornadoEnd",
+    "UncertainInput",
+    "analyse_sensitivity",
+]

@@ -1,0 +1,162 @@
+"""Sensitivity of a decision as one value: tornado, bent values, kept designs, stakeholders, flat weights."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.robustness import NotComputed, Part, PartComputer, Remeasuring, Robustness
+from rgss.decision.sensitivity.bends import BentValue, bent_values_of
+from rgss.decision.sensitivity.flat_weights import FlatWeight, flat_weights
+from rgss.decision.sensitivity.ranges import RangeBook
+from rgss.decision.sensitivity.standings import Standings, standings_of
+from rgss.decision.sensitivity.tornado import Tornado, tornado_of
+from rgss.decision.sensitivity.uncertain_inputs import uncertain_inputs, undecided_inputs
+from rgss.errors import DocumentError
+from rgss.studies import Project
+from rgss.tradeoff import AdditiveValue, Decision, TradeProblem
+from rgss.tradeoff.problem import tabulated
+from rgss.tradeoff.robustness import (
+    KeptAlternative,
+    StakeholderAgreement,
+    admitted_weights,
+    stakeholder_agreement,
+    worth_keeping,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Sensitivity:
+    """Sensitivity of a decision by weighted value.
+
+    Attributes:
+        variants: The ids of the rows of everything below, ascending.
+        measures: The measures with a weight above 0.
+        weights: Their weights, shape (m,).
+        tornado: Swing of the advantage over each input; None where `refused` or `not_computed` says why.
+        bends: The choice under bent value functions.
+        kept: The feasible designs with the reason that each is worth keeping, or what beats it; None where it
+            could not be computed.
+        keep_margin: Distance from the best within which a design is worth keeping.
+        bounded_weights: Whether elicited bounds cut the weights for which designs are kept.
+        agreement: The choices of the stakeholders; None where the study names none.
+        accept_within: Distance from a stakeholder's best value up to which a design is accepted.
+        flat: The weights that separate nothing.
+        refused: Why the sensitivity to inputs is not analysed; empty where it is.
+        not_computed: Why a part could not be computed.
+    """
+
+    variants: tuple[int, ...]
+    measures: tuple[str, ...]
+    weights: NDArray[np.float64]
+    tornado: Tornado | None
+    bends: tuple[BentValue, ...]
+    kept: tuple[KeptAlternative, ...] | None
+    keep_margin: float
+    bounded_weights: bool
+    agreement: StakeholderAgreement | None
+    accept_within: float
+    flat: tuple[FlatWeight, ...]
+    refused: str
+    not_computed: Mapping[Part, NotComputed]
+
+
+def analyse_sensitivity(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    decision: Decision,
+    found: Robustness,
+    *,
+    problem: TradeProblem,
+) -> Sensitivity:
+    """Analyse how a decision follows from its inputs; nothing is simulated.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its estimates and records, by ascending id.
+        decision: The decision between them.
+        found: Its robustness.
+        problem: The trade-off.
+
+    Raises:
+        DocumentError: A stated range is of no input, or wrong.
+    """
+    trade_off = project.study.trade_off
+    refused = _refused(problem, decision)
+    margin = trade_off.sensitivity.keep_within
+    parts = PartComputer()
+    tornado: Tornado | None = None
+    bends: tuple[BentValue, ...] = ()
+    kept, agreement, bounded = None, None, False
+    if not refused:
+        table = tabulated(problem.alternatives)
+        standings = standings_of(Remeasuring.of(project, measured, table), problem)
+        moved = parts.compute(Part.TORNADO, lambda: _tornado(standings, decision, found), None)
+        if isinstance(moved, DocumentError):
+            raise moved
+        tornado = moved
+        bends = () if tornado is None else bent_values_of(project, tornado, problem.value_functions)
+        keep = trade_off.practical_margin if margin is None else margin
+        kept = parts.compute(Part.KEPT, lambda: _kept(standings, keep), None)
+        bounded = bool(problem.weight_bounds.intervals or problem.weight_bounds.orders)
+        agreement = parts.compute(Part.STAKEHOLDERS, lambda: _agreement(standings), None)
+    return Sensitivity(
+        variants=found.variants,
+        measures=problem.weighting.deciding_measures,
+        weights=found.weights,
+        tornado=tornado,
+        bends=bends,
+        kept=kept,
+        keep_margin=trade_off.practical_margin if margin is None else margin,
+        bounded_weights=bounded,
+        agreement=agreement,
+        accept_within=trade_off.accept_within,
+        flat=flat_weights(project, measured, decision),
+        refused=refused,
+        not_computed=parts.missing,
+    )
+
+
+def _refused(problem: TradeProblem, decision: Decision) -> str:
+    if decision.chosen is None:
+        return "no variant meets every requirement"
+    if not isinstance(problem.program, AdditiveValue):
+        return f"the {problem.program.name} program does not choose by weighted value"
+    return ""
+
+
+def _tornado(standings: Standings, decision: Decision, found: Robustness) -> Tornado | DocumentError:
+    """The tornado; an error in a stated range is returned, since it is the user's and leaves nothing to show."""
+    book = RangeBook(standings.project.study.trade_off.sensitivity)
+    inputs = list(uncertain_inputs(standings, found, book))
+    try:
+        book.check(undecided_inputs(standings, found))
+    except DocumentError as error:
+        return error
+    rows = {variant: row for row, variant in enumerate(found.variants)}
+    tied = tuple(rows[variant] for variant in decision.ties)
+    return tornado_of(inputs, standings.as_it_is(), tied[0], tied, found.variants)
+
+
+def _kept(standings: Standings, margin: float) -> tuple[KeptAlternative, ...]:
+    return worth_keeping(
+        standings.values,
+        standings.feasible,
+        standings.weights,
+        among=admitted_weights(standings.problem),
+        margin=margin,
+    )
+
+
+def _agreement(standings: Standings) -> StakeholderAgreement | None:
+    trade_off = standings.project.study.trade_off
+    if not trade_off.stakeholders:
+        return None
+    named = [
+        (one.name, np.array([one.weights[measure] for measure in standings.measures])) for one in trade_off.stakeholders
+    ]
+    return stakeholder_agreement(standings.values, standings.feasible, named, within=trade_off.accept_within)

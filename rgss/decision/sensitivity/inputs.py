@@ -1,0 +1,87 @@
+"""Uncertain inputs of a decision, each with a range and the standing of the designs at any value of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.tradeoff.robustness import Standing
+
+SHAPE, ALL = "shape", "all"
+
+
+class InputKind(str, Enum):
+    """Kind of an input."""
+
+    WEIGHT = "weight"
+    ANCHOR = "anchor"
+    THRESHOLD = "threshold"
+    ASSUMPTION = "assumption"
+    SHAPE = "shape"
+
+
+class RangeBasis(str, Enum):
+    """Where a range comes from: stated in the study, elicited, or a share of the value by convention."""
+
+    STATED = "stated"
+    ELICITED = "elicited"
+    SHARE = "share"
+
+
+class FlipSearch(str, Enum):
+    """How the value at which a choice changes is found.
+
+    Attributes:
+        KNOWN: It is solved for by the analyses of robustness.
+        NESTED: The choice changes once at most on each side: bisection.
+        SCANNED: Scan of 64 steps on each side, and bisection.
+    """
+
+    KNOWN = "known"
+    NESTED = "nested"
+    SCANNED = "scanned"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flip:
+    """Value of an input at which another design becomes best.
+
+    Attributes:
+        value: The value, in the unit of the input.
+        winners: The rows that win beyond it; empty where nothing is feasible there.
+    """
+
+    value: float
+    winners: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UncertainInput:
+    """An input of a decision that is moved from a low to a high value.
+
+    Attributes:
+        id: Its name as ``--what-if`` takes it; of a curvature ``shape.MEASURE``.
+        kind: Its kind.
+        unit: Its unit.
+        base: Its value in the study.
+        low: The low end of its range.
+        high: The high end.
+        basis: Where the range comes from.
+        standing: What the designs are worth at a value.
+        exact: Whether that value is the nearest for certain; a scan may miss a change that reverts within a step.
+        search: How the value is found at which the choice changes.
+        known_flips: Of KNOWN, the nearest changes below and above the base; None where there is none.
+    """
+
+    id: str
+    kind: InputKind
+    unit: str
+    base: float
+    low: float
+    high: float
+    basis: RangeBasis
+    standing: Callable[[float], Standing]
+    search: FlipSearch
+    exact: bool
+    known_flips: tuple[Flip | None, Flip | None] = (None, None)

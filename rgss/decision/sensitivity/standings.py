@@ -1,0 +1,190 @@
+"""Standing of the designs with one input of the decision changed, all else held."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.decision.preference_model import program_of, quantity_of, risks_of, value_function_of
+from rgss.decision.robustness import Remeasuring, allowed_variants
+from rgss.decision.what_if import ModelNumber
+from rgss.errors import DefinitionError
+from rgss.studies import Project
+from rgss.tradeoff import AnchoredValue, TradeProblem
+from rgss.tradeoff.problem import Array, EvidenceTable, Mask, bent_values
+from rgss.tradeoff.programs import Preferences, single_values, violations, weighted_values
+from rgss.tradeoff.robustness import Standing
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Standings:
+    """The designs of a study under changed inputs; decided by weighted value.
+
+    Attributes:
+        project: The project with its study.
+        problem: The trade-off.
+        table: Its evidence.
+        values: The single values in the measures with a weight above 0, shape (n, m).
+        weights: Their weights, shape (m,).
+        feasible: Which designs meet every demand, shape (n,).
+        remeasuring: Evaluates the evidence anew.
+    """
+
+    project: Project
+    problem: TradeProblem
+    table: EvidenceTable
+    values: Array
+    weights: Array
+    feasible: Mask
+    remeasuring: Remeasuring
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """The measures with a weight above 0."""
+        return self.problem.weighting.deciding_measures
+
+    def as_it_is(self) -> Standing:
+        """The study as it is."""
+        return self._valued(self.values)
+
+    def with_weight(self, place: int) -> Callable[[float], Standing]:
+        """Another weight of one measure, the others in proportion."""
+        others = self.weights.copy()
+        others[place] = 0.0
+        rest = float(others.sum())
+        # Where one measure has all weight there are no proportions to keep: the others share alike.
+        shares = others / rest if rest > 0.0 else (np.arange(len(others)) != place) / max(1, len(others) - 1)
+
+        def standing(weight: float) -> Standing:
+            weights = shares * (1.0 - weight)
+            weights[place] = weight
+            return Standing(totals=self.values @ weights, feasible=self.feasible)
+
+        return standing
+
+    def with_anchor(self, valued: AnchoredValue, key: str) -> Callable[[float], Standing]:
+        """Another end of one value function."""
+        place = self.measures.index(valued.measure)
+        column = self.table.column(valued.measure)
+
+        def standing(quantity: float) -> Standing:
+            function = value_function_of(self.project, valued.with_anchor(key, quantity))
+            return self._with_column(place, function.values_at(column))
+
+        return standing
+
+    def with_curvature(self, places: tuple[int, ...]) -> Callable[[float], Standing]:
+        """Some value functions bent by a curvature."""
+
+        def standing(curvature: float) -> Standing:
+            values = self.values.copy()
+            values[:, places] = bent_values(values[:, places], curvature)
+            return self._valued(values)
+
+        return standing
+
+    def with_threshold(self, requirement: str) -> Callable[[float], Standing]:
+        """Another threshold of one requirement; values and demands that are anchored on it move along."""
+
+        def standing(threshold: float) -> Standing:
+            preferences = self._preferences(requirement, threshold)
+            return _decided(preferences, self.table)
+
+        return standing
+
+    def with_number(self, number: ModelNumber) -> Callable[[float], Standing]:
+        """Another value of an assumed number; what trials showed is held."""
+        allowed = allowed_variants(self.project, self.remeasuring.measured, number)
+
+        def standing(value: float) -> Standing:
+            mask: NDArray[np.bool_] = allowed(value)
+            try:
+                table = self.remeasuring.table_with(number, value)
+            except DefinitionError:
+                # A measure that is not defined there lets nothing be chosen.
+                return Standing(totals=np.full(len(self.table), np.nan), feasible=mask & False)
+            found = _decided(self.problem, table)
+            return Standing(totals=found.totals, feasible=found.feasible & mask)
+
+        return standing
+
+    def _preferences(self, requirement: str, threshold: float) -> TradeProblem:
+        project = with_threshold(self.project, requirement, threshold)
+        functions = tuple(value_function_of(project, valued) for valued in project.study.trade_off.valued)
+        return replace(
+            self.problem,
+            alternatives=self.table,
+            thresholds=tuple(
+                replace(one, value=threshold) if one.requirement == requirement else one
+                for one in self.problem.thresholds
+            ),
+            value_functions=functions,
+            risks=risks_of(project),
+            program=program_of(project, functions),
+            levels=None,
+        )
+
+    def _with_column(self, place: int, column: Array) -> Standing:
+        values = self.values.copy()
+        values[:, place] = column
+        return self._valued(values)
+
+    def _valued(self, values: Array) -> Standing:
+        return Standing(totals=values @ self.weights, feasible=self.feasible)
+
+
+def standings_of(remeasuring: Remeasuring, problem: TradeProblem) -> Standings:
+    """The designs of a study, ready to be moved.
+
+    Args:
+        remeasuring: The evidence, which can be evaluated anew.
+        problem: The trade-off, decided by weighted value.
+    """
+    table = remeasuring.table
+    return Standings(
+        project=remeasuring.project,
+        problem=problem,
+        table=table,
+        values=single_values(problem, table),
+        weights=np.array([problem.weighting.weights[name] for name in problem.weighting.deciding_measures]),
+        feasible=_feasible(problem, table),
+        remeasuring=remeasuring,
+    )
+
+
+def with_threshold(project: Project, requirement: str, threshold: float) -> Project:
+    """The project with another threshold of one requirement, in the unit of its measure."""
+    system = tuple(
+        replace(
+            one,
+            criterion=replace(
+                one.criterion, threshold=threshold, unit=project.measures.measure(one.criterion.measure).unit
+            ),
+        )
+        if one.id == requirement and one.criterion is not None
+        else one
+        for one in project.requirements.system
+    )
+    return replace(project, requirements=replace(project.requirements, system=system))
+
+
+def anchored_on_requirements(project: Project) -> bool:
+    """Whether an end of a value function is anchored on a requirement."""
+    trade_off = project.study.trade_off
+    return any(not isinstance(anchor, float) for valued in trade_off.valued for anchor in valued.anchors.values())
+
+
+def anchor_quantity(project: Project, valued: AnchoredValue, key: str) -> float:
+    """The quantity of an end of a value function, in the measure's unit."""
+    return quantity_of(project, valued.anchors[key], valued.measure)
+
+
+def _decided(preferences: Preferences, table: EvidenceTable) -> Standing:
+    return Standing(totals=weighted_values(preferences, table), feasible=_feasible(preferences, table))
+
+
+def _feasible(preferences: Preferences, table: EvidenceTable) -> Mask:
+    return np.asarray(~violations(preferences, table).any(axis=1), dtype=np.bool_)

@@ -1,0 +1,79 @@
+"""Sentences on weights that follow from pairwise answers: how they were found, and how far the answers agree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from rgss.tradeoff.elicitation import GREATEST_RATIO, Consistency, ElicitedWeights, FitMethod, PairwiseAnswer, Triad
+
+DIGEST_SHOWN = 12
+"""Digits of a digest on pages; the JSON document has all."""
+
+
+def elicitation_sentences(elicited: Iterable[ElicitedWeights], by: Mapping[str, ElicitedWeights]) -> Iterator[str]:
+    """The answers that weights follow from, by their digests.
+
+    Args:
+        elicited: The groups of the study.
+        by: Those of its stakeholders, by name.
+    """
+    for whose, one in [*(("", one) for one in elicited), *((f" of {name}", one) for name, one in by.items())]:
+        yield (
+            f"Weights{whose} of {', '.join(one.weights)}: from {len(one.answers)} pairwise answers, SHA-256 "
+            f"{one.digest[:DIGEST_SHOWN]}…; {verdict_phrase(one)}."
+        )
+
+
+def verdict_phrase(one: ElicitedWeights) -> str:
+    """Whether the answers agree, in a phrase."""
+    consistency = one.consistency
+    if consistency is None:
+        return "the answers are orders and ranges, which agree"
+    if consistency.is_acceptable is None:
+        return "no answer checks another"
+    return f"the answers are {'consistent enough' if consistency.is_acceptable else 'too inconsistent'}"
+
+
+def method_sentence(one: ElicitedWeights) -> str:
+    """How the weights were found."""
+    if one.method is FitMethod.LEAST_SQUARES:
+        bounds = ", within the orders and ranges" if one.bounds else ""
+        return f"Least squares of the logarithms of the ratios{bounds}; the worst ratio is missed by ×{one.factor:.3g}."
+    missed = "" if one.factor <= 1.0 + 1e-9 else f", each ratio within ×{one.factor:.3g}"
+    return f"Centre of all weights that agree with the answers{missed}."
+
+
+def consistency_sentences(found: Consistency) -> Iterator[str]:
+    """The indices with their limits, the worst triad and the worst answer with what would mend them.
+
+    Args:
+        found: The inconsistency of the ratio answers.
+    """
+    if found.index is None:
+        yield (
+            f"No answer checks another: {found.answers} ratios for {found.criteria} criteria. Answer one more, between "
+            "two that are compared with a third."
+        )
+        return
+    yield (
+        f"Geometric consistency index {found.index:.3f}, limit {found.index_limit:.3f} (Aguarón and Moreno-Jiménez "
+        f"2003); {found.checks} answer{'s check' if found.checks > 1 else ' checks'} the others."
+    )
+    if found.ratio is not None:
+        yield f"Consistency ratio {found.ratio:.3f}, limit {GREATEST_RATIO:g} (Saaty 1980)."
+    if found.worst_triad is not None and found.worst_triad.factor > 1.0 + 1e-9:
+        yield _triad(found.worst_triad)
+    worst = found.worst_answer
+    if worst is not None and worst.factor > 1.0 + 1e-9:
+        implied = "" if worst.implied is None else f"; the other answers imply {_pair(worst.answer, worst.implied)}"
+        yield f"The answer that fits least: {worst.answer.words}, while the weights say {worst.fitted:.3g}{implied}."
+
+
+def _triad(triad: Triad) -> str:
+    answers = ", ".join(answer.words for answer in triad.answers)
+    mends = " or ".join(_pair(answer, ratio) for answer, ratio in zip(triad.answers, triad.mends, strict=True))
+    return f"The worst triad, off by ×{triad.factor:.3g}: {answers}. Any one of these would mend it: {mends}."
+
+
+def _pair(answer: PairwiseAnswer, ratio: float) -> str:
+    return f"{answer.swing_of} = {ratio:.3g} × {answer.over}"

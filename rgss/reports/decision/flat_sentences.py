@@ -1,0 +1,47 @@
+"""Sentences on weights that separate nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.decision.sensitivity import FlatRemedy, FlatWeight
+from rgss.reports.decision.words import amount
+
+
+def flat_sentences(flat: tuple[FlatWeight, ...]) -> Iterator[str]:
+    """What each weight that separates nothing is spent on, and what to do about it.
+
+    Args:
+        flat: The weights.
+    """
+    for one in flat:
+        among = "feasible variants" if one.among_feasible else "variants"
+        yield (
+            f"{one.measure} is worth the same for all {among}, so its weight of {one.weight:.3g} decides nothing: "
+            f"{_remedy(one)}"
+        )
+    if len(flat) and flat[0].effective:
+        weights = ", ".join(f"{name} {weight:.3g}" for name, weight in flat[0].effective)
+        total = sum(one.weight for one in flat)
+        yield (
+            f"Weights of {total:.3g} in all separate nothing; what decides is {weights}, and without the others the "
+            "order is the same."
+        )
+
+
+def _remedy(one: FlatWeight) -> str:
+    if one.remedy is FlatRemedy.MOVE_ENDS:
+        low, high = amount(one.low, one.unit), amount(one.high, one.unit)
+        return f"set worst and best to the swing that is there, {low} to {high}, and weigh that swing anew."
+    everyone = ""
+    if one.all_low < one.all_high and one.among_feasible:
+        everyone = f" (all variants: {amount(one.all_low, one.unit)} to {amount(one.all_high, one.unit)})"
+    if one.remedy is FlatRemedy.VARY_THE_WORLD:
+        return (
+            f"all are at {amount(one.high, one.unit)}{everyone}; let the world vary or ask more of the task until "
+            "designs differ, or drop the measure."
+        )
+    return (
+        f"all are at {amount(one.high, one.unit)}{everyone}; leave it to its requirement and drop the measure, "
+        "or add designs that differ in it."
+    )

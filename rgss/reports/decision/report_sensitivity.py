@@ -1,0 +1,89 @@
+"""Sensitivity of a decision in the document of the HTML report."""
+
+from __future__ import annotations
+
+from rgss.decision.robustness import not_computed_lines
+from rgss.decision.sensitivity import Sensitivity, TornadoBar, TornadoEnd
+from rgss.reports.decision.meanings import CONFIDENCE_MEANING, FIRST_MEANING, WEIGHTS_MEANING
+from rgss.reports.decision.sensitivity_sentences import (
+    agreement_sentences,
+    beaten_sentences,
+    bend_sentences,
+    kept_groups,
+    range_sentence,
+)
+from rgss.reports.decision.words import UNKNOWN, amount, ids_text, score, variants_text
+from rgss.reports.plain_numbers import Plain
+
+
+def sensitivity_part(found: Sensitivity | None) -> Plain | None:
+    """What the section on sensitivity shows, in words and figures as the page writes them; None without a choice.
+
+    Args:
+        found: The sensitivity of the decision; None if not analysed.
+    """
+    if found is None or found.refused:
+        return None
+    tornado = found.tornado
+    return {
+        "tornado": None
+        if tornado is None
+        else {
+            "chosen": tornado.chosen,
+            "lead": score(tornado.lead),
+            "rival": tornado.rival,
+            "rows": [_row(bar) for bar in tornado.moving],
+            "still": [bar.id for bar in tornado.still],
+            "without_range": list(tornado.without_range),
+            "ranges": range_sentence(tornado),
+        },
+        "bends": list(bend_sentences(found.bends)),
+        "keep_margin": found.keep_margin,
+        "kept": [
+            {"variants": list(group.variants), "why": group.why, "behind": score(group.behind)}
+            for group in kept_groups(found)
+        ],
+        "beaten": list(beaten_sentences(found)),
+        "stakeholders": _stakeholders(found),
+        "meanings": [WEIGHTS_MEANING, FIRST_MEANING, CONFIDENCE_MEANING],
+        "not_computed": list(not_computed_lines(found.not_computed)),
+    }
+
+
+def _row(bar: TornadoBar) -> Plain:
+    return {
+        "input": bar.id,
+        "base": amount(bar.base, bar.unit),
+        "range_is": bar.basis.value,
+        "ends": [_end(bar, end) for end in (bar.low, bar.high)],
+    }
+
+
+def _end(bar: TornadoBar, end: TornadoEnd) -> Plain:
+    about = "" if bar.exact else "≈ "
+    return {
+        "value": amount(end.value, bar.unit),
+        "lead": score(end.lead) if end.feasible else "misses a requirement",
+        "wins": variants_text(end.winners),
+        "flip": UNKNOWN if end.flip is None else about + amount(end.flip, bar.unit),
+    }
+
+
+def _stakeholders(found: Sensitivity) -> Plain | None:
+    agreement = found.agreement
+    if agreement is None:
+        return None
+    return {
+        "within": found.accept_within,
+        "rows": [
+            {
+                "name": view.name,
+                "chooses": ids_text(found.variants[row] for row in view.best),
+                "value": score(view.best_value),
+                "accepts": ids_text(found.variants[row] for row in view.accepted),
+                "regret": score(float(view.regrets[agreement.compromise[0]])),
+            }
+            for view in agreement.views
+        ],
+        "sentences": list(agreement_sentences(found)),
+    }

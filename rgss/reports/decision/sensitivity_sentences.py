@@ -1,0 +1,126 @@
+"""Sentences on the sensitivity of a decision that its pages share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from rgss.decision.sensitivity import BentEnd, BentValue, Sensitivity, Tornado
+from rgss.reports.decision.words import amount, ids_text, moves_text, score, variants_text
+from rgss.tradeoff.robustness import KeptAlternative, KeptFor
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptGroup:
+    """Designs that are kept for the same reason.
+
+    Attributes:
+        variants: Their ids.
+        why: The reason, in words.
+        behind: What the best is worth more at the study's weights.
+    """
+
+    variants: tuple[int, ...]
+    why: str
+    behind: float
+
+
+def kept_groups(found: Sensitivity) -> tuple[KeptGroup, ...]:
+    """The designs worth keeping, those that do not differ together, the best at the study's weights first."""
+    groups: dict[tuple[str, float], list[KeptAlternative]] = {}
+    for one in found.kept or ():
+        if one.is_kept:
+            groups.setdefault((_why(found, one), round(one.behind, 9)), []).append(one)
+    made = [
+        KeptGroup(variants=tuple(found.variants[one.row] for one in members), why=why, behind=behind)
+        for (why, behind), members in groups.items()
+    ]
+    return tuple(sorted(made, key=lambda group: group.behind))
+
+
+def beaten_sentences(found: Sensitivity) -> Iterator[str]:
+    """What beats the designs that are not kept, in a sentence for each that does."""
+    beaten: dict[tuple[KeptFor, tuple[int, ...]], list[int]] = {}
+    for one in found.kept or ():
+        if not one.is_kept:
+            rivals = tuple(found.variants[row] for row in one.beaten_by)
+            beaten.setdefault((one.reason, rivals), []).append(found.variants[one.row])
+    for (reason, rivals), variants in sorted(beaten.items(), key=lambda one: (one[0][1], one[0][0].value)):
+        if reason is KeptFor.DOMINATED:
+            yield f"Variant {rivals[0]} is at least as good at all weights as {variants_text(variants)}."
+        else:
+            several = " or ".join(map(str, rivals))
+            yield f"At any weights one of variants {several} beats {variants_text(variants)} by more than the margin."
+
+
+def bend_sentences(bends: Sequence[BentValue]) -> Iterator[str]:
+    """What bending value functions does to the choice."""
+    if not bends:
+        return
+    for bend in bends:
+        for end, word in ((bend.convex, "convex"), (bend.concave, "concave")):
+            if end.flip is not None:
+                yield _flip(bend, end, word)
+    steady = [bend.measure or "all together" for bend in bends if not bend.flips]
+    tolerances = [abs(1.0 / end.curvature) for bend in bends for end in (bend.convex, bend.concave) if end.curvature]
+    if steady and tolerances:
+        yield (
+            f"Bent to a risk tolerance of {min(tolerances):.2g} of the range, convex or concave, these value "
+            f"functions do not change the choice: {', '.join(steady)}."
+        )
+
+
+def range_sentence(tornado: Tornado) -> str:
+    """Where the ranges come from."""
+    stated = sum(bar.basis.value == "stated" for bar in tornado.bars)
+    elicited = sum(bar.basis.value == "elicited" for bar in tornado.bars)
+    shares = len(tornado.bars) - stated - elicited
+    return (
+        f"Of the ranges {stated} are stated, {elicited} elicited and {shares} a share of the value, which is a "
+        "convention and no evidence."
+    )
+
+
+def agreement_sentences(found: Sensitivity) -> Iterator[str]:
+    """What all stakeholders accept, and the compromise."""
+    agreement = found.agreement
+    if agreement is None:
+        return
+    accepted = [found.variants[row] for row in agreement.accepted_by_all]
+    yield (
+        f"All accept {variants_text(accepted)}."
+        if accepted
+        else f"No design is within {found.accept_within:g} of every stakeholder's best value."
+    )
+    compromise = [found.variants[row] for row in agreement.compromise]
+    whose = " and ".join(agreement.most_regretful)
+    regret = (
+        "nobody regrets anything"
+        if agreement.largest_regret <= 1e-9
+        else f"nobody regrets more than {score(agreement.largest_regret)} ({whose})"
+    )
+    yield f"Compromise by least largest regret: {variants_text(compromise)}; {regret}."
+    best = max(float(agreement.borda[row]) for row in range(len(found.variants)) if agreement.borda[row] >= 0.0)
+    leaders = [found.variants[row] for row in range(len(found.variants)) if agreement.borda[row] >= best - 1e-9]
+    yield f"By ranks (mean Borda score {best:.2f}): {variants_text(leaders)}."
+
+
+def _why(found: Sensitivity, one: KeptAlternative) -> str:
+    if one.reason is KeptFor.BEST_AS_STATED:
+        return "best at the study's weights"
+    weights = one.weights if one.weights is not None else found.weights
+    before, after = (dict(zip(found.measures, each.tolist(), strict=True)) for each in (found.weights, weights))
+    if one.reason is KeptFor.BEST_FOR_SOME:
+        return f"best with {moves_text(before, after)}"
+    where = "" if one.behind <= found.keep_margin else f" with {moves_text(before, after)}"
+    return f"within {found.keep_margin:g} of the best{where}"
+
+
+def _flip(bend: BentValue, end: BentEnd, word: str) -> str:
+    what = f"the value function of {bend.measure}" if bend.measure else "all value functions together"
+    tolerance = (
+        "" if end.flip_tolerance is None else f" beyond a risk tolerance of {end.flip_tolerance:.2g} of the range"
+    )
+    half = "" if end.flip_halfway is None else f" (half of the value at {amount(end.flip_halfway, bend.unit)})"
+    wins = f"{ids_text(end.flip_winners)} win" if len(end.flip_winners) > 1 else f"{ids_text(end.flip_winners)} wins"
+    return f"Bent {word}{tolerance}{half}, {what} lets another design win: {wins}."

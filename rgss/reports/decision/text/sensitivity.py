@@ -1,0 +1,71 @@
+"""Sensitivity of a decision to its inputs, designs worth keeping, and stakeholders, for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.decision.robustness import not_computed_lines
+from rgss.decision.sensitivity import Sensitivity
+from rgss.reports.decision.sensitivity_sentences import (
+    KeptGroup,
+    agreement_sentences,
+    beaten_sentences,
+    bend_sentences,
+    kept_groups,
+    range_sentence,
+)
+from rgss.reports.decision.text.tornado import tornado_lines
+from rgss.reports.decision.words import ids_text, score
+from rgss.reports.plain_text import aligned_table
+
+
+def sensitivity_lines(found: Sensitivity) -> Iterator[str]:
+    """The lines of the section.
+
+    Args:
+        found: The sensitivity of a decision.
+    """
+    if found.tornado is not None:
+        yield ""
+        yield "How sensitive it is"
+        yield from tornado_lines(found.tornado)
+        yield from bend_sentences(found.bends)
+        yield range_sentence(found.tornado)
+    if found.kept is not None:
+        yield ""
+        yield f"Designs worth keeping (within {found.keep_margin:g} of the best for some {_weights(found)}weights)"
+        yield from _kept(kept_groups(found))
+        yield from beaten_sentences(found)
+    if found.agreement is not None:
+        yield ""
+        yield from _stakeholders(found)
+    yield from not_computed_lines(found.not_computed)
+
+
+def _weights(found: Sensitivity) -> str:
+    return "elicited " if found.bounded_weights else ""
+
+
+def _kept(groups: tuple[KeptGroup, ...]) -> list[str]:
+    rows = [[ids_text(one.variants), one.why, score(one.behind)] for one in groups]
+    return aligned_table(["variants", "kept because", "behind now"], rows, right=(2,))
+
+
+def _stakeholders(found: Sensitivity) -> Iterator[str]:
+    agreement = found.agreement
+    if agreement is None:
+        return
+    yield "What stakeholders choose by their own weights"
+    rows = [
+        [
+            view.name,
+            ids_text(found.variants[row] for row in view.best),
+            score(view.best_value),
+            ids_text(found.variants[row] for row in view.accepted),
+            score(float(view.regrets[agreement.compromise[0]])),
+        ]
+        for view in agreement.views
+    ]
+    titles = ["stakeholder", "chooses", "value", f"accepts (within {found.accept_within:g})", "regret of compromise"]
+    yield from aligned_table(titles, rows, right=(2, 4))
+    yield from agreement_sentences(found)

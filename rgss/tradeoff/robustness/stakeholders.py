@@ -1,0 +1,141 @@
+"""Choices of several stakeholders, what all of them accept, and the compromise between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.problem import TIE_TOLERANCE, Array, Mask, checked_values, checked_weights
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StakeholderView:
+    """The alternatives as one stakeholder weighs them.
+
+    Attributes:
+        name: The stakeholder.
+        weights: The stakeholder's weights, shape (m,).
+        best: The best alternatives, ascending.
+        best_value: Their weighted value.
+        accepted: The alternatives within the stated distance of the best, ascending.
+        regrets: What each alternative is worth less than the best, shape (n,); NaN where not feasible.
+    """
+
+    name: str
+    weights: Array
+    best: tuple[int, ...]
+    best_value: float
+    accepted: tuple[int, ...]
+    regrets: Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StakeholderAgreement:
+    """What several stakeholders agree on.
+
+    Attributes:
+        views: One for each stakeholder, in the order given.
+        accepted_by_all: The alternatives that each stakeholder accepts, ascending.
+        compromise: The alternatives whose largest regret over the stakeholders is least, ascending.
+        largest_regret: That regret; within it of each one's best value, the alternatives of the compromise are
+            accepted by all.
+        most_regretful: The stakeholders that regret the first alternative of the compromise most.
+        largest_regrets: The largest regret of each alternative, shape (n,); NaN where not feasible.
+        borda: The mean Borda score of each alternative over the stakeholders: the share of the other feasible
+            alternatives that it beats, ties by half, shape (n,); NaN where not feasible.
+    """
+
+    views: tuple[StakeholderView, ...]
+    accepted_by_all: tuple[int, ...]
+    compromise: tuple[int, ...]
+    largest_regret: float
+    most_regretful: tuple[str, ...]
+    largest_regrets: Array
+    borda: Array
+
+
+def stakeholder_agreement(
+    values: Array, feasible: Mask, stakeholders: Sequence[tuple[str, Array]], *, within: float
+) -> StakeholderAgreement:
+    """Compare the alternatives under the weights of each stakeholder.
+
+    The regret of an alternative is what it is worth less than the best by a stakeholder's own weights (Savage,
+    "The theory of statistical decision", 1951); the compromise has the least largest one. All comparisons
+    are by enumeration.
+
+    Args:
+        values: The single values, shape (n, m); rows that are not feasible may hold NaN.
+        feasible: Which alternatives can be chosen, shape (n,); at least one.
+        stakeholders: Name and weights, shape (m,), of each; at least one.
+        within: Distance from a stakeholder's best value up to which an alternative is accepted; at least 0.
+
+    Raises:
+        TradeoffError: Nothing is feasible, there is no stakeholder, the distance is negative, or weights are
+            not such.
+    """
+    rows = np.flatnonzero(feasible)
+    if not len(rows) or not stakeholders:
+        what = "no stakeholder is named" if len(rows) else "no alternative is feasible"
+        raise TradeoffError(what, hint="compare at least one alternative for at least one stakeholder")
+    if not (np.isfinite(within) and within >= 0.0):
+        raise TradeoffError(f"the accepted distance must be at least 0, got {within:g}", hint="give a value from 0 on")
+    checked = checked_values(values[rows])
+    views, scores = [], np.zeros(len(rows))
+    for name, weights in stakeholders:
+        totals = checked @ checked_weights(weights, checked.shape[1])
+        regrets = totals.max() - totals
+        views.append(
+            StakeholderView(
+                name=name,
+                weights=weights,
+                best=_rows(rows, regrets <= TIE_TOLERANCE),
+                best_value=float(totals.max()),
+                accepted=_rows(rows, regrets <= within + TIE_TOLERANCE),
+                regrets=_spread(regrets, rows, len(values)),
+            )
+        )
+        scores += _borda(regrets)
+    each = np.stack([view.regrets[rows] for view in views])
+    largest = each.max(axis=0)
+    compromise = largest <= largest.min() + TIE_TOLERANCE
+    first = int(np.flatnonzero(compromise)[0])
+    everyone = np.logical_and.reduce([each[place] <= within + TIE_TOLERANCE for place in range(len(views))])
+    return StakeholderAgreement(
+        views=tuple(views),
+        accepted_by_all=_rows(rows, everyone),
+        compromise=_rows(rows, compromise),
+        largest_regret=float(largest.min()),
+        most_regretful=tuple(
+            view.name
+            for view, regret in zip(views, each[:, first], strict=True)
+            if regret >= largest[first] - TIE_TOLERANCE
+        ),
+        largest_regrets=_spread(largest, rows, len(values)),
+        borda=_spread(scores / len(views), rows, len(values)),
+    )
+
+
+def _borda(regrets: Array) -> Array:
+    """The share of the others that each beats, ties by half; 1 where there is no other."""
+    if len(regrets) == 1:
+        return np.ones(1)
+    ordered = np.sort(regrets)
+    worse = len(regrets) - np.searchsorted(ordered, regrets + TIE_TOLERANCE, side="right")
+    tied = np.searchsorted(ordered, regrets + TIE_TOLERANCE, side="right") - np.searchsorted(
+        ordered, regrets - TIE_TOLERANCE, side="left"
+    )
+    return np.asarray((worse + 0.5 * (tied - 1)) / (len(regrets) - 1), dtype=np.float64)
+
+
+def _rows(rows: NDArray[np.intp], among: Mask) -> tuple[int, ...]:
+    return tuple(int(row) for row in rows[among])
+
+
+def _spread(numbers: Array, rows: NDArray[np.intp], size: int) -> Array:
+    full = np.full(size, np.nan)
+    full[rows] = numbers
+    return full

@@ -1,0 +1,234 @@
+"""The tornado, against the study decided anew under each supposition by the mixed-integer program."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.robustness import robustness
+from rgss.decision.sensitivity import InputKind, RangeBasis, analyse_sensitivity
+from rgss.decision.what_if import measured_in, suppose
+from rgss.errors import DocumentError
+from rgss.tradeoff import ExponentialValue, Weighting
+from rgss.tradeoff.programs import enumerate_alternatives
+
+CHOICE = (
+    "values:",
+    "  - {measure: P_max, weight: 0.25, worst: 0.8 kg, best: 1.4 kg}",
+    "  - {measure: C_total, weight: 0.25, worst: 44000 USD, best: 38000 USD}",
+    "  - {measure: t_e, weight: 0.3, worst: {requirement: SYS-005}, best: 5 s}",
+    "  - {measure: S, weight: 0.2, worst: 0.8, best: 1.0}",
+)
+
+
+@pytest.fixture(scope="module")
+def measured(shipped, filled, record_of):
+    store = filled(
+        shipped,
+        lambda spec: record_of(
+            spec, planning_s=0.5 + 0.01 * (spec.variant % 9) + 0.1 * spec.seed, path_m=0.4 + 0.02 * (spec.variant % 5)
+        ),
+    )
+    return measure_variants(shipped, store)
+
+
+@pytest.fixture(scope="module")
+def analysed(shipped, measured, read_trade_off_of):
+    """A study with other ranges and its sensitivity."""
+
+    def analyse(*lines):
+        project = replace(shipped, study=read_trade_off_of(*CHOICE, *lines)) if lines else shipped
+        problem = trade_problem(project, measured)
+        decision = choose(project, measured, problem=problem)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(robustness, "ITERATIONS", 100)
+            found = robustness.analyse_robustness(project, measured, decision, problem=problem)
+        return project, decision, analyse_sensitivity(project, measured, decision, found, problem=problem)
+
+    return analyse
+
+
+@pytest.fixture(scope="module")
+def wide(analysed):
+    """Ranges wide enough that much flips."""
+    return analysed(
+        "sensitivity:",
+        "  {weights: 90 %, anchors: 40 %, thresholds: 30 %, assumptions: 60 %, risk_tolerance: 0.2, keep_within: 0.02}",
+    )
+
+
+@dataclass
+class Anew:
+    """What brute force over the variants finds."""
+
+    ties: tuple
+    values: dict
+
+
+def decided_anew(project, measured, supposition):
+    scenario = suppose(project, [supposition])
+    there = measured_in(scenario, measured)
+    return enumerated(trade_problem(scenario.project, there))
+
+
+def enumerated(problem):
+    """Every feasible variant with its value: enumeration of the variants, apart from the analysis."""
+    found = enumerate_alternatives(problem)
+    ids, rows = found.variants, range(len(found.variants))
+    return Anew(
+        ties=tuple(int(ids[row]) for row in rows if found.tied[row]),
+        values={int(ids[row]): float(found.values[row]) for row in rows if found.feasible[row]},
+    )
+
+
+def lead_of(anew, chosen, tied):
+    """The lead of a design over the best other; None if it is not feasible."""
+    values = anew.values
+    if chosen not in values:
+        return None
+    rivals = [value for one, value in values.items() if one not in tied or value > values[chosen] + 1e-9]
+    return values[chosen] - max(rivals) if rivals else None
+
+
+def test_each_end_is_the_decision_under_that_supposition(wide, measured):
+    project, decision, found = wide
+    assert found.tornado.chosen == decision.chosen
+    looked_at = 0
+    for bar in found.tornado.bars:
+        if bar.kind is InputKind.SHAPE:
+            continue
+        for end in (bar.low, bar.high):
+            anew = decided_anew(project, measured, f"{bar.id}={end.value!r} {'' if bar.unit == '1' else bar.unit}")
+            assert end.winners == anew.ties, bar.id
+            lead = lead_of(anew, decision.chosen, decision.ties)
+            assert (end.lead is None) == (lead is None), bar.id
+            if lead is not None:
+                assert end.lead == pytest.approx(lead, abs=1e-9), bar.id
+            looked_at += 1
+    assert looked_at > 40
+
+
+def test_each_flip_is_where_the_choice_changes(wide, measured):
+    project, decision, found = wide
+    flips = 0
+    for bar in found.tornado.bars:
+        for end in (bar.low, bar.high):
+            if bar.kind is InputKind.SHAPE or end.flip is None:
+                if end.flip is None and bar.exact:
+                    assert decision.chosen in end.winners, bar.id
+                continue
+            unit = "" if bar.unit == "1" else bar.unit
+            step = 1e-6 * (end.value - bar.base)
+            inside = decided_anew(project, measured, f"{bar.id}={end.flip - step!r} {unit}")
+            beyond = decided_anew(project, measured, f"{bar.id}={end.flip + step!r} {unit}")
+            assert decision.chosen in inside.ties, bar.id
+            assert decision.chosen not in beyond.ties, bar.id
+            assert end.flip_winners == beyond.ties, bar.id
+            flips += 1
+    assert flips >= 5
+
+
+def test_a_bent_linear_function_is_the_exponential_one(wide, measured):
+    project, decision, found = wide
+    problem = trade_problem(project, measured)
+    for bend in found.bends:
+        if not bend.measure:
+            continue
+        for end in (bend.convex, bend.concave):
+            linear = problem.value_function(bend.measure)
+            share = -math.log((1.0 + math.exp(-end.curvature)) / 2.0) / end.curvature
+            halfway = linear.worst + share * (linear.best - linear.worst)
+            bent = ExponentialValue(measure=bend.measure, worst=linear.worst, best=linear.best, halfway=halfway)
+            functions = tuple(bent if one is linear else one for one in problem.value_functions)
+            anew = enumerated(replace(problem, value_functions=functions))
+            assert end.winners == anew.ties
+            assert end.lead == pytest.approx(lead_of(anew, decision.chosen, decision.ties), abs=1e-6)
+        if bend.concave.flip is not None:
+            assert bend.concave.flip_tolerance == pytest.approx(1.0 / bend.concave.flip)
+
+
+def test_the_largest_swing_comes_first_and_every_input_is_there(wide, shipped):
+    _, _, found = wide
+    swings = [bar.swing for bar in found.tornado.bars]
+    names = {bar.id for bar in found.tornado.bars} | set(found.tornado.without_range)
+
+    assert swings == pytest.approx(sorted(swings, reverse=True))
+    assert {"weight.t_e", "value.t_e.best", "shape.all", "SYS-005.threshold", "catalogue.ur10.cost"} <= names
+    # Anchored on a requirement: it moves with the threshold.
+    assert "value.t_e.worst" not in names
+    assert all(bar.basis is RangeBasis.SHARE for bar in found.tornado.bars)
+    assert found.tornado.without_range == ("catalogue.rrt.cost",)
+
+
+def test_stated_and_elicited_ranges_are_taken(analysed):
+    _, _, found = analysed(
+        "weight_order: [{heavier: C_total, lighter: S}]",
+        "sensitivity:",
+        "  ranges:",
+        "    - {input: catalogue.rrt.cost, low: 0 USD, high: 1 kUSD, rationale: a licence}",
+        "    - {input: weight.t_e, low: 25 %, high: 0.5}",
+        "    - {input: shape.S, low: 0, high: 2}",
+    )
+    bars = {bar.id: bar for bar in found.tornado.bars}
+
+    assert (bars["catalogue.rrt.cost"].low.value, bars["catalogue.rrt.cost"].high.value) == (0.0, 1000.0)
+    assert bars["catalogue.rrt.cost"].basis is RangeBasis.STATED
+    assert (bars["weight.t_e"].low.value, bars["weight.t_e"].high.value) == (0.25, 0.5)
+    assert (bars["shape.S"].low.value, bars["shape.S"].high.value) == (0.0, 2.0)
+    assert bars["weight.S"].basis is RangeBasis.ELICITED
+    assert bars["weight.S"].high.value == pytest.approx(0.5)
+    assert found.bounded_weights
+
+
+@pytest.mark.parametrize(
+    ("entry", "message"),
+    [
+        ("{input: catalogue.rtt.cost, low: 0 USD, high: 1 USD}", "'catalogue.rtt.cost' is no input of this decision"),
+        ("{input: weight.t_e, low: 0.4, high: 0.5}", "weight.t_e is 0.3, outside of its range 0.4 to 0.5"),
+        ("{input: catalogue.ur10.cost, low: 1 kg, high: 1 USD}", "catalogue.ur10.cost: "),
+    ],
+)
+def test_a_wrong_range_is_an_error_at_its_place(analysed, entry, message):
+    with pytest.raises(DocumentError) as caught:
+        analysed("sensitivity:", "  ranges:", f"    - {entry}")
+    (finding,) = caught.value.findings
+    assert (finding.file, finding.line, finding.column) == ("s", 9, 17)
+    assert finding.message.startswith(message)
+
+
+def test_stakeholders_choose_by_their_own_weights(analysed, measured):
+    project, _, found = analysed(
+        "accept_within: 0.1",
+        "stakeholders:",
+        "  buyer: {weights: {C_total: 0.9, S: 0.1}}",
+        "  driver: {points: {t_e: 30, P_max: 10}, rationale: waits}",
+        "  safety: {answers: [{swing_of: S, over: t_e, ratio: 3}]}",
+    )
+    problem = trade_problem(project, measured)
+    for view, stakeholder in zip(found.agreement.views, project.study.trade_off.stakeholders, strict=True):
+        mine = enumerated(replace(problem, weighting=Weighting(weights=stakeholder.weights)))
+        assert tuple(found.variants[row] for row in view.best) == mine.ties
+        assert view.best_value == pytest.approx(max(mine.values.values()), abs=1e-9)
+    assert found.agreement.views[1].weights == pytest.approx(np.array([0.25, 0.0, 0.75, 0.0]))
+
+
+def test_the_flat_weight_says_what_to_do(wide):
+    _, _, found = wide
+    flat = {one.measure: one for one in found.flat}
+
+    assert flat["S"].remedy.value == "vary_the_world"
+    assert sum(weight for _, weight in flat["S"].effective) == pytest.approx(1.0)
+    assert "S" not in dict(flat["S"].effective)
+
+
+def test_of_another_program_nothing_is_analysed(analysed):
+    _, _, found = analysed("decide_by: {program: lexicographic, order: [{measure: C_total}]}")
+
+    assert found.tornado is None
+    assert found.kept is None
+    assert found.refused == "the lexicographic program does not choose by weighted value"

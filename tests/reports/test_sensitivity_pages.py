@@ -1,0 +1,109 @@
+"""The sensitivity on the page for terminals, in the document and in the report."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+
+import pytest
+
+from rgss.decision.sensitivity import InputKind, RangeBasis, Tornado, TornadoBar, TornadoEnd
+from rgss.reports.decision.json.sensitivity import tornado_to_json
+from rgss.reports.decision.meanings import CONFIDENCE_MEANING, FIRST_MEANING, WEIGHTS_MEANING
+from rgss.reports.decision.text.tornado import PAGE_WIDTH, tornado_lines
+from rgss.reports.decision.tornado_picture import tornado_svg
+
+
+def end(value, lead, *, feasible=True, flip=None):
+    return TornadoEnd(
+        value=value,
+        lead=lead,
+        feasible=feasible,
+        winners=(1,) if lead is not None and lead >= 0 else (2, 3),
+        rival=2,
+        flip=flip,
+        flip_winners=() if flip is None else (2, 3),
+    )
+
+
+def bar(name, low, high, *, swing=None):
+    leads = [one.lead for one in (low, high) if one.lead is not None]
+    return TornadoBar(
+        id=name,
+        kind=InputKind.WEIGHT,
+        unit="1",
+        base=0.5,
+        basis=RangeBasis.SHARE,
+        low=low,
+        high=high,
+        swing=max([0.1, *leads]) - min([0.1, *leads]) if swing is None else swing,
+        exact=True,
+    )
+
+
+@pytest.fixture
+def tornado():
+    return Tornado(
+        chosen=1,
+        rival=2,
+        lead=0.1,
+        bars=(
+            bar("SYS-001.threshold", end(0.4, None, feasible=False, flip=0.45), end(0.6, 0.1), swing=math.inf),
+            bar("weight.<a>", end(0.4, -0.1, flip=0.42), end(0.6, 0.3)),
+            bar("weight.b", end(0.4, 0.05), end(0.6, 0.02)),
+            bar("weight.c", end(0.4, 0.1), end(0.6, 0.1)),
+        ),
+        without_range=("catalogue.free.cost",),
+    )
+
+
+def test_bars_are_drawn_to_scale_within_eighty_columns(tornado):
+    lines = list(tornado_lines(tornado))
+    drawn = {line.split()[0]: line for line in lines if line.startswith(("SYS", "weight.")) and "│" in line}
+    both = drawn["weight.<a>"]
+
+    assert all(len(line) <= PAGE_WIDTH for line in drawn.values())
+    # From -0.1 over 0.1 to 0.3: the same length on both sides of the middle.
+    assert both.count("▒") == pytest.approx(both.count("█"), abs=1)
+    assert both.count("│") == 1
+    assert "✕" in drawn["SYS-001.threshold"]
+    # Both ends on one side: the longer one reaches beyond the shorter one.
+    assert re.search(r"█+▒+│", drawn["weight.b"])
+    assert "weight.c" not in drawn
+    assert "1 more inputs move nothing within their ranges (--json names them)." in lines
+    assert any("catalogue.free.cost" in line for line in lines)
+    assert any(re.match(r"weight\.<a>\s+below 0\.42\s+variants 2, 3", line) for line in lines)
+
+
+def test_a_choice_without_rival(tornado):
+    alone = replace(tornado, lead=None, rival=None, bars=())
+
+    assert "variant 1 has no rival" in next(iter(tornado_lines(alone)))
+    assert tornado_svg(alone) == ""
+
+
+def test_the_picture_is_well_formed_and_to_scale(tornado):
+    root = ET.fromstring(tornado_svg(tornado))  # noqa: S314 (made here)
+    rectangles = [one for one in root if one.tag == "rect"]
+    widths = {one.find("title").text: float(one.get("width")) for one in rectangles}
+
+    assert not [one for one in root.iter() if one.tag in ("script", "style") or one.get("style")]
+    assert widths["weight.<a> at 0.4: lead -0.1000; variants 2, 3"] == pytest.approx(
+        widths["weight.<a> at 0.6: lead 0.3000; variant 1"], abs=0.02
+    )
+    assert "✕" in [one.text for one in root if one.tag == "text"]
+
+
+def test_the_document_has_no_infinite_number(tornado):
+    document = json.loads(json.dumps(tornado_to_json(tornado), allow_nan=False))
+
+    assert document["inputs"][0]["swing"] is None
+    assert [one["input"] for one in document["inputs"]] == [one.id for one in tornado.bars]
+
+
+def test_each_figure_of_acceptability_has_a_sentence():
+    for name, meaning in (("weights", WEIGHTS_MEANING), ("first", FIRST_MEANING), ("confidence", CONFIDENCE_MEANING)):
+        assert meaning.startswith(f"{name}: ")
