@@ -101,6 +101,8 @@ def _over_all(
     records: Sequence[TrialRecord],
     progress: Sequence[Mapping[str, float | None]],
 ) -> EstimateBounds:
+    if measure.estimate is not None and measure.estimate.statistic is Estimator.RATIO:
+        return UNBOUNDED
     least, greatest = [], []
     for record in records:
         most = len(progress) - 1

@@ -21,6 +21,7 @@ from rgss.measures.evaluation import COMPLETE, design_values, evaluate, trial_va
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
+from rgss.measures.ratios import ratio_values
 from rgss.measures.verdicts import StaleCause, Verdict, judge, meets
 
 __all__ = [
@@ -57,5 +58,6 @@ __all__ = [
     "load_measures",
     "meets",
     "proportion_estimate",
+    "ratio_values",
     "trial_values",
 ]

@@ -34,11 +34,13 @@ class Estimator(str, Enum):
     """How trial values become one value.
 
     A mean is the mean of the trials' values; a proportion is the share of trials whose value
-    is complete, which is 1.
+    is complete, which is 1; a ratio is the sum of the numerators of a quotient over the sum of
+    its denominators.
     """
 
     MEAN = "mean"
     PROPORTION = "proportion"
+    RATIO = "ratio"
 
 
 class Population(str, Enum):
