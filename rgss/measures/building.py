@@ -24,6 +24,7 @@ from rgss.measures.document import ConstantEntry, MeasureEntry, MeasuresDocument
 from rgss.measures.expressions import Binary, Expression, ExpressionProblem
 from rgss.measures.parsing import parse_expression
 from rgss.measures.ratios import QUOTIENT
+from rgss.measures.readings import with_readings
 from rgss.quantities import conversion_factor, dimension, parse_quantity
 
 
@@ -37,7 +38,10 @@ def build_measures(loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str
     Returns:
         The measures, or every problem of the file.
     """
-    return _Builder(loaded, lines).build()
+    built = _Builder(loaded, lines).build()
+    if isinstance(built, list):
+        return built
+    return with_readings(built, loaded, lambda changed: _Builder(changed, lines).build())
 
 
 class _Builder:

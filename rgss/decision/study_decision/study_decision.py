@@ -11,9 +11,11 @@ from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.screening_result import ScreeningResult
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
+from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
 from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
+from rgss.measures import MeasureKind, ModelGap, model_gaps
 from rgss.studies import Project
 from rgss.tradeoff import Decision, DecisionStatus, Overlap, PortfolioDecision, SharedPart, SolverRun, TradeProblem
 
@@ -38,6 +40,8 @@ class StudyDecision:
         portfolio: The portfolio of designs; None if the study has none.
         screened: The outcome of screening; None without screening.
         what_if: The suppositions that the decision is made under; None without.
+        gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
+        readings: What each reading of the source would lead to; empty if not analysed.
     """
 
     study: str
@@ -55,6 +59,8 @@ class StudyDecision:
     portfolio: PortfolioDecision | None = None
     screened: ScreeningResult | None = None
     what_if: WhatIf | None = None
+    gaps: tuple[ModelGap, ...] = ()
+    readings: tuple[ReadingOutcome, ...] = ()
 
     @property
     def is_final(self) -> bool:
@@ -121,6 +127,7 @@ def decide_study(
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,
+        readings=reading_outcomes(project, measured) if analysed else (),
     )
 
 
@@ -135,6 +142,7 @@ def study_decision(
     portfolio: PortfolioDecision | None = None,
     screened: ScreeningResult | None = None,
     what_if: WhatIf | None = None,
+    readings: tuple[ReadingOutcome, ...] = (),
 ) -> StudyDecision:
     """The decision of a study from a choice and its analysis; the arguments are those of `decide_study`.
 
@@ -148,6 +156,7 @@ def study_decision(
         portfolio: The portfolio.
         screened: The outcome of screening.
         what_if: The effect of suppositions.
+        readings: What each reading of the source would lead to.
     """
     return StudyDecision(
         study=project.study.id,
@@ -165,4 +174,14 @@ def study_decision(
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,
+        gaps=_gaps(project, measured, decision),
+        readings=readings,
     )
+
+
+def _gaps(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> tuple[ModelGap, ...]:
+    """Notable differences of equation and simulation in the choice's measures of effectiveness."""
+    shown = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
+    chosen = next((entry for entry in measured if entry.variant.id == decision.chosen), None)
+    found = () if chosen is None else model_gaps(project.measures, chosen.estimates)
+    return tuple(gap for gap in found if gap.measure in shown and gap.is_notable)

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from rgss.reports.decision.markdown import decision_section, text_with_place, with_section
     from rgss.reports.decision.report_conflicts import conflict_part
     from rgss.reports.decision.report_part import decision_part
+    from rgss.reports.decision.sentences import gap_sentence
     from rgss.reports.decision.text import decision_lines, screening_lines
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
@@ -19,6 +20,7 @@ __all__ = [
     "decision_part",
     "decision_section",
     "decision_to_json",
+    "gap_sentence",
     "robustness_to_json",
     "screening_lines",
     "screening_to_json",

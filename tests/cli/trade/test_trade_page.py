@@ -156,7 +156,17 @@ def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
         (REPOSITORY / "docs" / "trade_off.md").read_text(encoding="utf-8").split("## The decision as a document", 1)[1]
     )
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
-    whole = {"schema", "study", "double_counting", "shared_parts", "robustness", "fleet", "what_if"}
+    whole = {
+        "schema",
+        "study",
+        "double_counting",
+        "shared_parts",
+        "robustness",
+        "fleet",
+        "what_if",
+        "model_gaps",
+        "readings",
+    }
     whole |= {"evidence", "screening"}
 
     assert nothing.status == 1
