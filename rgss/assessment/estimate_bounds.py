@@ -32,6 +32,8 @@ IN_COMMON = frozenset(
         Failure.PLANNING_LIMIT,
         Failure.INVALID_START,
         Failure.INVALID_GOAL,
+        Failure.MOVE_BLOCKED,
+        Failure.MOVE_UNREACHABLE,
         Failure.UNREACHABLE_WAYPOINT,
         Failure.TRAJECTORY_INFEASIBLE,
         Failure.TRAJECTORY_IN_COLLISION,
