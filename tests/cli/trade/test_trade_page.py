@@ -135,7 +135,7 @@ def test_the_document_is_described(page, rgss, with_evidence):
         r"^robustness\.(weights|refused|costs\.(worst_corner|assumed)"
         r"|.*\.(centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
     )
-    own = re.compile(r"^(robustness|what_if|fleet)\b")
+    own = re.compile(r"^(robustness|what_if|fleet|model_gaps|readings)\b")
     found = {key for key in keys_of(document) if (own.match(key) or "." not in key) and not by_id.match(key)}
 
     assert found - named == set()
