@@ -122,7 +122,11 @@ ACCEPTABILITY = FrameDescription(
 CHANGES = FrameDescription(
     name="changes",
     row="what is supposed, or follows from it",
-    index=(Column(name="what", meaning="what is another, such as weight.t_e"),),
+    index=(
+        Column(
+            name="what", meaning="what is another, such as weight.t_e; a reading with its name, which has no numbers"
+        ),
+    ),
     columns=(
         Column(name="before", meaning="its value in the project", unit=AS_UNIT, kind=Kind.NUMBER),
         Column(name="after", meaning="the value that is supposed", unit=AS_UNIT, kind=Kind.NUMBER),

@@ -146,6 +146,8 @@ def changes_frame(scenario: Scenario | None) -> pd.DataFrame:
         {"what": one.id, "before": one.before, "after": one.after, "unit": one.unit, "asked": asked}
         for one, asked in changes
     ]
+    readings = () if scenario is None else scenario.readings
+    rows += [{"what": one.supposition, "before": None, "after": None, "unit": "", "asked": True} for one in readings]
     return described_frame("changes", rows)
 
 

@@ -32,6 +32,8 @@ IN_COMMON = frozenset(
         Failure.PLANNING_LIMIT,
         Failure.INVALID_START,
         Failure.INVALID_GOAL,
+        Failure.MOVE_BLOCKED,
+        Failure.MOVE_UNREACHABLE,
         Failure.UNREACHABLE_WAYPOINT,
         Failure.TRAJECTORY_INFEASIBLE,
         Failure.TRAJECTORY_IN_COLLISION,
@@ -101,6 +103,8 @@ def _over_all(
     records: Sequence[TrialRecord],
     progress: Sequence[Mapping[str, float | None]],
 ) -> EstimateBounds:
+    if measure.estimate is not None and measure.estimate.statistic is Estimator.RATIO:
+        return UNBOUNDED
     least, greatest = [], []
     for record in records:
         most = len(progress) - 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from rgss.assessment.measuring import VariantMeasures
 from rgss.designs import sources
@@ -15,6 +15,7 @@ from rgss.measures import (
     Population,
     Value,
     design_values,
+    ratio_values,
     trial_values,
 )
 
@@ -23,7 +24,7 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
     """The value of every measure that is observed in trials, in each trial of a variant.
 
     Their mean is the estimate: a measure that is estimated over successful trials is unknown in the
-    others, and one that is a proportion is 1 or 0 in each.
+    others, one that is a proportion is 1 or 0 in each, and one that is a ratio has its linearised values.
 
     Args:
         measures: The measures.
@@ -36,14 +37,23 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
         DefinitionError: A measure is not defined for the design.
     """
     design = design_values(measures, fixed=sources(variant.variant), variant=variant.variant.id)
-    rows: dict[str, list[float | None]] = {measure.id: [] for measure in measures.measures if measure.from_trials}
-    for record in variant.records:
-        values = trial_values(measures, design=design, trial=record.metrics)
-        succeeded = record.metrics.get("success") == 1
-        for measure in measures.measures:
-            if measure.from_trials:
-                rows[measure.id].append(_observed(measure, values, succeeded=succeeded))
-    return {measure: tuple(row) for measure, row in rows.items()}
+    trials = [trial_values(measures, design=design, trial=record.metrics) for record in variant.records]
+    successes = [record.metrics.get("success") == 1 for record in variant.records]
+    return {
+        measure.id: _row(measure, trials, successes) for measure in measures.measures if measure.estimate is not None
+    }
+
+
+def _row(
+    measure: Measure, trials: Sequence[Mapping[str, Value]], successes: Sequence[bool]
+) -> tuple[float | None, ...]:
+    rule = measure.estimate
+    if rule is None or rule.statistic is not Estimator.RATIO:
+        pairs = zip(trials, successes, strict=True)
+        return tuple(_observed(measure, values, succeeded=succeeded) for values, succeeded in pairs)
+    counted = [index for index, success in enumerate(successes) if success or rule.over is Population.ALL]
+    found = dict(zip(counted, ratio_values(measure, [trials[index] for index in counted]), strict=True))
+    return tuple(found.get(index) for index in range(len(trials)))
 
 
 def _observed(measure: Measure, values: Mapping[str, Value], *, succeeded: bool) -> float | None:

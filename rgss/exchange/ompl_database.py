@@ -38,6 +38,8 @@ _STATUS_OF: Mapping[PlanOutcome, int] = MappingProxyType(
         PlanOutcome.INVALID_GOAL: 2,
         PlanOutcome.BUDGET_SPENT: 4,
         PlanOutcome.SOLVED: 6,
+        PlanOutcome.MOVE_BLOCKED: 9,
+        PlanOutcome.MOVE_UNREACHABLE: 9,
     }
 )
 

@@ -2,7 +2,7 @@
 
 from rgss.kinematics.arm import Arm
 from rgss.kinematics.branches import choose_branches
-from rgss.kinematics.cartesian import straight_line
+from rgss.kinematics.cartesian import FollowedLine, LineBreak, follow_line, straight_line
 from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
@@ -14,12 +14,15 @@ __all__ = [
     "ArmDynamics",
     "CollisionContext",
     "CollisionModel",
+    "FollowedLine",
     "InverseKinematics",
+    "LineBreak",
     "Load",
     "NearestPair",
     "Overlap",
     "Solid",
     "choose_branches",
+    "follow_line",
     "gripper_loads",
     "overlaps",
     "straight_line",

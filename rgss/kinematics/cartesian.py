@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +15,28 @@ from rgss.scenes import Pose
 
 Vector = NDArray[np.float64]
 Quaternion = tuple[float, float, float, float]
+
+
+class LineBreak(Enum):
+    """What ends a straight line of the tool on its way."""
+
+    UNREACHABLE = "unreachable"
+    BRANCH_ENDS = "branch_ends"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class FollowedLine:
+    """A straight line of the tool as far as the arm follows it in one branch.
+
+    Attributes:
+        configurations_rad: Joint angles, shape (n, 6), from the start on.
+        fraction: Share of the line that they cover.
+        broken: What ends it there; None if it is whole.
+    """
+
+    configurations_rad: Vector
+    fraction: float
+    broken: LineBreak | None
 
 
 def straight_line(
@@ -39,6 +63,36 @@ def straight_line(
         Joint angles in rad, shape (n, 6), from the start to the goal; None when the line leaves the reach
         or the joints' ranges, or the branch ends on the way.
     """
+    line = follow_line(
+        inverse,
+        start,
+        goal,
+        step_m=step_m,
+        step_rad=step_rad,
+        largest_joint_step_rad=largest_joint_step_rad,
+    )
+    return line.configurations_rad if line.broken is None else None
+
+
+def follow_line(
+    inverse: InverseKinematics,
+    start: Sequence[float] | Vector,
+    goal: Pose,
+    *,
+    step_m: float = 0.005,
+    step_rad: float = 0.02,
+    largest_joint_step_rad: float = 0.2,
+) -> FollowedLine:
+    """Move the tool centre along a straight line as far as the arm can follow it; the arguments are as above.
+
+    Args:
+        inverse: Inverse kinematics of the arm.
+        start: Joint angles in rad at the start, shape (6,).
+        goal: Transform of the tool-centre frame to the world at the end.
+        step_m: Greatest distance of the tool between two rows of the result.
+        step_rad: Greatest turn of the tool between two rows of the result.
+        largest_joint_step_rad: Greatest change of a joint between two rows.
+    """
     rows = [np.array(start, dtype=float)]
     origin = inverse.arm.tool_pose(rows[0])
     distance = math.dist(origin.position_m, goal.position_m)
@@ -46,10 +100,13 @@ def straight_line(
     count = max(1, math.ceil(distance / step_m - 1e-9), math.ceil(turn / step_rad - 1e-9))
     for index in range(1, count + 1):
         q = inverse.nearest(_between(origin, goal, index / count), rows[-1])
-        if q is None or np.max(np.abs(q - rows[-1])) > largest_joint_step_rad:
-            return None
+        broken = LineBreak.UNREACHABLE if q is None else None
+        if q is not None and np.max(np.abs(q - rows[-1])) > largest_joint_step_rad:
+            broken = LineBreak.BRANCH_ENDS
+        if q is None or broken is not None:
+            return FollowedLine(configurations_rad=np.array(rows), fraction=(index - 1) / count, broken=broken)
         rows.append(q)
-    return np.array(rows)
+    return FollowedLine(configurations_rad=np.array(rows), fraction=1.0, broken=None)
 
 
 def _between(start: Pose, goal: Pose, fraction: float) -> Pose:

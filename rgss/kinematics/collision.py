@@ -90,6 +90,7 @@ class CollisionModel:
         bearing = {scene.support, scene.place_support}
         margins: list[float] = []
         self._pairs: list[tuple[str, str]] = []
+        self._clear: list[int] = []
         allowed = _checked_pairs(situation, scene, parts)
         for first, one in enumerate(parts):
             for second in range(first + 1, len(parts)):
@@ -101,6 +102,8 @@ class CollisionModel:
                 surroundings = one.chain is None or other.chain is None
                 self._geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
                 self._pairs.append((one.name, other.name))
+                if surroundings and not stands:
+                    self._clear.append(len(margins))
                 margins.append(clearance_m if surroundings and not stands else 0.0)
         self._margins = tuple(margins)
         self._state = self._geometry.createData()
@@ -180,6 +183,18 @@ class CollisionModel:
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         return min((float(result.min_distance) for result in self._state.distanceResults), default=float("inf"))
+
+    def clearance_m(self, q: Sequence[float] | Vector) -> float:
+        """Least distance in m of what moves from the scene and the standing workpiece; infinite where nothing is.
+
+        Of these pairs the clearance is demanded. The workpiece and the bodies that it stands on by intention are none.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+        """
+        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
+        results = self._state.distanceResults
+        return min((float(results[index].min_distance) for index in self._clear), default=math.inf)
 
     def nearest_pair(self, q: Sequence[float] | Vector) -> NearestPair | None:
         """The pair of parts with the least distance beyond its clearance; None where no pair is checked.

@@ -2,6 +2,7 @@
 
 from rgss.measures.definition_digests import definition_digest
 from rgss.measures.definitions import (
+    Alternative,
     Assumption,
     Constant,
     Direction,
@@ -21,11 +22,15 @@ from rgss.measures.evaluation import COMPLETE, design_values, evaluate, trial_va
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
+from rgss.measures.model_gaps import ModelGap, model_gaps
+from rgss.measures.ratios import ratio_values
+from rgss.measures.readings import with_alternative
 from rgss.measures.verdicts import StaleCause, Verdict, judge, meets
 
 __all__ = [
     "COMPLETE",
     "FUNCTIONS",
+    "Alternative",
     "Assumption",
     "Binary",
     "Call",
@@ -40,6 +45,7 @@ __all__ = [
     "MeasureKind",
     "MeasureSet",
     "MeasuresDocument",
+    "ModelGap",
     "Name",
     "Negative",
     "Node",
@@ -56,6 +62,9 @@ __all__ = [
     "judge",
     "load_measures",
     "meets",
+    "model_gaps",
     "proportion_estimate",
+    "ratio_values",
     "trial_values",
+    "with_alternative",
 ]

@@ -21,8 +21,10 @@ from rgss.measures.definitions import (
 from rgss.measures.dependencies import evaluation_order, transitive_use
 from rgss.measures.dimensions import PURE, Kind, kind_of, si_unit
 from rgss.measures.document import ConstantEntry, MeasureEntry, MeasuresDocument
-from rgss.measures.expressions import Expression, ExpressionProblem
+from rgss.measures.expressions import Binary, Expression, ExpressionProblem
 from rgss.measures.parsing import parse_expression
+from rgss.measures.ratios import QUOTIENT
+from rgss.measures.readings import with_readings
 from rgss.quantities import conversion_factor, dimension, parse_quantity
 
 
@@ -36,7 +38,10 @@ def build_measures(loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str
     Returns:
         The measures, or every problem of the file.
     """
-    return _Builder(loaded, lines).build()
+    built = _Builder(loaded, lines).build()
+    if isinstance(built, list):
+        return built
+    return with_readings(built, loaded, lambda changed: _Builder(changed, lines).build())
 
 
 class _Builder:
@@ -152,7 +157,18 @@ class _Builder:
                 location = ("measures", self._indices[name], "estimate", "statistic")
                 message = 'a proportion needs a single number in unit "1"'
                 self._findings.append(self._document.finding("measures.estimate", message, location))
+            self._check_ratio(entry, expressions[name], kind.length)
         return lengths
+
+    def _check_ratio(self, entry: MeasureEntry, expression: Expression, length: int | None) -> None:
+        root = expression.root
+        if entry.estimate is None or entry.estimate.statistic is not Estimator.RATIO:
+            return
+        if length is not None or not isinstance(root, Binary) or root.symbol != QUOTIENT:
+            location = ("measures", self._indices[entry.id], "estimate", "statistic")
+            message = "a ratio needs an expression that is a quotient of two numbers"
+            hint = "write 'numerator / denominator', with parentheses around a sum or a product"
+            self._findings.append(self._document.finding("measures.estimate", message, location, hint=hint))
 
     def _check_unit(self, location: tuple[str | int, ...], unit: str) -> None:
         try:

@@ -34,11 +34,13 @@ class Estimator(str, Enum):
     """How trial values become one value.
 
     A mean is the mean of the trials' values; a proportion is the share of trials whose value
-    is complete, which is 1.
+    is complete, which is 1; a ratio is the sum of the numerators of a quotient over the sum of
+    its denominators.
     """
 
     MEAN = "mean"
     PROPORTION = "proportion"
+    RATIO = "ratio"
 
 
 class Population(str, Enum):
@@ -127,6 +129,23 @@ class EstimateRule(DocumentModel):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Alternative:
+    """Another reading of a measure's source.
+
+    Attributes:
+        id: Its name among the measure's alternatives.
+        expression: The expression that it puts in the place of the measure's.
+        estimate: How trial values then become one; None where it follows from the design alone.
+        rationale: Why the source can be read so.
+    """
+
+    id: str
+    expression: Expression
+    estimate: EstimateRule | None
+    rationale: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Measure:
     """A quantity by which designs are compared.
 
@@ -145,6 +164,8 @@ class Measure:
         estimate: How trial values become one; None when it follows from the design alone.
         summary: How a row becomes one number; None for a single number.
         length: The number of its entries; None for a single number.
+        simulated_as: The measure that a simulation shows of the same quantity; None where there is none.
+        alternatives: Other readings of its source.
     """
 
     id: str
@@ -161,6 +182,8 @@ class Measure:
     estimate: EstimateRule | None
     summary: Summary | None
     length: int | None
+    simulated_as: str | None = None
+    alternatives: tuple[Alternative, ...] = ()
 
     @property
     def from_trials(self) -> bool:

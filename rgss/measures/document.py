@@ -43,6 +43,15 @@ class EquationEntry(DocumentModel):
     note: Text | None = None
 
 
+class AlternativeEntry(DocumentModel):
+    """Another reading of a measure's source: another expression, another estimate, or both."""
+
+    id: Identifier
+    expression: Text | None = None
+    estimate: EstimateRule | None = None
+    rationale: Text
+
+
 class MeasureEntry(DocumentModel):
     """A quantity by which designs are compared."""
 
@@ -58,6 +67,8 @@ class MeasureEntry(DocumentModel):
     contributes_to: tuple[Identifier, ...] = ()
     estimate: EstimateRule | None = None
     summary: Summary | None = None
+    simulated_as: Identifier | None = None
+    alternatives: tuple[AlternativeEntry, ...] = ()
 
 
 class MeasuresDocument(DocumentModel):

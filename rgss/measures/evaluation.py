@@ -9,6 +9,7 @@ from rgss.errors import DefinitionError
 from rgss.measures.definitions import Estimator, InputSymbol, Measure, MeasureSet, Population
 from rgss.measures.estimates import Estimate, interval_seed, mean_estimate, proportion_estimate
 from rgss.measures.functions import FUNCTIONS, Value
+from rgss.measures.ratios import ratio_values
 
 Observed = float | int | None | Sequence[float | int | None]
 """A metric as a trial recorded it."""
@@ -56,7 +57,12 @@ def evaluate(
             estimates[measure.id] = Estimate.exact(design[measure.id] / measure.si_per_unit, measure.unit)
             continue
         counted = [row for row, success in zip(rows, successes, strict=True) if success or rule.over is Population.ALL]
-        known = [value for row in counted if (value := _summarised(measure, row)) is not None]
+        values = (
+            ratio_values(measure, counted)
+            if rule.statistic is Estimator.RATIO
+            else [_summarised(measure, row) for row in counted]
+        )
+        known = [value for value in values if value is not None]
         if rule.statistic is Estimator.PROPORTION:
             complete = sum(value >= COMPLETE for value in known)
             estimates[measure.id] = proportion_estimate(complete, len(known))

@@ -58,6 +58,19 @@ FidelityField = Annotated[
 """One fidelity, or that which screens and that which decides."""
 
 
+MoveName = Literal["planned", "straight", "joint"]
+
+
+class MovesEntry(DocumentModel):
+    """Kind of each move that a planner would plan."""
+
+    move_to_grasp: MoveName = "planned"
+    move_to_grasp_departure: MoveName = "planned"
+    move_to_place_approach: MoveName = "planned"
+    move_to_place: MoveName = "planned"
+    move_to_grasp_approach: MoveName = "planned"
+
+
 class PlanningEntry(DocumentModel):
     """How moves are planned."""
 
@@ -106,6 +119,7 @@ class StudyDocument(DocumentModel):
     promotion: PromotionEntry | None = None
     until_decided: UntilDecidedEntry | None = None
     planning: PlanningEntry
+    moves: MovesEntry = MovesEntry()
     physics: PhysicsEntry
     trade_off: TradeOffEntry
     regression: RegressionEntry | None = None

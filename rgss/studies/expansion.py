@@ -54,6 +54,7 @@ def trial_settings(project: Project) -> TrialSettings:
             simplification_checks=planning.simplification_checks,
             simplification_limit_s=planning.simplification_limit_s,
             clearance_m=planning.clearance_m,
+            moves=planning.moves,
         ),
         physics=PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),
     )

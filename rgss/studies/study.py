@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 
 from rgss.documents import Document, FilePlace, load_document, place_of
 from rgss.errors import DocumentError
-from rgss.evidence import Fidelity
+from rgss.evidence import PLANNED_PHASES, Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
 from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
@@ -21,6 +21,7 @@ from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
 from rgss.tradeoff import Anchor
 from rgss.tradeoff.sequential import SequentialRule
+from rgss.trials import MoveKind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +37,7 @@ class PlanningChoice:
         clearance_m: Distance that planned paths keep from everything.
         planner: The planner where no design sets it; empty if the file has none.
         time_limit_s: Longest planning time of one move where no design sets it; None if the file has none.
+        moves: Kind of each of the moves of `PLANNED_PHASES`.
     """
 
     counted: bool
@@ -46,6 +48,7 @@ class PlanningChoice:
     clearance_m: float
     planner: str = ""
     time_limit_s: float | None = None
+    moves: tuple[MoveKind, ...] = (MoveKind.PLANNED,) * len(PLANNED_PHASES)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -185,6 +188,7 @@ def read_study(
             clearance_m=planning.clearance,
             planner=planning.planner or "",
             time_limit_s=planning.time_limit,
+            moves=tuple(MoveKind(getattr(entry.moves, phase.value)) for phase in PLANNED_PHASES),
         ),
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,

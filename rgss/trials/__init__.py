@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from rgss.trials.impact import ClosingImpact, closing_impact
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
+    from rgss.trials.move_kinds import MoveKind
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.settings import PlanningSettings, TrialSettings
     from rgss.trials.tracing import run_traced_trial
@@ -25,6 +26,7 @@ __all__ = [
     "Direction",
     "Film",
     "MetricDescriptor",
+    "MoveKind",
     "Obstacle",
     "PhaseValue",
     "PlanningSettings",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from rgss.evidence import Fidelity, Phase
 from rgss.physics import TorqueArm, World
@@ -47,12 +48,12 @@ def execute(
             )
     control, gripper = spec.settings.control, spec.gripper
     if spec.fidelity is Fidelity.KINEMATIC:
-        model = KinematicPlant(cell.arm, gripper, scene.workpiece, control, step_s=physics.step_s)
-        return run_program(model, references, checkpoint=checkpoint)
+        model = KinematicPlant(cell.arm, scene.robot.joints, gripper, scene.workpiece, control, step_s=physics.step_s)
+        return _with_quality(run_program(model, references, checkpoint=checkpoint), timing)
     if spec.fidelity is Fidelity.DYNAMIC:
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
             plant = DynamicPlant(machine, cell.arm, scene, gripper, physics, control, checkpoint=checkpoint)
-            return run_program(plant, references)
+            return _with_quality(run_program(plant, references), timing)
     # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.
     firm = physics.passing(
         force_n=gripper.finger_force_n,
@@ -60,7 +61,8 @@ def execute(
         lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
     )
     with World(scene, gripper, firm) as world:
-        return Execution(world, references, control, cell.arm, observer=observer, checkpoint=checkpoint).run()
+        execution = Execution(world, references, control, cell.arm, observer=observer, checkpoint=checkpoint)
+        return _with_quality(execution.run(), timing)
 
 
 def execution_of(
@@ -82,3 +84,20 @@ def execution_of(
         SimulationError: The physics engine cannot build the world.
     """
     return execute(spec, cell_of(spec), timing, observer=observer, checkpoint=checkpoint)
+
+
+def _with_quality(results: tuple[PhaseResult, ...], timing: TaskTiming) -> tuple[PhaseResult, ...]:
+    """The phases with the clearance and the manipulability of the motion that each was to follow."""
+    return tuple(
+        result
+        if (quality := timing.qualities.get(result.phase)) is None
+        else replace(
+            result,
+            metrics={
+                **result.metrics,
+                "path_clearance_min_m": quality.clearance_m,
+                "manipulability_min_m3": quality.manipulability_m3,
+            },
+        )
+        for result in results
+    )

@@ -14,7 +14,9 @@ from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
 from rgss.kinematics import InverseKinematics, choose_branches, straight_line
 from rgss.motion import ClockKind, PlanningClock, PlanningProblem, PlanResult, path_length, plan, segment_states
 from rgss.scenes import Scene, Waypoint, waypoint_poses
+from rgss.trials.direct_moves import direct_move
 from rgss.trials.goal_reasons import GoalReason, reason_against
+from rgss.trials.move_kinds import MoveKind
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
 from rgss.trials.trial_spec import TrialSpec
@@ -89,7 +91,7 @@ class TaskPlan:
         counted = self.clock.kind is ClockKind.COUNTED
         budget = self.clock.checks_within(limit_s) if counted else move.checks
         in_time = move.checks <= budget if counted else move.search_time_s <= limit_s
-        if move.outcome is PlanOutcome.SOLVED and in_time:
+        if move.outcome is not PlanOutcome.BUDGET_SPENT and in_time:
             return move
         return replace(
             move,
@@ -100,6 +102,7 @@ class TaskPlan:
             time_s=limit_s,
             path_rad=None,
             path_length_m=None,
+            detail="",
         )
 
 
@@ -118,7 +121,7 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
     scene, models = cell.scene, cell.planning
     stops, lift, reasons = _configurations(cell)
     moves: dict[Phase, PlannedMove] = {}
-    for phase in PLANNED_PHASES:
+    for phase, kind in zip(PLANNED_PHASES, settings.moves, strict=True):
         start, goal = (stops.get(waypoint) for waypoint in _ENDS[phase])
         if start is None or goal is None:
             outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL
@@ -126,6 +129,11 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
             why = reasons.get(waypoint, "none leads to it from the waypoint before")
             moves[phase] = _ill_posed(phase, outcome, f"no configuration serves {waypoint.value}: {why}")
             break
+        if kind is not MoveKind.PLANNED:
+            moves[phase] = _direct(phase, kind, start, goal, cell, settings)
+            if moves[phase].outcome is not PlanOutcome.SOLVED:
+                break
+            continue
         result = plan(
             _problem(scene, start, goal, settings),
             models[phase],
@@ -241,6 +249,28 @@ def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: Plannin
         path_rad=path,
         path_length_m=None if path is None else _tool_path_length(cell, path, settings.resolution_rad),
     )
+
+
+def _direct(
+    phase: Phase, kind: MoveKind, start: Array, goal: Array, cell: Workcell, settings: PlanningSettings
+) -> PlannedMove:
+    """A move without a search, in the place of a planned one."""
+    found = direct_move(
+        kind,
+        start,
+        goal,
+        waypoint_poses(cell.scene)[_ENDS[phase][1]],
+        inverse=InverseKinematics(cell.arm),
+        model=cell.planning[phase],
+        clock=settings.clock,
+        resolution_rad=settings.resolution_rad,
+        limit_s=settings.search_limit_s,
+    )
+    path = found.path_rad
+    length_m = None if path is None else _tool_path_length(cell, path, settings.resolution_rad)
+    move = _ill_posed(phase, found.outcome, found.detail)
+    times = {"search_time_s": found.time_s, "time_s": found.time_s}
+    return replace(move, checks=found.checks, path_rad=path, path_length_m=length_m, **times)
 
 
 def _tool_path_length(cell: Workcell, path: Array, resolution_rad: float) -> float:

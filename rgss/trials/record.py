@@ -25,6 +25,8 @@ _PLANNING_FAILURES = {
     PlanOutcome.BUDGET_SPENT: Failure.PLANNING_LIMIT,
     PlanOutcome.INVALID_START: Failure.INVALID_START,
     PlanOutcome.INVALID_GOAL: Failure.INVALID_GOAL,
+    PlanOutcome.MOVE_BLOCKED: Failure.MOVE_BLOCKED,
+    PlanOutcome.MOVE_UNREACHABLE: Failure.MOVE_UNREACHABLE,
 }
 _CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 
@@ -142,7 +144,6 @@ def _metrics(
         ),
         "path_length_m": tuple(record.path_length_m for record in planning),
         **_durations(phases, planning, success=success),
-        "most_loaded_joint": _most_loaded_joint(phases),
         "grasp_force_closure_share_1": _force_closure_share(phases),
         "bench_payload_kg": bench_payload_kg,
     }
@@ -157,6 +158,8 @@ def _aggregated(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Metr
     rule = metric.trial
     if rule is Aggregation.AT_GRASP:
         return next(phase for phase in phases if phase.phase is Phase.GRASP).metrics.get(metric.source)
+    if rule is Aggregation.OF_GREATEST:
+        return _of_greatest(metric, phases)
     if rule in (Aggregation.WORST_CARRIED, Aggregation.SUM_CARRIED):
         phases = [phase for phase in phases if phase.phase in _CARRIED]
     values = [value for phase in phases if (value := phase.metrics.get(metric.name)) is not None]
@@ -191,18 +194,19 @@ def _durations(
     return {
         "motion_time_s": motion_s,
         "task_time_s": motion_s + planning_s if success else None,
+        "attempt_time_s": motion_s + planning_s,
         "grasp_cycle_time_s": cycle_s,
     }
 
 
-def _most_loaded_joint(phases: Sequence[PhaseRecord]) -> Metric:
-    """The joint that came nearest to its torque limit in any phase."""
-    ratios = [
-        (ratio, phase.metrics.get("most_loaded_joint"))
+def _of_greatest(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Metric:
+    """The value in the phase in which the metric's source is greatest, the first of equals."""
+    found = [
+        (source, phase.metrics.get(metric.name))
         for phase in phases
-        if isinstance(ratio := phase.metrics.get("peak_joint_torque_ratio"), float)
+        if isinstance(source := phase.metrics.get(metric.source), float)
     ]
-    return max(ratios, key=lambda pair: pair[0])[1] if ratios else None
+    return max(found, key=lambda pair: pair[0])[1] if found else None
 
 
 def _force_closure_share(phases: Sequence[PhaseRecord]) -> float | None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from rgss.evidence import PLANNED_PHASES
 from rgss.motion import PlanningClock
 from rgss.physics import PhysicsSettings
+from rgss.trials.move_kinds import MoveKind
 from rgss.trials.plants import ControlSettings
 
 
@@ -22,6 +24,7 @@ class PlanningSettings:
         simplification_limit_s: Longest time of simplifying a path by the planning clock, the final check of
             its result included. A move's planning time is at most the planning limit and this one together.
         clearance_m: Distance that planned paths keep from everything; what runs keeps a quarter of it.
+        moves: Kind of each of the moves of `PLANNED_PHASES`.
     """
 
     clock: PlanningClock
@@ -30,6 +33,7 @@ class PlanningSettings:
     simplification_checks: int = 1500
     simplification_limit_s: float = 2.0
     clearance_m: float = 0.008
+    moves: tuple[MoveKind, ...] = (MoveKind.PLANNED,) * len(PLANNED_PHASES)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rgss.evidence import Failure, Phase
 from rgss.motion import JointPath, MotionLimits, TimingOutcome, Trajectory, time_move
+from rgss.trials.path_quality import PathQuality, path_quality
 from rgss.trials.plan import TaskPlan
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
@@ -35,10 +36,12 @@ class TaskTiming:
     Attributes:
         trajectories: The trajectory of each move that has one.
         failures: Why the others that have a path have none.
+        qualities: Clearance and manipulability along each trajectory.
     """
 
     trajectories: Mapping[Phase, Trajectory]
     failures: Mapping[Phase, tuple[Failure, str]]
+    qualities: Mapping[Phase, PathQuality]
 
 
 def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings: PlanningSettings) -> TaskTiming:
@@ -75,7 +78,10 @@ def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings
             failures[phase] = (Failure.TRAJECTORY_INFEASIBLE, _too_slow(result.trajectory, limits))
         else:
             trajectories[phase] = result.trajectory
-    return TaskTiming(trajectories=trajectories, failures=failures)
+    qualities = {
+        phase: path_quality(trajectory, cell.running[phase], cell.arm) for phase, trajectory in trajectories.items()
+    }
+    return TaskTiming(trajectories=trajectories, failures=failures, qualities=qualities)
 
 
 def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:

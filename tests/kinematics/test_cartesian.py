@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from rgss.kinematics import straight_line
+from rgss.kinematics import LineBreak, follow_line, straight_line
 from rgss.scenes import Pose
 
 GRASP = Pose.from_roll_pitch_yaw((0.7, -0.3, 0.95), (math.pi, 0.0, 0.0))
@@ -70,6 +70,23 @@ def test_a_line_that_leaves_the_reach_is_refused(inverse, start):
 
 def test_a_line_on_which_a_joint_jumps_is_refused(inverse, start):
     assert straight_line(inverse, start, GRASP.raised(0.15), largest_joint_step_rad=1e-4) is None
+
+
+def test_a_line_is_followed_as_far_as_the_arm_can(arm, inverse, start):
+    far = follow_line(inverse, start, GRASP.raised(3.0), largest_joint_step_rad=math.pi)
+    stretched = follow_line(inverse, start, GRASP.raised(3.0))
+    jump = follow_line(inverse, start, GRASP.raised(0.15), largest_joint_step_rad=1e-4)
+    whole = follow_line(inverse, start, GRASP.raised(0.15))
+
+    assert far.broken is LineBreak.UNREACHABLE
+    assert 0.0 < far.fraction < 0.5
+    risen_m = arm.tool_position(far.configurations_rad)[-1, 2] - 0.95
+    assert risen_m == pytest.approx(3.0 * far.fraction, abs=1e-6)
+    # The elbow turns ever faster towards the stretched arm, which is singular.
+    assert stretched.broken is LineBreak.BRANCH_ENDS
+    assert 0.0 < stretched.fraction <= far.fraction
+    assert (jump.broken, jump.fraction, len(jump.configurations_rad)) == (LineBreak.BRANCH_ENDS, 0.0, 1)
+    assert (whole.broken, whole.fraction) == (None, 1.0)
 
 
 def test_a_line_of_no_length_is_its_start(inverse, start):

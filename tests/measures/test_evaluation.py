@@ -4,10 +4,11 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.measures import Estimate, MeasureSet, design_values, evaluate, trial_values
+from rgss.measures import Estimate, MeasureSet, design_values, evaluate, ratio_values, trial_values
 
 Loader = Callable[..., MeasureSet]
 Writer = Callable[..., str]
@@ -140,3 +141,47 @@ def test_a_metric_of_another_shape_is_an_error(
     measures = load_entries(entry("x", "m"))
     with pytest.raises(DefinitionError, match=message):
         estimates(measures, {metric: value})
+
+
+PICKS = "{statistic: ratio, over: all}"
+
+
+def test_a_ratio_is_the_sum_of_its_numerators_over_that_of_its_denominators(
+    load_entries: Loader, entry: Writer
+) -> None:
+    measures = load_entries(entry("rate", "share / time", "1/h", estimate=PICKS))
+    result = estimates(
+        measures,
+        {"share": 1, "task_time_s": 10.0},
+        {"share": 0, "task_time_s": 40.0},
+        {"share": 1, "task_time_s": 14.0},
+        {"share": None, "task_time_s": 99.0},
+    )["rate"]
+
+    # Two picks in 64 s; the mean of the trials' rates would be 206 an hour.
+    assert (result.value, result.n) == (pytest.approx(2 * 3600 / 64), 3)
+    assert result.low is not None
+    assert result.high is not None
+    assert result.low < result.value < result.high
+
+
+def test_a_ratio_of_nothing_is_unknown(load_entries: Loader, entry: Writer) -> None:
+    measures = load_entries(entry("rate", "share / time", "1/h", estimate=PICKS))
+
+    assert estimates(measures, {"share": 1, "task_time_s": 0.0})["rate"] == Estimate.unknown("1/h")
+    assert estimates(measures, {"share": 1})["rate"] == Estimate.unknown("1/h")
+
+
+def test_the_linearised_values_of_a_ratio_have_its_value_as_mean_and_its_variance(
+    load_entries: Loader, entry: Writer
+) -> None:
+    measures = load_entries(entry("rate", "share / time", "1/s", estimate=PICKS))
+    rng = np.random.default_rng(3)
+    picks, times = rng.integers(0, 2, size=(4000, 200)), rng.uniform(5.0, 20.0, size=(4000, 200))
+    rows = [{"share": float(a), "time": float(b)} for a, b in zip(picks[0], times[0], strict=True)]
+
+    values = [value for value in ratio_values(measures.measure("rate"), rows) if value is not None]
+
+    assert math.fsum(values) / 200 == pytest.approx(picks[0].sum() / times[0].sum())
+    spread = (picks.sum(axis=1) / times.sum(axis=1)).std()
+    assert np.std(values) / math.sqrt(200) == pytest.approx(spread, rel=0.15)

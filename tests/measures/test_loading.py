@@ -141,6 +141,11 @@ def test_a_measure_is_checked_against_what_another_declares(
             "measures.estimate",
             'a proportion needs a single number in unit "1"',
         ),
+        (
+            {"estimate": "{statistic: ratio, over: all}"},
+            "measures.estimate",
+            "a ratio needs an expression that is a quotient of two numbers",
+        ),
     ],
 )
 def test_a_measure_of_trials_says_how_it_is_estimated(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Mapping
 from typing import Any
@@ -79,6 +80,15 @@ TRIAL: Mapping[str, Any] = {
     "joint_saturated_s": (0.0, 0.5, 0.0, 0.0, 0.25, 0.0),
     "sensed_finger_force_n": 9.5,
     "place_error_m": 0.004,
+    "place_tilt_rad": math.radians(0.5),
+    "attempt_time_s": 15.5,
+    "joint_work_j": 310.0,
+    "joint_net_work_j": 12.0,
+    "peak_joint_speed_ratio": 0.7,
+    "peak_joint_utilisation": 0.7,
+    "manipulability_min_m3": 0.06,
+    "path_clearance_min_m": 0.005,
+    "landing_force_n": 11.5,
     "peak_joint_torque_ratio": 0.6,
 }
 
@@ -127,6 +137,14 @@ def values(reference: MeasureSet, variant: int, *trials: Mapping[str, Any], **ch
                 "grip_margin": 1.6,
                 "slip": 1.5,
                 "place_error": 4.0,
+                "place_tilt": 0.5,
+                "MPPH": 3600.0 / 15.5,
+                "E_cycle": 310.0,
+                "joint_speed_ratio": 0.7,
+                "joint_utilisation": 0.7,
+                "manipulability": 0.06,
+                "clearance": 5.0,
+                "contact_force_peak": 11.5,
                 "P_max_simulated": 1.2 / 1.5,  # the bench in place of 4.8
                 "force_closure": 1.0,
                 "Q_MSV": 1.5,
@@ -247,7 +265,9 @@ def test_a_failed_trial_counts_in_success_and_not_in_time(reference: MeasureSet)
         "planning_time_s": (0.5, 0.5, 4.0, None, None),
         "path_length_m": (0.2, 0.3, None, None, None),
     }
+    failed["attempt_time_s"] = 7.0
     result = values(reference, 1, TRIAL, failed, TRIAL)
+    assert (result["MPPH"].value, result["MPPH"].n) == (pytest.approx(2 * 3600 / (2 * 15.5 + 7.0)), 3)
     assert (result["S"].value, result["S"].n) == (pytest.approx(2 / 3), 3)
     assert result["S_mean"].value == pytest.approx((1 + 0.25 + 1) / 3)
     assert (result["t_e"].value, result["t_e"].n) == (pytest.approx(10.2), 2)

@@ -6,6 +6,7 @@ import pytest
 
 from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
+from rgss.studies.expansion import trial_settings
 from rgss.studies.project import load_project
 from rgss.studies.study import named_file, read_study
 
@@ -43,7 +44,14 @@ trade_off:
 """
 LONG = "x" * 5000
 
+MOVES = "moves:\n  move_to_grasp: straight\n  move_to_place: joint\n"
 FINDINGS = [
+    (
+        "physics:\n",
+        "moves: {move_to_grasp: curved}\nphysics:\n",
+        "19:24: error: move_to_grasp: 'curved' is not one of 'planned', 'straight' or 'joint'",
+    ),
+    ("physics:\n", "moves: {lift: straight}\nphysics:\n", "19:9: error: "),
     ("charge_per_check: 0.25 ms", "charge_per_check: 0 ms", "14:21: error: charge_per_check must be greater than zero"),
     ("resolution: 0.01 rad", "resolution: -0.01 rad", "15:15: error: resolution must be greater than zero"),
     ("clearance: 8 mm", "clearance: -8 mm", "17:14: error: clearance must not be negative [study.negative]"),
@@ -117,6 +125,22 @@ def test_finding(edit, problems, old, new, expected):
     (problem,) = problems()
 
     assert problem.startswith(f"{STUDY}:{expected}")
+
+
+def test_each_move_is_planned_unless_the_study_says_otherwise(edit, folder):
+    was = load_project(folder, STUDY)
+    edit(STUDY, "physics:\n", f"{MOVES}physics:\n")
+    project = load_project(folder, STUDY)
+
+    assert [kind.value for kind in was.study.planning.moves] == ["planned"] * 5
+    assert [kind.value for kind in project.study.planning.moves] == [
+        "straight",
+        "planned",
+        "planned",
+        "joint",
+        "planned",
+    ]
+    assert trial_settings(project).planning.moves == project.study.planning.moves
 
 
 @pytest.mark.parametrize("fidelity", ["kinematic", "dynamic"])

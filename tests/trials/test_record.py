@@ -108,7 +108,7 @@ def test_metrics_of_a_success(spec):
     assert metrics["planning_time_s"] == pytest.approx((1.5, 1.6, 1.7, 1.8, 2.5))
     assert metrics["path_length_m"] == (0.5,) * 5
     assert metrics["motion_time_s"] == motion_s
-    assert metrics["task_time_s"] == pytest.approx(motion_s + 9.1)
+    assert metrics["task_time_s"] == metrics["attempt_time_s"] == pytest.approx(motion_s + 9.1)
     assert metrics["grasp_cycle_time_s"] == 3.0 + 0.25
     assert metrics["sensed_finger_force_n"] == 4.0
     assert metrics["peak_finger_force_n"] == 8.0
@@ -148,6 +148,7 @@ def test_the_load_of_each_joint_is_that_of_all_phases(spec):
     assert metrics["joint_saturated_s"] == (0.0, 0.0, 0.0, 0.0, 0.0, 2.0)
     # The greatest ratio is that of the last phase.
     assert metrics["most_loaded_joint"] == 8
+    assert metrics["governing_joint"] is None  # No phase observed its utilisation.
 
 
 def test_the_grasp_is_at_its_worst_over_the_carry_and_as_it_was_closed(spec):
@@ -190,6 +191,8 @@ def test_a_limit_cuts_the_trial_before_the_move_that_comes_too_late(spec):
     assert record.metrics["path_length_m"] == (0.5, 0.5, None, None, None)
     assert record.metrics["motion_time_s"] == 2 + 3 + 4 + 5
     assert record.metrics["task_time_s"] is None
+    planning_s = sum(one.time_s for one in record.planning if one.time_s is not None)
+    assert record.metrics["attempt_time_s"] == pytest.approx(2 + 3 + 4 + 5 + planning_s)
     assert record.metrics["grasp_cycle_time_s"] is None
     assert record.metrics["phases_completed"] == 4
     assert record.metrics["peak_finger_force_n"] == 4.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
@@ -130,6 +130,7 @@ def _print_variant(project: Project, entry: VariantMeasures) -> None:
     print_table(["measure", "kind", "name", "value", "unit", "interval", "trials"], rows, right=(3, 6))
     print()
     print_table(["requirement", "verdict"], [[name, verdict.value] for name, verdict in entry.verdicts.items()])
+    _print_gaps(project, [entry], entry.estimates)
     _print_stale([entry])
 
 
@@ -152,7 +153,28 @@ def _print_all(project: Project, measured: Sequence[VariantMeasures]) -> None:
             [str(entry.variant.id), *cells, str(len(entry.records)), *(v.value for v in entry.verdicts.values())]
         )
     print_table(titles, rows, right=(0,))
+    _print_gaps(project, measured, [measure.id for measure in shown])
     _print_stale(measured)
+
+
+def _print_gaps(project: Project, measured: Sequence[VariantMeasures], shown: Container[str]) -> None:
+    """Say where an equation and the simulation differ by more than a tenth."""
+    from rgss.measures import ModelGap, model_gaps
+    from rgss.reports.decision import gap_sentence
+
+    found: dict[str, list[tuple[int, ModelGap]]] = {}
+    for entry in measured:
+        for gap in model_gaps(project.measures, entry.estimates):
+            if gap.is_notable and gap.measure in shown:
+                found.setdefault(gap.measure, []).append((entry.variant.id, gap))
+    if found:
+        print()
+    for measure, gaps in found.items():
+        variant, widest = max(gaps, key=lambda pair: abs(pair[1].relative))
+        in_all = (
+            f"{measure}: equation and simulation differ by more than 10 % in {len(gaps)} of {len(measured)} variants"
+        )
+        print(f"Caution: {in_all}, most in variant {variant}: {gap_sentence(widest)}.")
 
 
 def _print_stale(measured: Sequence[VariantMeasures]) -> None:

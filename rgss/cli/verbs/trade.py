@@ -37,7 +37,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=VALUE",
         help="suppose another weight.MEASURE, REQUIREMENT.threshold (or that of a chance:, tail: or limit: as the page "
         "prints it), value.MEASURE.worst (or best …), "
-        "catalogue.COMPONENT.cost (or another property) or measures.CONSTANT, and show before and after; "
+        "catalogue.COMPONENT.cost (or another property), measures.CONSTANT or reading.MEASURE (an alternative of a "
+        "measure), and show before and after; "
         "may be given several times",
     )
     parser.add_argument(

@@ -28,8 +28,8 @@ def is_affine(measures: MeasureSet, measure: str, symbols: Collection[str]) -> b
     for one in measures.evaluation_order:
         degrees[one.id] = _degree(one.expression.root, degrees)
     defined = measures.measure(measure)
-    proportion = defined.estimate is not None and defined.estimate.statistic is Estimator.PROPORTION
-    if degrees[measure] != CONSTANT and (proportion or defined.summary is Summary.MAX):
+    is_mean = defined.estimate is None or defined.estimate.statistic is Estimator.MEAN
+    if degrees[measure] != CONSTANT and (not is_mean or defined.summary is Summary.MAX):
         return False
     return degrees[measure] != OTHER
 

@@ -12,9 +12,11 @@ from rgss.decision.screening_result import ScreeningResult
 from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
+from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
 from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
+from rgss.measures import MeasureKind, ModelGap, model_gaps
 from rgss.studies import Project
 from rgss.tradeoff import Decision, DecisionStatus, Overlap, PortfolioDecision, SharedPart, SolverRun, TradeProblem
 from rgss.tradeoff.elicitation import ElicitedWeights
@@ -43,6 +45,8 @@ class StudyDecision:
         sensitivity: How the decision follows from its inputs; None if not analysed.
         elicited: Groups whose weights follow from pairwise answers.
         elicited_by: The same of stakeholders, by name.
+        gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
+        readings: What each reading of the source would lead to; empty if not analysed.
     """
 
     study: str
@@ -63,6 +67,8 @@ class StudyDecision:
     sensitivity: Sensitivity | None = None
     elicited: tuple[ElicitedWeights, ...] = ()
     elicited_by: Mapping[str, ElicitedWeights] = field(default_factory=dict)
+    gaps: tuple[ModelGap, ...] = ()
+    readings: tuple[ReadingOutcome, ...] = ()
 
     @property
     def is_final(self) -> bool:
@@ -132,6 +138,7 @@ def decide_study(
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,
+        readings=reading_outcomes(project, measured) if analysed else (),
     )
 
 
@@ -146,6 +153,7 @@ def study_decision(
     portfolio: PortfolioDecision | None = None,
     screened: ScreeningResult | None = None,
     what_if: WhatIf | None = None,
+    readings: tuple[ReadingOutcome, ...] = (),
 ) -> StudyDecision:
     """The decision of a study from a choice and its analysis; the arguments are those of `decide_study`.
 
@@ -159,6 +167,7 @@ def study_decision(
         portfolio: The portfolio.
         screened: The outcome of screening.
         what_if: The effect of suppositions.
+        readings: What each reading of the source would lead to.
     """
     return StudyDecision(
         study=project.study.id,
@@ -179,4 +188,14 @@ def study_decision(
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,
+        gaps=_gaps(project, measured, decision),
+        readings=readings,
     )
+
+
+def _gaps(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> tuple[ModelGap, ...]:
+    """Notable differences of equation and simulation in the choice's measures of effectiveness."""
+    shown = {measure.id for measure in project.measures.of_kind(MeasureKind.EFFECTIVENESS)}
+    chosen = next((entry for entry in measured if entry.variant.id == decision.chosen), None)
+    found = () if chosen is None else model_gaps(project.measures, chosen.estimates)
+    return tuple(gap for gap in found if gap.measure in shown and gap.is_notable)

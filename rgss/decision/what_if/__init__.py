@@ -13,6 +13,7 @@ if TYPE_CHECKING:
         symbols_of,
         variant_with,
     )
+    from rgss.decision.what_if.readings import Reading, readings_of
     from rgss.decision.what_if.remeasured import measured_in
     from rgss.decision.what_if.scenario import Change, Scenario
     from rgss.decision.what_if.simulated import simulated_numbers
@@ -24,10 +25,12 @@ __all__ = [
     "COST",
     "Change",
     "ModelNumber",
+    "Reading",
     "Scenario",
     "assumed_numbers",
     "measured_in",
     "measures_with",
+    "readings_of",
     "simulated_numbers",
     "suppose",
     "symbols_of",

@@ -24,12 +24,15 @@ def measured_in(scenario: Scenario, measured: Sequence[VariantMeasures]) -> tupl
     numbers = {number.id: number for number in model_numbers(project)}
     changed = [(numbers[change.id], change.after) for change in scenario.changes if change.id in numbers]
     symbols = frozenset().union(*(symbols_of(project.measures, number) for number, _ in changed))
-    affected = frozenset(name for name, used in project.measures.used.items() if symbols & used)
+    read = frozenset(reading.measure for reading in scenario.readings)
+    affected = frozenset(
+        name for name, used in project.measures.used.items() if name in read or (symbols | read) & used
+    )
     found = []
     for entry in measured:
         if entry.variant.id in scenario.dropped:
             continue
-        if not changed:
+        if not changed and not read:
             found.append(entry)
             continue
         variant = entry.variant

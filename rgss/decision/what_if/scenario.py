@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rgss.decision.what_if.readings import Reading
 from rgss.studies import Project
 
 
@@ -36,6 +37,7 @@ class Scenario:
         dropped: Variants that the rules of the design space would no longer allow.
         simulated: The numbers that the trials were simulated with, by id: what trials showed is
             held, though another value asks for other trials.
+        readings: Other readings of the source that were asked for.
     """
 
     project: Project
@@ -43,3 +45,4 @@ class Scenario:
     rescaled: tuple[Change, ...]
     dropped: tuple[int, ...]
     simulated: tuple[str, ...]
+    readings: tuple[Reading, ...] = ()

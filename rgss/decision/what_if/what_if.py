@@ -11,6 +11,7 @@ from functools import partial
 from rgss.decision.preference_model import quantity_of
 from rgss.decision.what_if.demands import THRESHOLD, demand_numbers, share_checked
 from rgss.decision.what_if.numbers import CATALOGUE, MEASURES, model_numbers, with_number
+from rgss.decision.what_if.readings import READING, Reading, with_reading
 from rgss.decision.what_if.scenario import Change, Scenario
 from rgss.decision.what_if.simulated import simulated_numbers
 from rgss.decision.what_if.weights import with_weights
@@ -40,12 +41,17 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
     changed = project
     changes: list[Change] = []
     weights: dict[str, float] = {}
+    readings: list[Reading] = []
     for text in suppositions:
         name, value = _split(text)
         name = _full_name(project, name)
-        if name in {change.id for change in changes}:
+        if name in {one.id for one in (*changes, *readings)}:
             raise DefinitionError(f"--what-if: {name} is supposed twice", hint="say it once")
         kind, _, rest = name.partition(".")
+        if kind == READING:
+            reading, changed = with_reading(changed, name, value)
+            readings.append(reading)
+            continue
         demand, _, field = name.rpartition(".")
         if kind == WEIGHT:
             change = _weight(project, name, rest, value)
@@ -59,7 +65,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         elif field == THRESHOLD:
             change, changed = _threshold(changed, name, demand, value)
         else:
-            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES]
+            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES, READING]
             raise _unknown(name, [*kinds, *_requirements(project), *demand_numbers(project)], name)
         changes.append(change)
     rescaled: tuple[Change, ...] = ()
@@ -75,6 +81,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         rescaled=rescaled,
         dropped=_dropped(project, changed),
         simulated=_simulated(project, changes),
+        readings=tuple(readings),
     )
 
 

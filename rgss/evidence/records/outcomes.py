@@ -43,6 +43,8 @@ class PlanOutcome(str, Enum):
     BUDGET_SPENT = "budget_spent"
     INVALID_START = "invalid_start"
     INVALID_GOAL = "invalid_goal"
+    MOVE_BLOCKED = "move_blocked"
+    MOVE_UNREACHABLE = "move_unreachable"
     NOT_RUN = "not_run"
 
 
@@ -52,6 +54,8 @@ class Failure(str, Enum):
     PLANNING_LIMIT = "planning_limit"
     INVALID_START = "invalid_start"
     INVALID_GOAL = "invalid_goal"
+    MOVE_BLOCKED = "move_blocked"
+    MOVE_UNREACHABLE = "move_unreachable"
     UNREACHABLE_WAYPOINT = "unreachable_waypoint"
     TRAJECTORY_INFEASIBLE = "trajectory_infeasible"
     TRAJECTORY_IN_COLLISION = "trajectory_in_collision"

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rgss.reports.decision.report_conflicts import conflict_part
     from rgss.reports.decision.report_part import decision_part
     from rgss.reports.decision.report_sensitivity import sensitivity_part
+    from rgss.reports.decision.sentences import gap_sentence
     from rgss.reports.decision.text import decision_lines, question_lines, screening_lines, weighing_lines
     from rgss.reports.decision.tornado_picture import tornado_svg
     from rgss.reports.decision.words import quantity_text
@@ -31,6 +32,7 @@ __all__ = [
     "decision_to_json",
     "elicitation_sentences",
     "elicitation_to_json",
+    "gap_sentence",
     "quantity_text",
     "question_lines",
     "robustness_to_json",

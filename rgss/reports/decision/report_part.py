@@ -9,7 +9,7 @@ from rgss.decision.robustness import not_computed_lines
 from rgss.decision.study_decision import LimitMoves, RobustnessFindings, StudyDecision
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
 from rgss.reports.decision.report_conflicts import conflict_reasons
-from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reasons
+from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
 from rgss.reports.plain_numbers import Plain, plain_number
 from rgss.tradeoff import Contribution, Decision, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
@@ -39,6 +39,7 @@ def decision_part(made: StudyDecision) -> Plain:
         "headline": _headline(decision),
         "reasons": _reasons(made),
         "cautions": list(cautions(made)),
+        "readings": list(reading_lines(made)),
         "screening": "" if made.screened is None else screening_summary(made.screened),
         "fleet": "" if made.portfolio is None else portfolio_sentence(made.portfolio),
         "contributions": {

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rgss.decision.study_decision import StudyDecision
+from rgss.measures import ModelGap
 from rgss.reports.decision.flat_sentences import flat_sentences
 from rgss.reports.decision.words import amount, ids_text, variants_text
 from rgss.trace.views import share_in_words, value_in_words
@@ -72,7 +73,7 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
 
 
 def cautions(made: StudyDecision) -> Iterator[str]:
-    """Cautions on a choice: double counting, and weights that decide nothing.
+    """Cautions on a choice: double counting, weights that decide nothing, equations that the simulation contradicts.
 
     Args:
         made: The decision.
@@ -88,6 +89,36 @@ def cautions(made: StudyDecision) -> Iterator[str]:
     for flat in made.decision.flat_measures:
         among = "feasible variants" if flat.among_feasible else "variants"
         yield f"{flat.measure} is the same for all {among}, so its weight of {flat.weight:g} decides nothing."
+    for gap in made.gaps:
+        yield f"{gap_sentence(gap)}."
+
+
+def gap_sentence(gap: ModelGap) -> str:
+    """Both values of a measure that an equation gives and the simulation shows, without a full stop.
+
+    Args:
+        gap: Their difference.
+    """
+    values = f"{amount(gap.by_equation, gap.unit)} by the equation, {amount(gap.simulated, gap.unit)} simulated"
+    return f"{gap.measure} is {values} ({gap.simulated_as}, {100.0 * gap.relative:+.0f} %)"
+
+
+def reading_lines(made: StudyDecision) -> Iterator[str]:
+    """The choice under each reading of the source, one line each.
+
+    Args:
+        made: The decision.
+    """
+    for outcome in made.readings:
+        reading = outcome.reading
+        if outcome.reason:
+            leads = f"no answer: {outcome.reason}"
+        elif outcome.chosen is None:
+            leads = "no variant meets every requirement"
+        else:
+            same = "the same choice" if outcome.chosen == made.decision.chosen else f"variant {outcome.chosen}"
+            leads = f"{same}, {outcome.feasible} feasible"
+        yield f"{reading.supposition}: {leads}"
 
 
 def certificate_sentence(certificate: Certificate) -> str:

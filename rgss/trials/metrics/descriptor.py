@@ -23,6 +23,8 @@ class Aggregation(str, Enum):
     """By a function of its own (rgss/trials/record.py)."""
     GREATEST = "greatest"
     LEAST = "least"
+    OF_GREATEST = "of greatest"
+    """Value in the phase in which another metric (`MetricDescriptor.source`) is greatest, the first of equals."""
     LAST = "last"
     SUM = "sum"
     GREATEST_OF_EACH = "greatest of each"
@@ -71,7 +73,8 @@ class MetricDescriptor:
         length: Number of entries of a row; 0 for one per finger, None for a single number. A recorded value of a
             phase is always a single number.
         phase_meaning: Definition for one phase, where it differs.
-        source: The metric that is taken at the grasp, for `Aggregation.AT_GRASP`.
+        source: The metric that is taken at the grasp, for `Aggregation.AT_GRASP`; the one that decides between the
+            phases, for `Aggregation.OF_GREATEST`.
     """
 
     name: str

@@ -79,13 +79,6 @@ PHASE_ONLY_METRICS: tuple[MetricDescriptor, ...] = (
         fidelities=WITH_CONTACT,
     ),
     MetricDescriptor(
-        name="landing_force_n",
-        unit="N",
-        meaning="greatest force of the scene on the object as it lands, averaged over the object's force window",
-        better=Direction.LOWER,
-        fidelities=WITH_CONTACT,
-    ),
-    MetricDescriptor(
         name="landing_speed_m_s",
         unit="m/s",
         meaning="greatest velocity change of the object by the scene as it lands",

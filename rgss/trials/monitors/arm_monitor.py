@@ -59,7 +59,7 @@ class ArmMonitor:
         self._near_rad = self._limit_m / (kinematics.reach_m * math.sqrt(len(robot.joints)))
         self._step_s = settings.step_s
         self._window = max(1, round(control.acceleration_window_s * settings.rate_hz))
-        # Torques of the steps in which the arm was held; positions, velocities and torques of those of a move.
+        # Velocities and torques of the steps in which the arm was held; those of a move have positions too.
         self._held = array("d")
         self._followed = array("d")
         self._path_m = path_m
@@ -70,7 +70,7 @@ class ArmMonitor:
         Args:
             state: The joints' positions (rad), velocities (rad/s) and torques (N·m) after it.
         """
-        self._held.extend(state[2])
+        self._held.extend(state[1] + state[2])
 
     def follow(self, state: JointState, target_rad: Sequence[float]) -> str | None:
         """Add a step of a move.
@@ -114,7 +114,8 @@ class ArmMonitor:
     def _observed(self, tool: Mapping[str, Metric]) -> ArmObservations:
         arm = ArmObservations(self._joints, self._step_s)
         # A phase holds the arm or moves it.
-        arm.note_torques(np.array(self._held).reshape(-1, len(self._joints)))
-        arm.note_torques(np.array(self._states()[:, 2]))
+        held, moved = np.array(self._held).reshape(-1, 2, len(self._joints)), np.array(self._states())
+        arm.note_steps(held[:, 1], held[:, 0])
+        arm.note_steps(moved[:, 2], moved[:, 1])
         arm.note_tool(tool)
         return arm

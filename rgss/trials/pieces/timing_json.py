@@ -8,6 +8,7 @@ from rgss.documents import canonical_json
 from rgss.errors import EvidenceError
 from rgss.evidence import Failure, Phase, read_json
 from rgss.motion import SmoothPath, Trajectory
+from rgss.trials.path_quality import PathQuality
 from rgss.trials.pieces.float_array import FloatArray
 from rgss.trials.pieces.plain_values import to_plain
 from rgss.trials.timing import TaskTiming
@@ -25,6 +26,8 @@ class _Motion:
     times_s: FloatArray
     peak_tool_speed_m_s: float
     peak_tool_acceleration_m_s2: float
+    clearance_m: float | None
+    manipulability_m3: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +61,8 @@ def timing_to_json(timing: TaskTiming) -> str:
             times_s=FloatArray.of(motion.times_s),
             peak_tool_speed_m_s=motion.peak_tool_speed_m_s,
             peak_tool_acceleration_m_s2=motion.peak_tool_acceleration_m_s2,
+            clearance_m=timing.qualities[phase].clearance_m,
+            manipulability_m3=timing.qualities[phase].manipulability_m3,
         )
         for phase, motion in timing.trajectories.items()
     )
@@ -83,6 +88,10 @@ def timing_from_json(text: str) -> TaskTiming:
     return TaskTiming(
         trajectories={motion.phase: _trajectory(motion) for motion in read.motions},
         failures={entry.phase: (entry.failure, entry.detail) for entry in read.untimed},
+        qualities={
+            motion.phase: PathQuality(clearance_m=motion.clearance_m, manipulability_m3=motion.manipulability_m3)
+            for motion in read.motions
+        },
     )
 
 

@@ -1,8 +1,9 @@
-"""Observations of the arm over a phase: loads of the joints, and how the tool followed its path."""
+"""Observations of the arm over a phase: loads, work and speeds of the joints, and how the tool followed its path."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from rgss.evidence import Metric
 from rgss.scenes import Joint
 from rgss.trials.plants.joint_load import JointLoad
+from rgss.trials.plants.joint_motion import JointMotion
 
 Array = NDArray[np.float64]
 
@@ -44,7 +46,7 @@ def tool_metrics_by_differences(positions_m: Array, targets_m: Array, *, step_s:
 
 
 class ArmObservations:
-    """Loads of the joints of a phase, and the metrics of its tool, for any plant with torques."""
+    """Loads, work and speeds of the joints of a phase, and the metrics of its tool, for any plant with torques."""
 
     def __init__(self, joints: Sequence[Joint], step_s: float) -> None:
         """Begin at rest.
@@ -54,17 +56,20 @@ class ArmObservations:
             step_s: Length of a step.
         """
         self._load = JointLoad(joints)
+        self._motion = JointMotion(joints)
         self._step_s = step_s
         self._tool: Mapping[str, Metric] = {"tracking_error_m": 0.0}
 
-    def note_torques(self, torques_n_m: Array) -> None:
+    def note_steps(self, torques_n_m: Array, speeds_rad_s: Array) -> None:
         """Add steps.
 
         Args:
             torques_n_m: Torque of each joint in each step, shape (steps, joints).
+            speeds_rad_s: Speed of each joint after each step, shape (steps, joints).
         """
         if len(torques_n_m):
             self._load.note_all(torques_n_m, self._step_s)
+            self._motion.note_all(torques_n_m, speeds_rad_s, self._step_s)
 
     def note_tool(self, metrics: Mapping[str, Metric]) -> None:
         """Take the metrics of the tool that followed a path, as of `tool_metrics`."""
@@ -80,4 +85,22 @@ class ArmObservations:
 
     def metrics(self) -> dict[str, Metric]:
         """The observations by name with unit."""
-        return {**self._tool, **self._load.metrics()}
+        load, motion = self._load.metrics(), self._motion.metrics()
+        return {**self._tool, **load, **motion, **governing_joint(load, motion)}
+
+
+def governing_joint(load: Mapping[str, Metric], motion: Mapping[str, Metric]) -> dict[str, Metric]:
+    """Greatest share of a limit, of torque or of speed, that a joint reached, and the number of that joint.
+
+    Args:
+        load: Metrics with ``peak_joint_torque_ratio`` and ``most_loaded_joint``.
+        motion: Metrics with ``peak_joint_speed_ratio`` and ``fastest_joint``.
+    """
+    torque, speed = (
+        cast("float", ratio) for ratio in (load["peak_joint_torque_ratio"], motion["peak_joint_speed_ratio"])
+    )
+    by_torque = torque >= speed
+    return {
+        "peak_joint_utilisation": max(torque, speed),
+        "governing_joint": load["most_loaded_joint"] if by_torque else motion["fastest_joint"],
+    }

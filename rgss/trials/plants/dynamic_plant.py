@@ -157,9 +157,10 @@ class DynamicPlant:
         wanted = acceleration + 2 * zeta * omega * (speed - dq) + omega**2 * (target - q)
         torques = self._model.torques(q, dq, wanted)
         log.steps += 1
-        log.arm.note_torques(torques[None])
         self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
-        return np.array(self._machine.state()[0])
+        reached_rad, speeds_rad_s = (np.array(values) for values in self._machine.state())
+        log.arm.note_steps(torques[None], speeds_rad_s[None])
+        return reached_rad
 
     def _settle(self, log: _Log) -> bool:
         still = np.zeros(len(self._at_rad))

@@ -14,10 +14,11 @@ from functools import lru_cache
 import numpy as np
 
 from rgss.evidence import Metric, Phase
-from rgss.scenes import Gripper, Workpiece
+from rgss.scenes import Gripper, Joint, Workpiece
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
+from rgss.trials.plants.joint_motion import speed_metrics
 from rgss.trials.reference import Array, Reference, ToolPositions
 
 
@@ -45,6 +46,7 @@ class KinematicPlant:
     def __init__(
         self,
         tool: ToolPositions,
+        joints: Sequence[Joint],
         gripper: Gripper,
         workpiece: Workpiece,
         control: ControlSettings,
@@ -56,6 +58,7 @@ class KinematicPlant:
 
         Args:
             tool: Kinematics of the tool.
+            joints: The arm's joints with their limits.
             gripper: The hand; its fingers move at their velocity.
             workpiece: The object; its radius is where the fingers stop.
             control: Thresholds of the task program.
@@ -63,6 +66,7 @@ class KinematicPlant:
             response: How the joints follow.
         """
         self._tool = tool
+        self._joints = joints
         self._gripper = gripper
         self._workpiece = workpiece
         self._control = control
@@ -81,10 +85,14 @@ class KinematicPlant:
         wanted_m = np.vstack(
             [reference.tool_m, np.repeat(reference.tool_m[-1:], max(0, len(deviation) - len(reference.tool_m)), axis=0)]
         )
+        peaks_rad_s = np.abs(np.diff(actual, axis=0)).max(axis=0, initial=0.0) / self._step_s
         return self._result(
             phase,
             (len(deviation) - 1) * self._step_s,
-            tool_metrics_by_differences(tool_m, wanted_m, step_s=self._step_s),
+            {
+                **tool_metrics_by_differences(tool_m, wanted_m, step_s=self._step_s),
+                **speed_metrics(peaks_rad_s, self._joints),
+            },
         )
 
     def grasp(self) -> PhaseResult:

@@ -53,7 +53,7 @@ def quick(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
     )
     text = {
         PieceKind.PLAN: lambda: plan_to_json(TaskPlan(moves={move.phase: move}, lift_rad=None, clock=clock)),
-        PieceKind.TIMING: lambda: timing_to_json(TaskTiming(trajectories={}, failures={})),
+        PieceKind.TIMING: lambda: timing_to_json(TaskTiming(trajectories={}, failures={}, qualities={})),
         PieceKind.EXECUTION: lambda: execution_to_json(()),
         PieceKind.BENCH: lambda: bench_to_json(
             PayloadResult(

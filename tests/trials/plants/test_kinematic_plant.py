@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rgss.evidence import Fidelity, Phase
-from rgss.scenes import Cylinder, Pose, Workpiece, load_gripper
+from rgss.scenes import Cylinder, Joint, Pose, Workpiece, load_gripper
 from rgss.scenes.gripper import Gripper
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants.control import ControlSettings
@@ -31,11 +31,27 @@ KNOWN = {
     "path_length_m",
     "motion_time_s",
     "task_time_s",
+    "attempt_time_s",
     "grasp_cycle_time_s",
+    "peak_joint_speed_ratio",
+    "fastest_joint",
+    "path_clearance_min_m",
+    "manipulability_min_m3",
     "peak_tool_speed_m_s",
     "peak_tool_acceleration_m_s2",
     "tracking_error_m",
 }
+JOINTS = tuple(
+    Joint(
+        name=f"joint_{number}",
+        lower_rad=-4.0,
+        upper_rad=4.0,
+        speed_rad_s=2.0 if number == 4 else 8.0,
+        acceleration_rad_s2=10.0,
+        torque_n_m=50.0,
+    )
+    for number in range(1, 7)
+)
 
 
 class Tool:
@@ -77,6 +93,7 @@ def workpiece_of(radius_m):
 def plant_with(tool=None, *, step_s=STEP_S, response=None, radius_m=0.035, control=None, **gripper):
     return KinematicPlant(
         tool or Tool(),
+        JOINTS,
         gripper_with(**gripper),
         workpiece_of(radius_m),
         control or ControlSettings(),
@@ -223,7 +240,16 @@ def test_the_wait_for_the_end_is_bounded():
 def test_a_move_knows_how_the_tool_went_and_no_more():
     omega, speed = 60.0, 0.4
     _, result = deviation(JointResponse(natural_frequency_rad_s=omega), reference_from(ramp(speed), 0.5))
-    assert set(result.metrics) == {"tracking_error_m", "peak_tool_speed_m_s", "peak_tool_acceleration_m_s2"}
+    assert set(result.metrics) == {
+        "tracking_error_m",
+        "peak_tool_speed_m_s",
+        "peak_tool_acceleration_m_s2",
+        "peak_joint_speed_ratio",
+        "fastest_joint",
+    }
+    # The fourth joint turns twice as far as the first, and its limit is 2 rad/s.
+    assert result.metrics["fastest_joint"] == 4
+    assert result.metrics["peak_joint_speed_ratio"] == pytest.approx(speed * (1 + math.exp(-2)), rel=0.01)
     along = float(np.linalg.norm(SHARES[:3]))
     # Of e = -v t exp(-ω t): greatest at 1/ω; the joint is fastest at 2/ω, by v exp(-2) too fast.
     assert result.metrics["tracking_error_m"] == pytest.approx(along * speed / (omega * math.e), rel=0.02)
@@ -271,7 +297,16 @@ def test_a_record_has_no_value_that_this_fidelity_cannot_know(spec_of):
     record = run_trial(spec)
     assert (record.success, record.fidelity) == (True, Fidelity.KINEMATIC)
     assert {name for name, value in record.metrics.items() if value is not None} == KNOWN
-    allowed = {"tracking_error_m", "peak_tool_speed_m_s", "peak_tool_acceleration_m_s2", "opening_s"}
+    allowed = {
+        "tracking_error_m",
+        "peak_tool_speed_m_s",
+        "peak_tool_acceleration_m_s2",
+        "peak_joint_speed_ratio",
+        "fastest_joint",
+        "path_clearance_min_m",
+        "manipulability_min_m3",
+        "opening_s",
+    }
     assert {name for phase in record.phases for name in phase.metrics} == allowed
     # The joints overshoot by less than the tool speed may be exceeded.
     assert record.metrics["peak_tool_speed_m_s"] <= 1.01 * spec.tool_speed_m_s

@@ -30,6 +30,27 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
     document["shared_parts"] = [
         {"first": shared.first, "second": shared.second, "parts": list(shared.parts)} for shared in made.shared_parts
     ]
+    document["model_gaps"] = [
+        {
+            "measure": gap.measure,
+            "simulated_as": gap.simulated_as,
+            "unit": gap.unit,
+            "by_equation": gap.by_equation,
+            "simulated": gap.simulated,
+        }
+        for gap in made.gaps
+    ]
+    document["readings"] = [
+        {
+            "measure": one.reading.measure,
+            "alternative": one.reading.alternative,
+            "rationale": one.reading.rationale,
+            "chosen": one.chosen,
+            "feasible": one.feasible,
+            "reason": one.reason,
+        }
+        for one in made.readings
+    ]
     document["robustness"] = None if made.robustness is None else robustness_to_json(made.robustness.analysis)
     document["sensitivity"] = None if made.sensitivity is None else sensitivity_to_json(made.sensitivity)
     document["elicitation"] = elicitation_to_json(made.elicited, made.elicited_by)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.answers_in_words import elicitation_sentences
-from rgss.reports.decision.sentences import cautions
+from rgss.reports.decision.sentences import cautions, reading_lines
 from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
 from rgss.reports.decision.text.effects import effects_lines
 from rgss.reports.decision.text.robustness import robustness_lines
@@ -33,6 +33,9 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
             yield from sensitivity_lines(made.sensitivity)
         if effects:
             yield from effects_lines(made.robustness.effects)
+    if made.readings:
+        yield from ("", "Readings of the source (--what-if)")
+        yield from (f"  {line}" for line in reading_lines(made))
     if made.portfolio is not None:
         yield from portfolio_lines(made.portfolio)
     yield ""

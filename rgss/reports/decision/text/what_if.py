@@ -20,6 +20,8 @@ def what_if_lines(what_if: WhatIf) -> Iterator[str]:
     yield "What if"
     for change in scenario.changes:
         yield f"  {change.id}: {amount(change.before, change.unit)} → {amount(change.after, change.unit)}"
+    for reading in scenario.readings:
+        yield f"  {reading.supposition}: {reading.rationale}"
     if scenario.rescaled:
         weights = ", ".join(
             f"{change.id.partition('.')[2]} {change.before:.3g} → {change.after:.3g}" for change in scenario.rescaled

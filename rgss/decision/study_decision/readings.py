@@ -1,0 +1,48 @@
+"""What each reading of the source would lead to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.choosing import choose
+from rgss.decision.what_if import Reading, measured_in, readings_of, suppose
+from rgss.errors import RgssError
+from rgss.studies import Project
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReadingOutcome:
+    """Choice under one reading of the source.
+
+    Attributes:
+        reading: The reading.
+        chosen: The variant that is then chosen; None if none is.
+        feasible: Number of variants that then meet every requirement.
+        reason: Why there is no answer; empty where there is one.
+    """
+
+    reading: Reading
+    chosen: int | None
+    feasible: int
+    reason: str = ""
+
+
+def reading_outcomes(project: Project, measured: Sequence[VariantMeasures]) -> tuple[ReadingOutcome, ...]:
+    """The choice under each alternative of each measure, one at a time, from the trials that there are.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its estimates and records.
+    """
+    return tuple(_outcome(project, measured, reading) for reading in readings_of(project))
+
+
+def _outcome(project: Project, measured: Sequence[VariantMeasures], reading: Reading) -> ReadingOutcome:
+    try:
+        scenario = suppose(project, [reading.supposition])
+        decision = choose(scenario.project, measured_in(scenario, measured))
+    except RgssError as error:
+        return ReadingOutcome(reading=reading, chosen=None, feasible=0, reason=error.message)
+    return ReadingOutcome(reading=reading, chosen=decision.chosen, feasible=decision.counts.feasible)

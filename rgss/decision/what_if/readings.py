@@ -1,0 +1,68 @@
+"""Readings of the source that can be supposed: ``reading.S=share_of_states``."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass, replace
+
+from rgss.errors import DefinitionError
+from rgss.findings import shown
+from rgss.measures import with_alternative
+from rgss.studies import Project
+
+READING = "reading"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """Another reading of a measure's source.
+
+    Attributes:
+        measure: The measure.
+        alternative: Id of the alternative.
+        rationale: Why the source can be read so.
+    """
+
+    measure: str
+    alternative: str
+    rationale: str
+
+    @property
+    def id(self) -> str:
+        """The name of what is supposed, such as ``reading.S``."""
+        return f"{READING}.{self.measure}"
+
+    @property
+    def supposition(self) -> str:
+        """The text that supposes it, such as ``reading.S=share_of_states``."""
+        return f"{self.id}={self.alternative}"
+
+
+def readings_of(project: Project) -> tuple[Reading, ...]:
+    """Every alternative of the project's measures, in the order of the file."""
+    return tuple(
+        Reading(measure=measure.id, alternative=one.id, rationale=one.rationale)
+        for measure in project.measures.measures
+        for one in measure.alternatives
+    )
+
+
+def with_reading(project: Project, name: str, alternative: str) -> tuple[Reading, Project]:
+    """A reading by its name, and the project in which the measure is read so.
+
+    Args:
+        project: The project.
+        name: Name of the measure with its kind, such as ``reading.S``.
+        alternative: Id of the alternative.
+
+    Raises:
+        DefinitionError: There is no such reading.
+    """
+    readings = {one.supposition: one for one in readings_of(project)}
+    supposition = f"{name}={alternative}"
+    if supposition not in readings:
+        near = difflib.get_close_matches(supposition, readings, n=3) or list(readings)[:4]
+        hint = f"such as {', '.join(near)}" if near else "give a measure 'alternatives' in the measures file"
+        raise DefinitionError(f"--what-if: there is no {shown(supposition)}", hint=hint)
+    found = readings[supposition]
+    return found, replace(project, measures=with_alternative(project.measures, found.measure, found.alternative))

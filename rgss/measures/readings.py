@@ -1,0 +1,156 @@
+"""Alternative readings of a measure's source, and the simulated twin of a measure that is an equation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from rgss.documents import LoadedDocument
+from rgss.errors import DefinitionError
+from rgss.findings import Finding
+from rgss.measures.definitions import Alternative, Measure, MeasureSet
+from rgss.measures.dependencies import evaluation_order, transitive_use
+from rgss.measures.document import AlternativeEntry, MeasureEntry, MeasuresDocument
+from rgss.measures.expressions import Expression
+from rgss.measures.parsing import parse_expression
+from rgss.quantities import dimension
+
+Rebuild = Callable[[LoadedDocument[MeasuresDocument]], "MeasureSet | list[Finding]"]
+
+_NOT_ASKED = "measures.contribution"
+"""An alternative may leave out what contributes to the measure as the source defines it."""
+
+
+def with_readings(
+    measures: MeasureSet, loaded: LoadedDocument[MeasuresDocument], rebuild: Rebuild
+) -> MeasureSet | list[Finding]:
+    """The measures with their alternatives and simulated twins, or every problem of these.
+
+    Args:
+        measures: The measures, consistent as they are.
+        loaded: The file's entries with their positions.
+        rebuild: Builds the measures of other entries; each alternative is checked as if the file had it.
+    """
+    findings: list[Finding] = []
+    found: dict[str, Measure] = {}
+    for index, entry in enumerate(loaded.value.measures):
+        findings += _twin_findings(measures, loaded, index, entry)
+        findings += _alternative_findings(loaded, index, entry, rebuild)
+        alternatives = tuple(read for one in entry.alternatives if (read := _alternative(entry, one)) is not None)
+        found[entry.id] = replace(
+            measures.measure(entry.id), simulated_as=entry.simulated_as, alternatives=alternatives
+        )
+    if findings:
+        return findings
+    return replace(
+        measures,
+        measures=tuple(found[one.id] for one in measures.measures),
+        evaluation_order=tuple(found[one.id] for one in measures.evaluation_order),
+    )
+
+
+def with_alternative(measures: MeasureSet, measure: str, alternative: str) -> MeasureSet:
+    """The measures with one of them read in another way; what depends on it follows.
+
+    Args:
+        measures: The measures.
+        measure: Id of the measure.
+        alternative: Id of the alternative.
+
+    Raises:
+        DefinitionError: There is no such measure or alternative, or measures would depend on one another in a circle.
+    """
+    read = measures.measure(measure)
+    known = {one.id: one for one in read.alternatives}
+    if alternative not in known:
+        named = f"alternatives: {', '.join(known)}" if known else f"{measure} has no alternatives"
+        raise DefinitionError(f"measure {measure!r} has no alternative {alternative!r}", hint=named)
+    chosen = known[alternative]
+    changed = replace(read, expression=chosen.expression, estimate=chosen.estimate)
+    by_id = {one.id: changed if one.id == measure else one for one in measures.measures}
+    names = {name: one.expression.names for name, one in by_id.items()}
+    order, cycles = evaluation_order(
+        {name: [other for other in used if other in by_id] for name, used in names.items()}
+    )
+    if cycles:
+        raise DefinitionError(
+            f"measures would depend on one another in a circle: {' → '.join(cycles[0])}",
+            hint="take one of the alternatives at a time",
+        )
+    return replace(
+        measures,
+        measures=tuple(by_id.values()),
+        evaluation_order=tuple(by_id[name] for name in order),
+        used=transitive_use(names, order),
+    )
+
+
+def _alternative(entry: MeasureEntry, alternative: AlternativeEntry) -> Alternative | None:
+    """An alternative as it was read; None where its expression cannot be, which is among the findings."""
+    expression = parse_expression(alternative.expression or entry.expression)
+    if not isinstance(expression, Expression):
+        return None
+    return Alternative(
+        id=alternative.id,
+        expression=expression,
+        estimate=alternative.estimate or entry.estimate,
+        rationale=alternative.rationale,
+    )
+
+
+def _twin_findings(
+    measures: MeasureSet, loaded: LoadedDocument[MeasuresDocument], index: int, entry: MeasureEntry
+) -> Iterator[Finding]:
+    twin = entry.simulated_as
+    if twin is None:
+        return
+    location = ("measures", index, "simulated_as")
+    known = {one.id: one for one in measures.measures}
+    problem, hint = "", ""
+    if twin not in known or twin == entry.id:
+        problem, hint = f"{twin!r} is not another measure", "name the measure that the simulation shows"
+    elif dimension(known[twin].unit) != dimension(entry.unit):
+        problem = f"{twin!r} is measured in {known[twin].unit!r}, {entry.id!r} in {entry.unit!r}"
+        hint = "name a measure of the same quantity"
+    elif known[twin].estimate is None:
+        problem = f"{twin!r} follows from the design alone; no simulation shows it"
+        hint = "name a measure that is computed from trials"
+    elif known[twin].length is not None and known[twin].summary is None:
+        problem = f"{twin!r} is a row"
+    if problem:
+        yield loaded.document.finding("measures.simulated-as", problem, location, hint=hint)
+
+
+def _alternative_findings(
+    loaded: LoadedDocument[MeasuresDocument], index: int, entry: MeasureEntry, rebuild: Rebuild
+) -> Iterator[Finding]:
+    seen: set[str] = set()
+    for place, alternative in enumerate(entry.alternatives):
+        location = ("measures", index, "alternatives", place)
+        name = f"alternative {alternative.id!r} of {entry.id!r}"
+        if alternative.id in seen:
+            yield loaded.document.finding("measures.alternative", f"{name} is defined twice", (*location, "id"))
+        seen.add(alternative.id)
+        if alternative.expression is None and alternative.estimate is None:
+            hint = "give it an 'expression', an 'estimate' or both"
+            yield loaded.document.finding("measures.alternative", f"{name} changes nothing", location, hint=hint)
+            continue
+        key = "estimate" if alternative.expression is None else "expression"
+        built = rebuild(_read_as(loaded, index, alternative))
+        for problem in built if isinstance(built, list) else ():
+            if problem.rule != _NOT_ASKED:
+                yield loaded.document.finding(problem.rule, f"{name}: {problem.message}", (*location, key))
+
+
+def _read_as(
+    loaded: LoadedDocument[MeasuresDocument], index: int, alternative: AlternativeEntry
+) -> LoadedDocument[MeasuresDocument]:
+    """The entries as they would be if the file had the alternative in place of the measure's own definition."""
+    entry = loaded.value.measures[index]
+    changes = {
+        "expression": alternative.expression or entry.expression,
+        "estimate": alternative.estimate or entry.estimate,
+    }
+    entries = list(loaded.value.measures)
+    entries[index] = entry.model_copy(update=changes)
+    return replace(loaded, value=loaded.value.model_copy(update={"measures": tuple(entries)}))

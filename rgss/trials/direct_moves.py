@@ -1,0 +1,134 @@
+"""Moves without a search: a straight line of the tool, or of the joints, checked state by state."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rgss.evidence import PlanOutcome
+from rgss.kinematics import CollisionModel, InverseKinematics, LineBreak, follow_line
+from rgss.motion import ClockKind, PlanningClock, segment_states
+from rgss.scenes import Pose
+from rgss.trials.move_kinds import MoveKind
+from rgss.trials.reference import Array
+
+_SAME_CONFIGURATION_RAD = 1e-6
+_NAMES = {MoveKind.STRAIGHT: "the straight line of the tool", MoveKind.JOINT: "the straight line of the joints"}
+_BREAKS = {
+    LineBreak.UNREACHABLE: "the arm does not reach the tool's pose within the ranges of its joints",
+    LineBreak.BRANCH_ENDS: "the arm would have to change its configuration, as at a singularity",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DirectMove:
+    """Result of checking a move without a search.
+
+    Attributes:
+        outcome: Solved, blocked by a collision, unreachable, or out of time.
+        checks: Validity checks, those up to the first state that is not valid.
+        time_s: Their time by the planning clock.
+        path_rad: Configurations (n, 6); None unless it is solved.
+        detail: What prevents the move, and where along it; empty if nothing does.
+    """
+
+    outcome: PlanOutcome
+    checks: int
+    time_s: float
+    path_rad: Array | None = None
+    detail: str = ""
+
+
+def direct_move(
+    kind: MoveKind,
+    start: Array,
+    goal: Array,
+    goal_pose: Pose,
+    *,
+    inverse: InverseKinematics,
+    model: CollisionModel,
+    clock: PlanningClock,
+    resolution_rad: float,
+    limit_s: float,
+) -> DirectMove:
+    """Check a move that is no search, from its start on.
+
+    Every state at the resolution of a planned path is a validity check, charged to the planning clock as those of a
+    search are. There is nothing to simplify.
+
+    Args:
+        kind: Straight or joint.
+        start: Joint angles in rad at its start, shape (6,).
+        goal: Joint angles in rad at its end, where the next move begins, shape (6,).
+        goal_pose: Transform of the tool-centre frame to the world at its end.
+        inverse: Inverse kinematics of the arm.
+        model: Bodies that can collide in it.
+        clock: The planning clock.
+        resolution_rad: Greatest Euclidean distance in joint space between two checked states.
+        limit_s: Longest time by the clock.
+    """
+    elapsed_s = clock.start()
+    corners, share, broken = _line(kind, start, goal, goal_pose, inverse)
+    states = _states(corners, resolution_rad)
+    affordable = clock.checks_within(limit_s) if clock.kind is ClockKind.COUNTED else len(states)
+    checked = states[:affordable]
+    blocked = next((index for index, q in enumerate(checked) if not model.is_valid(q)), None)
+    checks = len(checked) if blocked is None else blocked + 1
+    time_s = elapsed_s(checks)
+    if time_s > limit_s or (blocked is None and affordable < len(states)):
+        return DirectMove(outcome=PlanOutcome.BUDGET_SPENT, checks=checks, time_s=min(time_s, limit_s))
+    if blocked is not None:
+        place = f"{_NAMES[kind]} is blocked at {_percent(share * checks / len(states))}"
+        return DirectMove(
+            outcome=PlanOutcome.MOVE_BLOCKED,
+            checks=checks,
+            time_s=time_s,
+            detail=f"{place}: {_obstacle(model, states[blocked])}",
+        )
+    if broken:
+        return DirectMove(outcome=PlanOutcome.MOVE_UNREACHABLE, checks=checks, time_s=time_s, detail=broken)
+    return DirectMove(outcome=PlanOutcome.SOLVED, checks=checks, time_s=time_s, path_rad=corners)
+
+
+def _line(
+    kind: MoveKind, start: Array, goal: Array, goal_pose: Pose, inverse: InverseKinematics
+) -> tuple[Array, float, str]:
+    """Corners of a move as far as it can be followed, the share of it that this is, and what ends it there."""
+    if kind is MoveKind.JOINT:
+        return np.array([start, goal]), 1.0, ""
+    line = follow_line(inverse, start, goal_pose)
+    corners = line.configurations_rad
+    if line.broken is not None:
+        return corners, line.fraction, f"{_NAMES[kind]} ends at {_percent(line.fraction)}: {_BREAKS[line.broken]}"
+    if np.max(np.abs(corners[-1] - goal)) > _SAME_CONFIGURATION_RAD:
+        return corners, 1.0, f"{_NAMES[kind]} ends in another configuration of the arm than the next move begins in"
+    corners[-1] = goal
+    return corners, 1.0, ""
+
+
+def _states(corners: Array, resolution_rad: float) -> Array:
+    """Every state of a path at a resolution, the start included, shape (n, 6)."""
+    parts = [segment_states(first, second, resolution_rad) for first, second in itertools.pairwise(corners)]
+    states: Array = np.vstack([corners[:1], *parts])
+    return states
+
+
+def _obstacle(model: CollisionModel, q: Array) -> str:
+    """What makes a configuration invalid: two bodies, the tilt of what is carried, or a joint's range."""
+    nearest = model.nearest_pair(q)
+    if nearest is not None and nearest.room_m < 0.0:
+        if nearest.distance_m <= 0.0:
+            return f"{nearest.first} touches {nearest.second}, {-nearest.distance_m * 1e3:.1f} mm deep"
+        distance, clearance = nearest.distance_m * 1e3, nearest.clearance_m * 1e3
+        return f"{nearest.first} is {distance:.1f} mm from {nearest.second}, {clearance:g} mm must be kept"
+    tilt = model.carried_tilt_rad(q)
+    if tilt is not None and tilt > (model.situation.largest_tilt_rad or math.inf):
+        return f"the object would be tilted by {math.degrees(tilt):.0f}°"
+    return "a joint leaves its range"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f} % of the way"

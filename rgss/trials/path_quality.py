@@ -1,0 +1,80 @@
+"""Clearance and manipulability along a timed move."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rgss.kinematics import Arm, CollisionModel
+from rgss.trials.reference import Array, SampledTrajectory
+
+_MANIPULABILITY_STEP_S = 0.010
+_CLEARANCE_STEP_S = 0.040
+_REFINED_STEP_S = 0.005
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PathQuality:
+    """Least clearance and least manipulability along a timed move.
+
+    Attributes:
+        clearance_m: Least distance of arm, gripper and what it carries from the scene and from the standing object,
+            negative where they overlap; the object and the bodies that bear it may touch. None where the scene has
+            nothing to keep clear of.
+        manipulability_m3: Least manipulability.
+    """
+
+    clearance_m: float | None
+    manipulability_m3: float
+
+
+def path_quality(trajectory: SampledTrajectory, model: CollisionModel, arm: Arm) -> PathQuality:
+    """The path quality of a move.
+
+    The manipulability is sampled every 10 ms. The clearance, of which each value is a query of all pairs of
+    bodies, is sampled every 40 ms, and every 5 ms on both sides of the least of these.
+
+    Args:
+        trajectory: The timed move.
+        model: Bodies that can collide in it.
+        arm: Kinematics of the tool.
+    """
+    clearance_m = _least(trajectory, model.clearance_m)
+    return PathQuality(
+        clearance_m=clearance_m if math.isfinite(clearance_m) else None,
+        manipulability_m3=min(
+            manipulability(arm, q)
+            for q in trajectory.positions(_times(0.0, trajectory.duration_s, _MANIPULABILITY_STEP_S))
+        ),
+    )
+
+
+def manipulability(arm: Arm, q: Array) -> float:
+    """Manipulability √det(J Jᵀ) of a configuration in m³ (Yoshikawa 1985); 0 at a singularity.
+
+    J is the Jacobian at the grasp centre, of which three rows are in m/rad and three in rad/rad. An arm of six joints
+    has a square one, so that the value is |det J|.
+
+    Args:
+        arm: Kinematics of the tool.
+        q: Joint angles in rad, shape (6,).
+    """
+    return abs(float(np.linalg.det(arm.tool_jacobian(q))))
+
+
+def _least(trajectory: SampledTrajectory, value: Callable[[Array], float]) -> float:
+    """Least value along a move, by a coarse pass and a fine one about its least."""
+    times = _times(0.0, trajectory.duration_s, _CLEARANCE_STEP_S)
+    values = [value(q) for q in trajectory.positions(times)]
+    at = int(np.argmin(values))
+    start, end = float(times[max(0, at - 1)]), float(times[min(len(times) - 1, at + 1)])
+    fine = trajectory.positions(_times(start, end, _REFINED_STEP_S))
+    return min(values[at], *(value(q) for q in fine))
+
+
+def _times(start_s: float, end_s: float, step_s: float) -> Array:
+    times: Array = np.linspace(start_s, end_s, max(2, math.ceil((end_s - start_s) / step_s - 1e-9) + 1))
+    return times
