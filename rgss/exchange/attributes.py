@@ -7,20 +7,20 @@ from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
-from rgss.documents import DocumentModel
 from rgss.requirements import (
-    BehaviourFile,
+    Behaviour,
     BehaviourKind,
-    BlockFile,
+    Block,
     BlockLevel,
     BlockRelation,
     Comparison,
+    Element,
     LinkKind,
-    NeedFile,
     NeedKind,
     Priority,
-    RequirementFile,
+    Requirement,
     RequirementGroup,
+    StakeholderNeed,
     Statistic,
     Status,
     VerificationMethod,
@@ -165,7 +165,7 @@ ATTRIBUTES: Mapping[Part, tuple[Attribute, ...]] = MappingProxyType(
 )
 """The attributes of each part, in the order of the YAML files."""
 
-MODELS: Mapping[Part, type[DocumentModel]] = MappingProxyType(
-    {Part.STAKEHOLDER: NeedFile, Part.SYSTEM: RequirementFile, Part.BLOCK: BlockFile, Part.BEHAVIOUR: BehaviourFile}
+MODELS: Mapping[Part, type[Element]] = MappingProxyType(
+    {Part.STAKEHOLDER: StakeholderNeed, Part.SYSTEM: Requirement, Part.BLOCK: Block, Part.BEHAVIOUR: Behaviour}
 )
 """What an entry of a YAML file must be."""

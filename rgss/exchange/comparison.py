@@ -10,7 +10,7 @@ from typing import Any
 from rgss.documents import validated
 from rgss.exchange.attributes import ATTRIBUTES, MODELS, Attribute, Form, Part
 from rgss.exchange.cells import CellError, cells_of, entry_of, ids_in
-from rgss.exchange.content import Content, Row
+from rgss.exchange.content import Content, Row, as_written
 from rgss.exchange.files import problem, refusal_of
 from rgss.findings import Finding, shown
 
@@ -155,10 +155,10 @@ def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> Elem
     entry, findings = _entry(part, cells, foreign, row)
     if findings:
         return findings
-    model, problems = validated(entry, MODELS[part])
-    if model is None:
+    element, problems = validated(entry, MODELS[part])
+    if element is None:
         return [_value_problem(part, foreign, row, location, message) for location, message in problems]
-    after = cells_of(part, model.model_dump(mode="json"))
+    after = cells_of(part, as_written(element, entry))
     before = own.cells if own is not None else dict.fromkeys(after, "")
     return ElementChange(
         kind=ChangeKind.ADDED if own is None else ChangeKind.CHANGED,
@@ -169,7 +169,7 @@ def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> Elem
             for each in ATTRIBUTES[part]
             if _differs(each, before[each.name], after[each.name])
         ),
-        entry=model.model_dump(mode="json", exclude_defaults=True),
+        entry=as_written(element, entry, exclude_defaults=True),
     )
 
 

@@ -48,7 +48,7 @@ def _lines(each: Behaviour, parts: Parts) -> Iterator[str]:
         yield from _machine(each.machine)
 
 
-def _guards(texts: Iterator[str]) -> Iterator[str]:
+def _guards(texts: Iterator[str | None]) -> Iterator[str]:
     """What guards ask is prose, so each is a truth value of that name."""
     return (f"attribute {name(text)} : Boolean;" for text in dict.fromkeys(texts) if text)
 

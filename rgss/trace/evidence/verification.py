@@ -59,7 +59,7 @@ def success_criterion(requirement: Requirement) -> str:
     """Criterion or success condition of a requirement, in words; empty while that is open."""
     if requirement.criterion is not None:
         return str(requirement.criterion)
-    return requirement.success or requirement.criterion_exemption
+    return requirement.success or requirement.criterion_exemption or ""
 
 
 def _row(model: TraceModel, evidence: TraceEvidence, requirement: Requirement) -> VerificationRow:

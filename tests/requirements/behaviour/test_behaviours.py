@@ -34,7 +34,7 @@ def test_a_flow_as_it_is_written(detailed):
     assert activity.kind is BehaviourKind.ACTIVITY
     assert isinstance(activity.flow, Flow)
     assert activity.flow.nodes[:3] == (
-        FlowNode(id="start", kind=FlowNodeKind.INITIAL, text="", does=None),
+        FlowNode(id="start", kind=FlowNodeKind.INITIAL, text=None, does=None),
         FlowNode(id="close", kind=FlowNodeKind.ACTION, text="Close.", does="ACT-2"),
         FlowNode(id="firm", kind=FlowNodeKind.DECISION, text="Is it firm?", does=None),
     )
@@ -47,7 +47,7 @@ def test_a_flow_as_it_is_written(detailed):
         FlowNodeKind.FINAL,
     ]
     assert activity.flow.edges[3] == FlowEdge(source="firm", target="again", guard="not yet")
-    assert activity.flow.edges[0].guard == ""
+    assert activity.flow.edges[0].guard is None
     assert (activity.interaction, activity.machine) == (None, None)
 
 
@@ -66,15 +66,15 @@ def test_an_interaction_as_it_is_written(detailed):
 def test_a_machine_as_it_is_written(detailed):
     assert detail(detailed, "STM-9").machine == StateMachine(
         states=(
-            State(id="start", kind=StateKind.INITIAL, name="Before", phase="", does=None),
+            State(id="start", kind=StateKind.INITIAL, name="Before", phase=None, does=None),
             State(id="lifting", kind=StateKind.STATE, name="Lifting", phase="lift", does="ACT-1"),
-            State(id="up", kind=StateKind.FINAL, name="Up", phase="", does=None),
-            State(id="dropped", kind=StateKind.FAILED, name="Dropped", phase="", does=None),
+            State(id="up", kind=StateKind.FINAL, name="Up", phase=None, does=None),
+            State(id="dropped", kind=StateKind.FAILED, name="Dropped", phase=None, does=None),
         ),
         transitions=(
-            Transition(source="start", target="lifting", guard="", failure=""),
-            Transition(source="lifting", target="up", guard="at the top", failure=""),
-            Transition(source="lifting", target="dropped", guard="", failure="object_dropped"),
+            Transition(source="start", target="lifting", guard=None, failure=None),
+            Transition(source="lifting", target="up", guard="at the top", failure=None),
+            Transition(source="lifting", target="dropped", guard=None, failure="object_dropped"),
         ),
     )
 

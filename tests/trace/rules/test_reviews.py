@@ -55,8 +55,8 @@ def test_a_stamp_is_of_the_element_and_of_what_it_rests_on(reviewed):
         "BLK-1": {"SYS-1", "SYS-2"},
     }
     assert {one.reviewer for one in reviews.values()} == {"A. Reader"}
-    for one in reviews.values():
-        assert one.digest == requirements.content_digest(one.id)
+    for element, one in reviews.items():
+        assert one.digest == requirements.content_digest(element)
         assert all(digest == requirements.content_digest(name) for name, digest in one.upstream.items())
 
 
