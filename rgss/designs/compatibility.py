@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import prod
+from typing import Annotated
+
+from pydantic import Field
+from pydantic.dataclasses import dataclass as document_dataclass
 
 from rgss.designs.components import Component
 from rgss.designs.constraints import Constraint
 from rgss.designs.design_values import COMPONENT_PREFIX, numbers
 from rgss.designs.parameters import ParameterValue
+from rgss.documents import STRICT, Identifier
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,17 +44,12 @@ class Condition:
         return tuple(self.choices)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@document_dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Limit:
-    """Holds when a product of numbers of the design is at most another of them.
+    """A product of numbers of the design, and what it may not exceed."""
 
-    Attributes:
-        product_of: Names of the factors, such as ``design.finger_force``.
-        at_most: Name of the bound, such as ``component.gripper.max_force``.
-    """
-
-    product_of: tuple[str, ...]
-    at_most: str
+    product_of: Annotated[tuple[Identifier, ...], Field(min_length=1)]
+    at_most: Identifier
 
     @property
     def names(self) -> tuple[str, ...]:
