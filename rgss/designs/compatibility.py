@@ -28,7 +28,7 @@ class Condition:
     choices: Mapping[str, tuple[ParameterValue, ...]]
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """Tell whether it holds for a combination."""
+        """True if it holds for a combination."""
         for name, allowed in self.choices.items():
             if name.startswith(COMPONENT_PREFIX):
                 component = components.get(name.removeprefix(COMPONENT_PREFIX))
@@ -57,7 +57,7 @@ class Limit:
         return (*self.product_of, self.at_most)
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """Tell whether it holds for a combination; it does where a role has no component yet."""
+        """True if it holds for a combination; it does where a role has no component yet."""
         known = numbers(parameters, components)
         if not set(self.names) <= known.keys():
             return True
@@ -66,7 +66,7 @@ class Limit:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
-    """What a combination must satisfy to be a design.
+    """Condition that a combination must satisfy to be a design.
 
     Attributes:
         id: Its id.
@@ -86,7 +86,7 @@ class Rule:
         return (*self.when.names, *(self.require.names if self.require is not None else ()))
 
     def allows(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """Tell whether a combination satisfies the rule."""
+        """True if a combination satisfies the rule."""
         if not self.when.holds(parameters, components):
             return True
         return self.require is not None and self.require.holds(parameters, components)

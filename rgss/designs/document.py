@@ -1,4 +1,4 @@
-"""What the file of a design space may say."""
+"""Document model of a design space."""
 
 from __future__ import annotations
 

@@ -145,7 +145,7 @@ class RuleReader:
             return None
 
     def _offset(self, finding: Finding, text: str, offset: int) -> int:
-        """How far from the value's first character a character of its text stands; 0 where it is folded."""
+        """Distance of a character of the text from the value's first character; 0 where it is folded."""
         written = self._lines[finding.line - 1][finding.column - 1 :] if self._lines else ""
         if written.startswith(text):
             return offset

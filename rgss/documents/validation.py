@@ -205,7 +205,7 @@ def _fields_of(kind: Any) -> Mapping[str, FieldInfo]:
 
 
 def _inside(kind: Any, part: str | int) -> list[Any]:
-    """The annotations of what stands under a key or an index of a value of some kind."""
+    """Annotations of the values under a key or an index of a value of some kind."""
     if fields := _fields_of(kind):
         return [field.annotation for name, field in fields.items() if part in (name, field.alias)]
     origin, arguments = get_origin(kind), [each for each in get_args(kind) if each is not Ellipsis]

@@ -1,4 +1,4 @@
-"""What a file of another tool would change in a project."""
+"""Changes that a file of another tool would make in a project."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _CONTROL = frozenset(map(chr, (*range(9), 11, 12, *range(14, 32), 127)))
 
 
 class ChangeKind(str, Enum):
-    """What happens to an element."""
+    """Kind of a change of an element."""
 
     ADDED = "added"
     REMOVED = "removed"
@@ -61,7 +61,7 @@ class ElementChange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wishes:
-    """What the user says about elements that a file leaves open.
+    """Options of the user about elements that a file leaves open.
 
     Attributes:
         part: What an element is where the file does not say.
@@ -73,7 +73,7 @@ class Wishes:
 
 
 def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChange, ...]:
-    """What a file would change: what it changes and adds in its own order, then what it removes.
+    """Changes by a file: changed and added elements in its own order, then removed ones.
 
     Ids under one attribute have no order, so another order is no change.
 
@@ -95,7 +95,7 @@ def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChan
         if not row.id:
             findings.append(_at(foreign, row, "id", "missing", "an element without an id"))
         elif row.id in seen:
-            findings.append(_at(foreign, row, "id", "duplicate", f"{row.id!r} stands already in line {seen[row.id]}"))
+            findings.append(_at(foreign, row, "id", "duplicate", f"{row.id!r} is already in line {seen[row.id]}"))
         else:
             seen[row.id] = row.line
             found = _change(known.get(row.id), foreign, row, wishes)
@@ -184,7 +184,7 @@ def _entry(part: Part, cells: Mapping[str, str], foreign: Content, row: Row) -> 
         cell = cells.get(attribute.name, "")
         try:
             if not _CONTROL.isdisjoint(cell):
-                raise CellError("a control character is no text")
+                raise CellError("a control character is not text")
             entry_of(part, {attribute.name: cell})
         except CellError as error:
             findings.append(_at(foreign, row, attribute.name, "value", f"{row.id}: {attribute.name}: {error}"))

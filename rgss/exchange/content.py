@@ -1,4 +1,4 @@
-"""What a project and a file of another tool say, in one shape, so that they can be compared."""
+"""Content of a project or of a file of another tool, in one shape, so that they can be compared."""
 
 from __future__ import annotations
 
@@ -65,12 +65,12 @@ class Content:
 
 
 def part_of(element: Element) -> Part:
-    """What an element is."""
+    """Part of the project that an element belongs to."""
     return _PARTS[type(element)]
 
 
 def content_of(requirements: RequirementSet, measures: Mapping[str, str] | None = None) -> Content:
-    """What a project says.
+    """Content of a project.
 
     Args:
         requirements: Its requirements and architecture, as loaded.

@@ -202,7 +202,7 @@ class _Comparing:
         return powers(candidates, seeds_at, error_rate=self._guard.error_rate)
 
     def _unguarded(self) -> list[Failing]:
-        """What stands on one side alone: named by the study, or kept by the baseline."""
+        """Metrics of one side alone: named by the study, or kept by the baseline."""
         failing = []
         for trials in self._watched:
             before = self._baseline.runs.get(trials.run.id)

@@ -1,4 +1,4 @@
-"""What a baseline says beside its values: units of the guarded metrics, the metrics of a record, the reason."""
+"""Schema of a baseline: units of the guarded metrics, the metrics of a record, the reason of an update."""
 
 from __future__ import annotations
 

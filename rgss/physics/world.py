@@ -172,7 +172,7 @@ class World(ClientOwner):
         return positions, velocities, torques
 
     def finger_travel_m(self) -> tuple[float, ...]:
-        """How far each finger has closed from its open end."""
+        """Distance that each finger has closed from its open end."""
         states = self._engine.getJointStates(self._robot, self._finger_joints, self._client)
         return tuple([state[0] for state in states])
 
@@ -192,7 +192,7 @@ class World(ClientOwner):
         return HandView(position, orientation, state[4], state[5], self._grasp_centre_m, self.finger_travel_m())
 
     def contacts(self, standing: Contacts | None = None) -> Contacts:
-        """What touches what after the last step.
+        """Contacts after the last step.
 
         The arm's base link does not move and so is never reported, wherever it is mounted.
 

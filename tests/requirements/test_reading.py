@@ -45,7 +45,7 @@ def test_an_id_is_unique_across_the_files_of_a_part(project):
     divided(project).edit("system/1-early.yaml", "SYS-2", "SYS-1")
     assert project.findings() == [
         (
-            "requirements/system/2-late.yaml:2:9: error: id 'SYS-1' stands already at "
+            "requirements/system/2-late.yaml:2:9: error: id 'SYS-1' is already declared at "
             "requirements/system/1-early.yaml:2:9 (give it an id of its own) [requirements.duplicate-id]"
         )
     ]

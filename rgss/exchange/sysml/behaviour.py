@@ -49,7 +49,7 @@ def _lines(each: Behaviour, parts: Parts) -> Iterator[str]:
 
 
 def _guards(texts: Iterator[str | None]) -> Iterator[str]:
-    """What guards ask is prose, so each is a truth value of that name."""
+    """Truth values named by the guards, which are prose."""
     return (f"attribute {name(text)} : Boolean;" for text in dict.fromkeys(texts) if text)
 
 

@@ -47,5 +47,5 @@ def check_behaviours(
 def _check_actors(declaration: Declaration, behaviour: Behaviour, blocks: Mapping[str, Block]) -> Iterator[Finding]:
     for index, actor in enumerate(behaviour.actors):
         if actor in blocks and not blocks[actor].actor:
-            message = f"actors: block {actor!r} is no actor"
+            message = f"actors: block {actor!r} is not an actor"
             yield declaration.finding("actor", message, ("actors", index), hint="give it 'actor: true'")

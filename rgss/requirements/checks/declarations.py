@@ -1,4 +1,4 @@
-"""What each file declares, and what the declared elements refer to."""
+"""Declarations of each file, and the references of the declared elements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What makes the flow of an activity a flow: one beginning, an end, and a definite way between them."""
+"""Consistency of an activity's flow: one beginning, an end, and a definite way between them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What makes the messages of a sequence an interaction, and its timing constraints bounds on a time."""
+"""Consistency of a sequence's messages and of its timing constraints."""
 
 from __future__ import annotations
 

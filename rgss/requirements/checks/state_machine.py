@@ -1,4 +1,4 @@
-"""What makes states and transitions a state machine."""
+"""Consistency of the states and transitions of a state machine."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from functools import lru_cache
 from rgss.evidence.records import results_of
 
 NUMERICS = "numerics of "
-"""What the names of an environment begin with that tell what the mathematics computes."""
+"""Prefix of the entries of an environment that describe the numerics."""
 
 
 def environment() -> dict[str, str]:
@@ -27,7 +27,7 @@ def environment() -> dict[str, str]:
 
 
 def are_alike(found: Mapping[str, str], expected: Mapping[str, str]) -> bool:
-    """Tell whether two environments make the same results; what computes the same may go by another name.
+    """True if two environments make the same results; what computes the same may go by another name.
 
     Args:
         found: The one environment, as `environment` gives it.

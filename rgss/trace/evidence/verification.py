@@ -41,7 +41,7 @@ class VerificationRow:
 
     @property
     def has_gap(self) -> bool:
-        """Whether anything is open: the method, the criterion, the evidence, or that it is met."""
+        """True if anything is open: the method, the criterion, the evidence, or that it is met."""
         return self.requirement.verification is None or not self.success or self.verdict is not Verdict.MET
 
 

@@ -193,7 +193,7 @@ def test_names_that_are_none(project, reviewer):
 def test_an_element_that_is_not_there(project):
     with pytest.raises(DefinitionError) as caught:
         review(project, "SYS-1", "SYS-11")
-    assert str(caught.value) == "'SYS-11' is no element of the requirements (did you mean 'SYS-1'?)"
+    assert str(caught.value) == "'SYS-11' is not an element of the requirements (did you mean 'SYS-1'?)"
     assert not (project.folder / "reviews.yaml").exists()
 
 
