@@ -21,7 +21,8 @@ from typing import Any
 
 from rgss.findings import Severity
 from rgss.reports.table_files import to_csv
-from rgss.reports.trace.files import report_file, tables_of
+from rgss.reports.trace.files import tables_of
+from rgss.reports.trace.formats import Selection, trace_format
 from rgss.reports.trace.report import TraceReport, trace_report
 from rgss.requirements import RequirementGroup, RequirementSet, load_requirements
 from rgss.trace import MeasureKind, MeasureTrace, TraceModel, build_trace_model, check_trace
@@ -159,12 +160,17 @@ STAGES: Mapping[str, Callable[[RequirementSet], object]] = {
 }
 """What is timed after loading, by the name of its column."""
 
+
+def _file(report: TraceReport, file_format: str) -> bytes:
+    return trace_format(file_format).write_report(report, Selection())
+
+
 REPORTS: Mapping[str, Callable[[TraceReport], bytes]] = {
-    "HTML": lambda report: report_file(report, "html"),
-    "Markdown": lambda report: report_file(report, "md"),
+    "HTML": lambda report: _file(report, "html"),
+    "Markdown": lambda report: _file(report, "md"),
     "CSV": _csv,
-    "Excel": lambda report: report_file(report, "xlsx"),
-    "JSON": lambda report: report_file(report, "json"),
+    "Excel": lambda report: _file(report, "xlsx"),
+    "JSON": lambda report: _file(report, "json"),
 }
 """The reports whose time and size are measured, by the name of their column."""
 

@@ -73,7 +73,7 @@ def _part(rows: Sequence[Sequence[int]], count: int) -> list[int]:
     single = int(weights.sum()) ** 2 * (count + 1) + 1
 
     def alike(place: int) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-        """How much each design has in common with one of them."""
+        """Weighted agreement of each design with one of them."""
         common = (levels == levels[place]) @ weights
         return np.asarray(single * common + common**2, dtype=np.int64)
 

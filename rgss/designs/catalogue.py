@@ -12,8 +12,7 @@ from rgss.designs.fields import ConditionsField, ScalarField
 from rgss.designs.findings import dotted_findings, duplicate_findings, near_hint, unit_findings
 from rgss.designs.parameters import read_magnitude
 from rgss.designs.set_findings import component_set_findings, role_set_findings
-from rgss.designs.settable_quantities import SettableField
-from rgss.documents import Document, DocumentModel, Identifier, Text, UnitText, load_document
+from rgss.documents import Document, DocumentModel, Identifier, Text, load_document
 from rgss.errors import DocumentError, QuantityError
 from rgss.findings import Finding, shown
 
@@ -25,15 +24,6 @@ class SourcedValueModel(DocumentModel):
     assumption: bool = False
     rationale: Text | None = None
     source: Text | None = None
-
-
-class RoleModel(DocumentModel):
-    """A role and the units of the properties that its components have besides a cost."""
-
-    id: Identifier
-    name: Text
-    properties: dict[Identifier, UnitText] = Field(default_factory=dict)
-    sets: dict[Identifier, SettableField] = Field(default_factory=dict)
 
 
 class ComponentModel(DocumentModel):
@@ -52,7 +42,7 @@ class ComponentModel(DocumentModel):
 class CatalogueModel(DocumentModel):
     """The file ``designs/catalogue.yaml``."""
 
-    roles: tuple[RoleModel, ...] = Field(min_length=1)
+    roles: tuple[Role, ...] = Field(min_length=1)
     components: tuple[ComponentModel, ...] = Field(min_length=1)
 
 
@@ -79,7 +69,9 @@ class _CatalogueReader:
     def read(self) -> Catalogue:
         self._findings += duplicate_findings(self._document, ("roles",), self._model.roles)
         self._findings += duplicate_findings(self._document, ("components",), self._model.components)
-        roles = tuple(self._role(index, role) for index, role in enumerate(self._model.roles))
+        roles = self._model.roles
+        for index, role in enumerate(roles):
+            self._check_role(index, role)
         by_id = {role.id: role for role in reversed(roles)}
         components = tuple(
             self._component(index, component, by_id) for index, component in enumerate(self._model.components)
@@ -94,7 +86,7 @@ class _CatalogueReader:
     def _report(self, rule: str, message: str, *location: str | int, hint: str = "", at_key: bool = False) -> None:
         self._findings.append(self._document.finding(f"design.{rule}", message, location, hint=hint, at_key=at_key))
 
-    def _role(self, index: int, role: RoleModel) -> Role:
+    def _check_role(self, index: int, role: Role) -> None:
         self._findings += dotted_findings(self._document, ("roles", index, "id"), role.id)
         for name, unit in role.properties.items():
             place = ("roles", index, "properties", name)
@@ -105,7 +97,6 @@ class _CatalogueReader:
         if not any(component.role == role.id for component in self._model.components):
             message = f"no component has the role {role.id!r}"
             self._report("empty-role", message, "roles", index, "id", hint="add one, or remove the role")
-        return Role(id=role.id, name=role.name, properties=dict(role.properties), sets=dict(role.sets))
 
     def _component(self, index: int, component: ComponentModel, roles: Mapping[str, Role]) -> Component:
         place = ("components", index)

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import prod
+from typing import Annotated
+
+from pydantic import Field
+from pydantic.dataclasses import dataclass as document_dataclass
 
 from rgss.designs.components import Component
 from rgss.designs.constraints import Constraint
 from rgss.designs.design_values import COMPONENT_PREFIX, numbers
 from rgss.designs.parameters import ParameterValue
+from rgss.documents import STRICT, Identifier
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,7 +28,7 @@ class Condition:
     choices: Mapping[str, tuple[ParameterValue, ...]]
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """Tell whether it holds for a combination."""
+        """True if it holds for a combination."""
         for name, allowed in self.choices.items():
             if name.startswith(COMPONENT_PREFIX):
                 component = components.get(name.removeprefix(COMPONENT_PREFIX))
@@ -39,17 +44,12 @@ class Condition:
         return tuple(self.choices)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@document_dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Limit:
-    """Holds when a product of numbers of the design is at most another of them.
+    """A product of numbers of the design, and what it may not exceed."""
 
-    Attributes:
-        product_of: Names of the factors, such as ``design.finger_force``.
-        at_most: Name of the bound, such as ``component.gripper.max_force``.
-    """
-
-    product_of: tuple[str, ...]
-    at_most: str
+    product_of: Annotated[tuple[Identifier, ...], Field(min_length=1)]
+    at_most: Identifier
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -57,7 +57,7 @@ class Limit:
         return (*self.product_of, self.at_most)
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """Tell whether it holds for a combination; it does where a role has no component yet."""
+        """True if it holds for a combination; it does where a role has no component yet."""
         known = numbers(parameters, components)
         if not set(self.names) <= known.keys():
             return True
@@ -66,7 +66,7 @@ class Limit:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
-    """What a combination must satisfy to be a design.
+    """Condition that a combination must satisfy to be a design.
 
     Attributes:
         id: Its id.
@@ -86,7 +86,7 @@ class Rule:
         return (*self.when.names, *(self.require.names if self.require is not None else ()))
 
     def allows(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """Tell whether a combination satisfies the rule."""
+        """True if a combination satisfies the rule."""
         if not self.when.holds(parameters, components):
             return True
         return self.require is not None and self.require.holds(parameters, components)

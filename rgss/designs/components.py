@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from pydantic.dataclasses import dataclass as document_dataclass
+
 from rgss.designs.parameters import ParameterValue
-from rgss.documents import Document
+from rgss.designs.settable_quantities import SettableField
+from rgss.documents import STRICT, Document, Identifier, Text, UnitText
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,21 +31,14 @@ class SourcedValue:
     source: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@document_dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Role:
-    """A place in the design that exactly one component fills in every variant.
+    """A role and the units of the properties that its components have besides a cost."""
 
-    Attributes:
-        id: Its id, such as ``gripper``.
-        name: Its name.
-        properties: The SI unit of each property that its components have, by name.
-        sets: The quantity of `SETTABLE_QUANTITIES` that a property sets, by property.
-    """
-
-    id: str
-    name: str
-    properties: Mapping[str, str]
-    sets: Mapping[str, str] = field(default_factory=dict)
+    id: Identifier
+    name: Text
+    properties: dict[Identifier, UnitText] = field(default_factory=dict)
+    sets: dict[Identifier, SettableField] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,11 +67,6 @@ class Component:
     cost: SourcedValue
     properties: Mapping[str, SourcedValue]
     sets: Mapping[str, str] = field(default_factory=dict)
-
-    @property
-    def cost_usd(self) -> float:
-        """Its cost in US dollars."""
-        return self.cost.value
 
     @property
     def mass_kg(self) -> float | None:

@@ -45,7 +45,7 @@ Dimension = tuple[tuple[str, float], ...]
 
 
 class ConstraintProblem(Exception):  # noqa: N818 - it never leaves the room: it becomes a finding
-    """What is wrong in a constraint, and where.
+    """Mistake in a constraint, with its position.
 
     Attributes:
         rule: The id of the broken rule.
@@ -198,9 +198,11 @@ class _Reader:
             inner = self._side()
             closing = self._take()
             if closing.text != ")":
-                raise _problem(closing.offset, f"{_shown(closing)} stands where ')' is expected", "close the bracket")
+                raise _problem(closing.offset, f"{_shown(closing)} is found where ')' is expected", "close the bracket")
             return inner
-        raise _problem(token.offset, f"{_shown(token)} stands where a value is expected", "write a quantity or a name")
+        raise _problem(
+            token.offset, f"{_shown(token)} is found where a value is expected", "write a quantity or a name"
+        )
 
     def _symbol(self, token: _Token) -> _Part:
         own = f"{DESIGN_PREFIX}{token.text}"

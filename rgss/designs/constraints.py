@@ -109,7 +109,7 @@ class Constraint:
     names: tuple[str, ...]
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
-        """Tell whether it holds for a combination.
+        """True if it holds for a combination.
 
         It does where a role that it names has no component yet, and does not where it is not
         defined (a division by zero).

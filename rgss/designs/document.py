@@ -1,9 +1,10 @@
-"""What the file of a design space may say."""
+"""Document model of a design space."""
 
 from __future__ import annotations
 
 from pydantic import Field
 
+from rgss.designs.compatibility import Limit
 from rgss.designs.fields import ConditionsField, ScalarField
 from rgss.designs.parameters import ParameterKind
 from rgss.designs.sampling import SamplingMethod
@@ -51,13 +52,6 @@ class SampleModel(DocumentModel):
     seed: int = Field(ge=0, le=2**31 - 1)
 
 
-class LimitModel(DocumentModel):
-    """A product of numbers of the design, and what it may not exceed."""
-
-    product_of: tuple[Identifier, ...] = Field(min_length=1)
-    at_most: Identifier
-
-
 class RuleModel(DocumentModel):
     """A rule: ``exclude``; or ``require``, ``limit`` or ``constraint``, each with or without ``when``."""
 
@@ -65,7 +59,7 @@ class RuleModel(DocumentModel):
     rationale: Text
     when: ConditionsField | None = None
     require: ConditionsField | None = None
-    limit: LimitModel | None = None
+    limit: Limit | None = None
     constraint: Text | None = None
     exclude: ConditionsField | None = None
 

@@ -65,7 +65,7 @@ class Span:
         return Level(id=format_value(value, self.unit), values={self.parameter: value})
 
     def has(self, value: ParameterValue) -> bool:
-        """Tell whether a value is one of the range's."""
+        """True if a value is one of the range's."""
         if isinstance(value, str) or not self.low <= value <= self.high:
             return False
         low, high = exact(self.low), exact(self.high)

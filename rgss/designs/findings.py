@@ -27,7 +27,7 @@ def duplicate_findings(
         value = getattr(entry, key)
         if value in first:
             place = (*section, first[value], key)
-            message = f"{key} {value!r} stands already in line {document.values[place][0]}"
+            message = f"{key} {value!r} is already in line {document.values[place][0]}"
             hint = f"give each its own {key}"
             yield document.finding("design.duplicate-id", message, (*section, index, key), hint=hint)
         first.setdefault(value, index)

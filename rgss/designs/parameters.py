@@ -103,7 +103,7 @@ def read_magnitude(written: ParameterValue, unit: str) -> float:
 
 
 def is_si(unit: str) -> bool:
-    """Tell whether magnitudes in a unit are magnitudes in SI, as for ``N`` and not for ``mm``.
+    """True if magnitudes in a unit are magnitudes in SI, as for ``N`` and not for ``mm``.
 
     Raises:
         QuantityError: The unit is unknown, or measures what has no unit in SI.

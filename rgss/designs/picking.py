@@ -64,7 +64,9 @@ def _fraction(
     space: DesignSpace, variants: tuple[DesignVariant, ...], part: int, of: int, option: str
 ) -> tuple[DesignVariant, ...]:
     if not 0 < part < of:
-        raise DefinitionError(f"{option}: {part}/{of} is no part of the variants", hint="write a fraction such as 1/4")
+        raise DefinitionError(
+            f"{option}: {part}/{of} is not a part of the variants", hint="write a fraction such as 1/4"
+        )
     count = max(1, (2 * len(variants) * part + of) // (2 * of))
     rows = [_codes(space, variant) for variant in variants]
     return tuple(variants[place] for place in balanced_part(rows, min(count, len(variants))))
@@ -104,7 +106,7 @@ def _filter(space: DesignSpace, text: str, option: str) -> Filter:
     if equals is not None:
         hint = near_hint(equals["name"], _known_names(space), "known names")
         raise DefinitionError(f"{option}: nothing is named {equals['name']!r}", hint=hint)
-    raise DefinitionError(f"{option}: {text!r} is no id or range", hint="write ids such as 1,5,60-72")
+    raise DefinitionError(f"{option}: {text!r} is not an id or a range", hint="write ids such as 1,5,60-72")
 
 
 def _ids(space: DesignSpace, text: str, option: str) -> Filter:

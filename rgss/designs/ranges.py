@@ -77,7 +77,7 @@ def read_span(
         if abs(steps - whole) <= _TOLERANCE * whole:
             return Span(parameter=name, unit=parameter.unit, low=low, high=high, steps=whole, counted=counted), []
         ends = f"{format_value(low, parameter.unit)} to {format_value(high, parameter.unit)}"
-        message = f"{ends} is no whole number of steps of {format_value(step, parameter.unit)}"
+        message = f"{ends} is not a whole number of steps of {format_value(step, parameter.unit)}"
         where = "range" if model.resolution is None else "resolution"
         report("range", message, where, hint="let one divide the other")
     return None, findings
@@ -99,7 +99,7 @@ def sample_findings(document: Document, model: DesignSpaceModel) -> Iterator[Fin
     size = model.sample.size
     if model.sample.method is SamplingMethod.SOBOL and size & (size - 1):
         below = 1 << (size.bit_length() - 1)
-        message = f"{size} is no power of two, and a Sobol sample is even only with one"
+        message = f"{size} is not a power of two, and a Sobol sample is even only with one"
         near = f"{below}" if below * 2 > 65_536 else f"{below} or {below * 2}"
         hint = f"write {near}, or take latin_hypercube"
         yield document.finding("design.sample", message, ("sample", "size"), hint=hint)

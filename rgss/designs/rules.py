@@ -10,7 +10,7 @@ from rgss.designs.components import Catalogue
 from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
 from rgss.designs.constraints import Constraint
 from rgss.designs.design_values import COMPONENT_PREFIX, set_names, source_units
-from rgss.designs.document import LimitModel, RuleModel
+from rgss.designs.document import RuleModel
 from rgss.designs.factors import Factor
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterValue, format_value
@@ -78,7 +78,8 @@ class RuleReader:
         if model.require is not None:
             require = self._condition(model.require, *place, "require")
         elif model.limit is not None:
-            require = self._limit(model.limit, *place, "limit")
+            self._check_limit(model.limit, *place, "limit")
+            require = model.limit
         elif model.constraint is not None:
             require = self._constraint(model.constraint, *place, "constraint")
         for key in ("when", "require", "exclude"):
@@ -144,13 +145,13 @@ class RuleReader:
             return None
 
     def _offset(self, finding: Finding, text: str, offset: int) -> int:
-        """How far from the value's first character a character of its text stands; 0 where it is folded."""
+        """Distance of a character of the text from the value's first character; 0 where it is folded."""
         written = self._lines[finding.line - 1][finding.column - 1 :] if self._lines else ""
         if written.startswith(text):
             return offset
         return 1 + offset if written[1:].startswith(text) else 0
 
-    def _limit(self, model: LimitModel, *place: str | int) -> Limit:
+    def _check_limit(self, model: Limit, *place: str | int) -> None:
         known = source_units(self._values.parameters.values(), self._catalogue)
         units = {name: unit for name, unit in known.items() if unit}
         names = [(name, (*place, "product_of", index)) for index, name in enumerate(model.product_of)]
@@ -165,7 +166,6 @@ class RuleReader:
             if _powers(product) != _powers([bound]):
                 message = f"a product in {'·'.join(product)} is compared with {model.at_most} in {bound}"
                 self._report("unit", message, *place, hint="compare what has one unit")
-        return Limit(product_of=model.product_of, at_most=model.at_most)
 
 
 def _powers(units: Iterable[str]) -> Mapping[str, float]:

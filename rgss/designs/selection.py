@@ -1,4 +1,4 @@
-"""Whether every design selects exactly one component for each role."""
+"""Check that every design selects exactly one component for each role."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ class _Combination:
         return ", ".join(f"{name} = {format_value(value, units[name])}" for name, value in self.values.items())
 
     def _location(self, model: DesignSpaceModel) -> tuple[str | int, ...]:
-        """Where the innermost factor sets one of the values; else where a constant does."""
+        """Location at which the innermost factor sets one of the values; else that of a constant."""
         for index, factor in reversed(list(enumerate(model.factors))):
             if factor.parameter in self.values:
                 return ("factors", index, "range")

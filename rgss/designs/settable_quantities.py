@@ -25,7 +25,7 @@ CATALOGUE_PREFIX = "catalogue."
 
 
 class Application(Enum):
-    """How the value of a quantity gets into a trial."""
+    """Way in which the value of a quantity gets into a trial."""
 
     REPLACE = "replaces the field"
     REQUIRE = "must equal the field"

@@ -16,11 +16,12 @@ from rgss.documents.fields import (
     Radians,
     RadiansPerSecond,
     RadiansPerSecondSquared,
+    ReadFrom,
     Seconds,
     Text,
     UnitText,
 )
-from rgss.documents.model import DocumentModel
+from rgss.documents.model import STRICT, DocumentModel
 from rgss.documents.output_files import (
     DATA_FOLDERS,
     is_standard_output,
@@ -43,6 +44,7 @@ __all__ = [
     "DATA_FOLDERS",
     "LARGEST_FILE_BYTES",
     "MOST_PROBLEMS",
+    "STRICT",
     "AppendEntry",
     "Dimensionless",
     "Document",
@@ -62,6 +64,7 @@ __all__ = [
     "Radians",
     "RadiansPerSecond",
     "RadiansPerSecondSquared",
+    "ReadFrom",
     "RemoveEntry",
     "RemoveKey",
     "Seconds",

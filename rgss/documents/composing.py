@@ -201,7 +201,7 @@ class Composer:
             self._refuse_extras(event)
         if isinstance(event, ScalarEvent):
             if event.style == '"' and _LONE_SURROGATE.search(event.value):
-                self._report("character", "half a surrogate pair is no character", self._at(event), "remove it")
+                self._report("character", "half a surrogate pair is not a character", self._at(event), "remove it")
             return _resolve(event.value, event.style), mark
         if isinstance(event, SequenceStartEvent):
             return self._compose_sequence(mark, depth)
@@ -230,7 +230,7 @@ class Composer:
             key = event.value if _is_plain(event) and event.value != "<<" else self._key(event, depth)
             if key in mapping:
                 first, _ = self._position(keys[key])
-                message = f"key {shown(key)} stands already in line {first}"
+                message = f"key {shown(key)} is already in line {first}"
                 self._report("duplicate-key", message, self._at(event), "keep one")
             value_event = self._next()
             place: Places

@@ -267,7 +267,7 @@ class _Editor:
         return _Splice(start, stop, "")
 
     def _is_blank(self, start: int) -> bool:
-        """Whether a line is empty, or the file ends there."""
+        """True if a line is empty, or the file ends there."""
         return not self._text[start : self._line_end(start)].strip()
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, Any
+from dataclasses import dataclass
+from typing import Annotated, Any, Generic, TypeVar
 
-from pydantic import AfterValidator, BeforeValidator, StringConstraints, WithJsonSchema
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, BeforeValidator, GetCoreSchemaHandler, StringConstraints, WithJsonSchema
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from rgss.documents.model import DocumentModel
 from rgss.errors import QuantityError
 from rgss.quantities import dimension, parse_quantity
 
@@ -101,3 +103,24 @@ Text = Annotated[
     WithJsonSchema({"type": "string", "maxLength": 10_000, "pattern": r"\S"}),
 ]
 """Prose; not empty."""
+
+_Model = TypeVar("_Model", bound=DocumentModel)
+
+
+@dataclass(frozen=True)
+class ReadFrom(Generic[_Model]):
+    """Annotation of a type that files write in another form, such as a number and its unit as one text.
+
+    A value made in Python is an instance of the annotated class already.
+    """
+
+    model: type[_Model]
+    """The written form."""
+    convert: Callable[[_Model], Any]
+
+    def __get_pydantic_core_schema__(self, source: type[Any], handler: GetCoreSchemaHandler) -> CoreSchema:
+        """The schema of the model in files, and of the annotated class in Python."""
+        return core_schema.json_or_python_schema(
+            json_schema=core_schema.no_info_after_validator_function(self.convert, handler.generate_schema(self.model)),
+            python_schema=core_schema.is_instance_schema(source),
+        )

@@ -142,7 +142,7 @@ def why_not_writable(path: Path) -> str:
 
 
 def is_standard_output(path: Path) -> bool:
-    """Whether a path names what this process prints to, so that nothing else may be printed there."""
+    """True if a path names what this process prints to, so that nothing else may be printed there."""
     try:
         return os.path.samestat(path.stat(), os.fstat(1))
     except (OSError, ValueError):

@@ -60,8 +60,8 @@ Places = ListPlaces | MappingPlaces | Mark
 """Positions of a value and everything in it, in the shape of the value itself."""
 
 
-class ValuePositions(Mapping[Location, Position]):
-    """The position of the value at each location."""
+class _Positions(Mapping[Location, Position]):
+    """Positions of the parts of a file by their locations."""
 
     def __init__(self, places: Places, end: Callable[[], Position]) -> None:
         """Take the places of a whole file.
@@ -72,6 +72,13 @@ class ValuePositions(Mapping[Location, Position]):
         """
         self._places = places
         self._end = end
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+class ValuePositions(_Positions):
+    """The position of the value at each location."""
 
     def __getitem__(self, location: Location) -> Position:
         return min(position_of(_mark_of(_places_at(self._places, location))), self._end())
@@ -79,22 +86,9 @@ class ValuePositions(Mapping[Location, Position]):
     def __iter__(self) -> Iterator[Location]:
         return (location for location, _ in _walk(self._places))
 
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
 
-
-class KeyPositions(Mapping[Location, Position]):
+class KeyPositions(_Positions):
     """The position of the key at each location within a mapping."""
-
-    def __init__(self, places: Places, end: Callable[[], Position]) -> None:
-        """Take the places of a whole file.
-
-        Args:
-            places: The places.
-            end: Where the file ends; nothing stands after that.
-        """
-        self._places = places
-        self._end = end
 
     def __getitem__(self, location: Location) -> Position:
         around = _places_at(self._places, location[:-1])
@@ -105,9 +99,6 @@ class KeyPositions(Mapping[Location, Position]):
 
     def __iter__(self) -> Iterator[Location]:
         return (location for location, has_key in _walk(self._places) if has_key)
-
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
 
 
 def _places_at(places: Places, location: Location) -> Places:

@@ -98,7 +98,7 @@ def _parts(schema: _Schema) -> Iterator[_Schema]:
 
 
 def _is_written_so(schema: _Schema) -> bool:
-    """Whether a default looks in a document as it does inside, so that an editor may offer it."""
+    """True if a default looks in a document as it does inside, so that an editor may offer it."""
     default = schema["default"]
     if isinstance(default, bool):
         return True

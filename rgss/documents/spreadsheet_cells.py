@@ -11,7 +11,7 @@ _NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udff
 
 
 def starts_like_a_formula(text: str) -> bool:
-    """Whether a spreadsheet may take a text for a formula when it opens a text file.
+    """True if a spreadsheet may take a text for a formula when it opens a text file.
 
     The signs are those of the OWASP page on CSV injection, their full-width forms, and either
     behind blanks, which some programs cut off.

@@ -20,7 +20,7 @@ _STEERING = re.compile(
 
 
 def steers(text: str) -> bool:
-    """Whether a text has a character that steers who shows it.
+    """True if a text has a character that steers who shows it.
 
     Args:
         text: The text.

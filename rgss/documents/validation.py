@@ -10,9 +10,11 @@ from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, Generic, TypeVar, Union, get_args, get_origin
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, TypeAdapter, ValidationError
+from pydantic.dataclasses import is_pydantic_dataclass
+from pydantic.fields import FieldInfo
 
-from rgss.documents.fields import IDENTIFIER_PATTERN
+from rgss.documents.fields import IDENTIFIER_PATTERN, ReadFrom
 from rgss.documents.model import DocumentModel
 from rgss.documents.positions import Location
 from rgss.documents.problems import first_problems
@@ -22,6 +24,7 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding, shown
 
 Model = TypeVar("Model", bound=DocumentModel)
+Entry = TypeVar("Entry")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,18 +61,18 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
     return LoadedDocument(value=value, document=document)
 
 
-def validated(data: Any, model: type[Model]) -> tuple[Model | None, tuple[tuple[Location, str], ...]]:
-    """Plain data that comes from no YAML file as a typed model.
+def validated(data: Any, kind: type[Entry]) -> tuple[Entry | None, tuple[tuple[Location, str], ...]]:
+    """Plain data that comes from no YAML file as a typed value.
 
     Args:
         data: Mappings, lists, texts, numbers, truth values and None.
-        model: What the data should be.
+        kind: A model or a pydantic dataclass: what the data should be.
 
     Returns:
-        The model, None if the data are not that; and each problem with where in the data it is.
+        The value, None if the data are not that; and each problem with where in the data it is.
     """
     try:
-        return model.model_validate_json(json.dumps(data)), ()
+        return TypeAdapter(kind).validate_json(json.dumps(data)), ()
     except ValidationError as error:
         problems = error.errors(include_url=False)[:MOST_PROBLEMS]
         return None, tuple((problem["loc"], _plain_words(problem)) for problem in problems)
@@ -90,7 +93,7 @@ def _own_problems(problems: Sequence[Any], model: type[BaseModel]) -> list[Any]:
     misspelt = {
         (*problem["loc"][:-1], near)
         for problem in problems
-        if problem["type"] == "extra_forbidden"
+        if problem["type"] in _UNKNOWN_KEY
         for near in _near_keys(problem["loc"], model)
     }
 
@@ -106,7 +109,7 @@ def _finding(document: Document, model: type[BaseModel], problem: Mapping[str, A
     location: tuple[str | int, ...] = problem["loc"]
     kind = problem["type"]
     context = problem.get("ctx", {})
-    if kind == "extra_forbidden":
+    if kind in _UNKNOWN_KEY:
         return _unknown_key(document, model, location)
     if kind == "union_tag_not_found":
         kind, location = "missing", (*location, context["discriminator"].strip("'"))
@@ -135,6 +138,9 @@ def _near_keys(location: tuple[str | int, ...], model: type[BaseModel]) -> list[
     return difflib.get_close_matches(str(location[-1]), _siblings(location, model), n=1)
 
 
+_UNKNOWN_KEY = ("extra_forbidden", "unexpected_keyword_argument")
+"""The problem of a key that a model, or a pydantic dataclass, does not have."""
+
 _WORDS: Mapping[str, str] = {
     "string_type": "a text is expected",
     "float_type": "a number is expected",
@@ -145,6 +151,7 @@ _WORDS: Mapping[str, str] = {
     "dict_type": "a mapping is expected",
     "model_type": "a mapping is expected",
     "model_attributes_type": "a mapping is expected",
+    "dataclass_type": "a mapping is expected",
     "string_too_short": "a text that is not empty is expected",
 }
 
@@ -185,14 +192,22 @@ def _siblings(location: tuple[str | int, ...], model: type[BaseModel]) -> list[s
     for part in location[:-1]:
         # A part that leads nowhere is the tag of a union, which is no level of its own.
         kinds = _alternatives([inner for kind in kinds for inner in _inside(kind, part)]) or kinds
-    models = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
-    return sorted({field.alias or name for kind in models for name, field in kind.model_fields.items()})
+    return sorted({field.alias or name for kind in kinds for name, field in _fields_of(kind).items()})
+
+
+def _fields_of(kind: Any) -> Mapping[str, FieldInfo]:
+    """The fields of a model or a pydantic dataclass; none of anything else."""
+    if not isinstance(kind, type):
+        return {}
+    if issubclass(kind, BaseModel):
+        return kind.model_fields
+    return kind.__pydantic_fields__ if is_pydantic_dataclass(kind) else {}
 
 
 def _inside(kind: Any, part: str | int) -> list[Any]:
-    """The annotations of what stands under a key or an index of a value of some kind."""
-    if isinstance(kind, type) and issubclass(kind, BaseModel):
-        return [field.annotation for name, field in kind.model_fields.items() if part in (name, field.alias)]
+    """Annotations of the values under a key or an index of a value of some kind."""
+    if fields := _fields_of(kind):
+        return [field.annotation for name, field in fields.items() if part in (name, field.alias)]
     origin, arguments = get_origin(kind), [each for each in get_args(kind) if each is not Ellipsis]
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return arguments[1:] if isinstance(part, str) else []
@@ -205,7 +220,8 @@ def _alternatives(annotations: list[Any]) -> list[Any]:
     for annotation in annotations:
         origin = get_origin(annotation)
         if origin is Annotated:
-            found += _alternatives([get_args(annotation)[0]])
+            written = [each.model for each in get_args(annotation)[1:] if isinstance(each, ReadFrom)]
+            found += _alternatives(written or [get_args(annotation)[0]])
         elif origin is Union or origin is UnionType:
             found += _alternatives(list(get_args(annotation)))
         else:

@@ -85,7 +85,7 @@ def _list_lines(items: list[Any] | tuple[Any, ...], indent: int) -> list[str]:
 
 
 def _is_plain(text: str) -> bool:
-    """Whether a text reads as itself without quotes, for us and for other readers of YAML."""
+    """True if a text reads as itself without quotes, for us and for other readers of YAML."""
     if text.lower() in _CONSTANTS or not text.isprintable() or not text[0].isalnum() or text != text.strip():
         return False
     if ": " in text or " #" in text or text.endswith(":"):
@@ -95,7 +95,7 @@ def _is_plain(text: str) -> bool:
 
 
 def _folds(text: str) -> bool:
-    """Whether a text survives being wrapped at its blanks and joined again."""
+    """True if a text survives being wrapped at its blanks and joined again."""
     return text.isprintable() and text == text.strip() and "  " not in text
 
 

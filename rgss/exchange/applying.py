@@ -50,7 +50,7 @@ class FileChange:
 def planned(
     folder: Path, requirements: RequirementSet, changes: Sequence[ElementChange], *, remove: bool
 ) -> tuple[FileChange, ...]:
-    """What the changes make of the files; nothing is written.
+    """Files as the changes make them; nothing is written.
 
     An element that is new stands behind the last of its kind, in the file of that.
 

@@ -1,4 +1,4 @@
-"""What needs, requirements, blocks and behaviours have: one list for every format of exchange."""
+"""Attributes of needs, requirements, blocks and behaviours: one list for every format of exchange."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
-from rgss.documents import DocumentModel
 from rgss.requirements import (
-    BehaviourFile,
+    Behaviour,
     BehaviourKind,
-    BlockFile,
+    Block,
     BlockLevel,
     BlockRelation,
     Comparison,
+    Element,
     LinkKind,
-    NeedFile,
     NeedKind,
     Priority,
-    RequirementFile,
+    Requirement,
     RequirementGroup,
+    StakeholderNeed,
     Statistic,
     Status,
     VerificationMethod,
@@ -29,7 +29,7 @@ from rgss.requirements import (
 
 
 class Part(str, Enum):
-    """What an element is."""
+    """Part of the project that an element belongs to."""
 
     STAKEHOLDER = "stakeholder"
     SYSTEM = "system"
@@ -38,7 +38,7 @@ class Part(str, Enum):
 
 
 class Form(str, Enum):
-    """How an attribute is written down as one text."""
+    """Form in which an attribute is written as one text."""
 
     LINE = "line"
     """A short text."""
@@ -76,7 +76,7 @@ class Attribute:
 
     @property
     def holds_ids(self) -> bool:
-        """Whether it names other elements, one or more."""
+        """True if it names other elements, one or more."""
         return self.form is Form.LINKS or self.link is not None
 
 
@@ -165,7 +165,7 @@ ATTRIBUTES: Mapping[Part, tuple[Attribute, ...]] = MappingProxyType(
 )
 """The attributes of each part, in the order of the YAML files."""
 
-MODELS: Mapping[Part, type[DocumentModel]] = MappingProxyType(
-    {Part.STAKEHOLDER: NeedFile, Part.SYSTEM: RequirementFile, Part.BLOCK: BlockFile, Part.BEHAVIOUR: BehaviourFile}
+MODELS: Mapping[Part, type[Element]] = MappingProxyType(
+    {Part.STAKEHOLDER: StakeholderNeed, Part.SYSTEM: Requirement, Part.BLOCK: Block, Part.BEHAVIOUR: Behaviour}
 )
 """What an entry of a YAML file must be."""

@@ -1,4 +1,4 @@
-"""What a file of another tool would change in a project."""
+"""Changes that a file of another tool would make in a project."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from rgss.documents import validated
 from rgss.exchange.attributes import ATTRIBUTES, MODELS, Attribute, Form, Part
 from rgss.exchange.cells import CellError, cells_of, entry_of, ids_in
-from rgss.exchange.content import Content, Row
+from rgss.exchange.content import Content, Row, as_written
 from rgss.exchange.files import problem, refusal_of
 from rgss.findings import Finding, shown
 
@@ -18,7 +18,7 @@ _CONTROL = frozenset(map(chr, (*range(9), 11, 12, *range(14, 32), 127)))
 
 
 class ChangeKind(str, Enum):
-    """What happens to an element."""
+    """Kind of a change of an element."""
 
     ADDED = "added"
     REMOVED = "removed"
@@ -61,7 +61,7 @@ class ElementChange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wishes:
-    """What the user says about elements that a file leaves open.
+    """Options of the user about elements that a file leaves open.
 
     Attributes:
         part: What an element is where the file does not say.
@@ -73,7 +73,7 @@ class Wishes:
 
 
 def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChange, ...]:
-    """What a file would change: what it changes and adds in its own order, then what it removes.
+    """Changes by a file: changed and added elements in its own order, then removed ones.
 
     Ids under one attribute have no order, so another order is no change.
 
@@ -95,7 +95,7 @@ def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChan
         if not row.id:
             findings.append(_at(foreign, row, "id", "missing", "an element without an id"))
         elif row.id in seen:
-            findings.append(_at(foreign, row, "id", "duplicate", f"{row.id!r} stands already in line {seen[row.id]}"))
+            findings.append(_at(foreign, row, "id", "duplicate", f"{row.id!r} is already in line {seen[row.id]}"))
         else:
             seen[row.id] = row.line
             found = _change(known.get(row.id), foreign, row, wishes)
@@ -155,10 +155,10 @@ def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> Elem
     entry, findings = _entry(part, cells, foreign, row)
     if findings:
         return findings
-    model, problems = validated(entry, MODELS[part])
-    if model is None:
+    element, problems = validated(entry, MODELS[part])
+    if element is None:
         return [_value_problem(part, foreign, row, location, message) for location, message in problems]
-    after = cells_of(part, model.model_dump(mode="json"))
+    after = cells_of(part, as_written(element, entry))
     before = own.cells if own is not None else dict.fromkeys(after, "")
     return ElementChange(
         kind=ChangeKind.ADDED if own is None else ChangeKind.CHANGED,
@@ -169,7 +169,7 @@ def _change(own: Row | None, foreign: Content, row: Row, wishes: Wishes) -> Elem
             for each in ATTRIBUTES[part]
             if _differs(each, before[each.name], after[each.name])
         ),
-        entry=model.model_dump(mode="json", exclude_defaults=True),
+        entry=as_written(element, entry, exclude_defaults=True),
     )
 
 
@@ -184,7 +184,7 @@ def _entry(part: Part, cells: Mapping[str, str], foreign: Content, row: Row) -> 
         cell = cells.get(attribute.name, "")
         try:
             if not _CONTROL.isdisjoint(cell):
-                raise CellError("a control character is no text")
+                raise CellError("a control character is not text")
             entry_of(part, {attribute.name: cell})
         except CellError as error:
             findings.append(_at(foreign, row, attribute.name, "value", f"{row.id}: {attribute.name}: {error}"))

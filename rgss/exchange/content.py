@@ -1,4 +1,4 @@
-"""What a project and a file of another tool say, in one shape, so that they can be compared."""
+"""Content of a project or of a file of another tool, in one shape, so that they can be compared."""
 
 from __future__ import annotations
 
@@ -8,19 +8,15 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
+from pydantic import TypeAdapter
+
+from rgss.documents import validated
 from rgss.exchange.attributes import MODELS, Part
 from rgss.exchange.cells import Cells, cells_of
 from rgss.findings import Finding
-from rgss.requirements import Behaviour, Block, Element, Requirement, RequirementSet, StakeholderNeed
+from rgss.requirements import CriterionFile, Element, RequirementSet
 
-_PARTS: Mapping[type[Element], Part] = MappingProxyType(
-    {
-        StakeholderNeed: Part.STAKEHOLDER,
-        Requirement: Part.SYSTEM,
-        Block: Part.BLOCK,
-        Behaviour: Part.BEHAVIOUR,
-    }
-)
+_PARTS: Mapping[type[Element], Part] = MappingProxyType({model: part for part, model in MODELS.items()})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,12 +65,12 @@ class Content:
 
 
 def part_of(element: Element) -> Part:
-    """What an element is."""
+    """Part of the project that an element belongs to."""
     return _PARTS[type(element)]
 
 
 def content_of(requirements: RequirementSet, measures: Mapping[str, str] | None = None) -> Content:
-    """What a project says.
+    """Content of a project.
 
     Args:
         requirements: Its requirements and architecture, as loaded.
@@ -89,7 +85,25 @@ def content_of(requirements: RequirementSet, measures: Mapping[str, str] | None 
 
 def full_entry(part: Part, entry: Mapping[str, Any]) -> dict[str, Any]:
     """A sound entry of a YAML file with every key, also those that it leaves open."""
-    return MODELS[part].model_validate_json(json.dumps(entry)).model_dump(mode="json")
+    element, _ = validated(entry, MODELS[part])
+    return {} if element is None else as_written(element, entry)
+
+
+def as_written(element: Element, entry: Mapping[str, Any], *, exclude_defaults: bool = False) -> dict[str, Any]:
+    """The entry of a YAML file for an element that was read from another form of it.
+
+    Args:
+        element: The element.
+        entry: The entry that it was read from; a threshold is written as it is there.
+        exclude_defaults: Leave out the keys that have their default.
+    """
+    keys: dict[str, Any] = TypeAdapter(type(element)).dump_python(
+        element, mode="json", exclude_defaults=exclude_defaults
+    )
+    if entry.get("criterion") is not None:
+        criterion = CriterionFile.model_validate_json(json.dumps(entry["criterion"]))
+        keys["criterion"] = criterion.model_dump(mode="json", exclude_defaults=exclude_defaults)
+    return keys
 
 
 def _entries(requirements: RequirementSet) -> Iterator[tuple[Element, Mapping[str, Any]]]:

@@ -24,7 +24,7 @@ def problem(
     hint: str = "",
     severity: Severity = Severity.ERROR,
 ) -> Finding:
-    """What is wrong with a file of another tool.
+    """Finding in a file of another tool.
 
     Args:
         file: Its name.
@@ -48,7 +48,7 @@ def problem(
 
 
 def refusal_of(findings: Sequence[Finding]) -> DocumentError:
-    """What is wrong with a file, in the order of its places; of very many only the first."""
+    """Error with the findings of a file in the order of their positions; of very many only the first."""
     first = sorted(findings)[:MOST_PROBLEMS]
     if len(findings) > MOST_PROBLEMS:
         message = f"more than {MOST_PROBLEMS} problems; the first {MOST_PROBLEMS} are shown"

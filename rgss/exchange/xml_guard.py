@@ -1,4 +1,4 @@
-"""What XML must not have before any other parser sees it: document types, entities, bottomless nesting."""
+"""Refusal of unsafe XML before any other parser sees it: document types, entities, bottomless nesting."""
 
 from __future__ import annotations
 

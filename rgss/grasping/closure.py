@@ -18,7 +18,7 @@ from rgss.grasping.screws import Wrench
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClosureVerdict:
-    """Whether a property holds, and by how much.
+    """Verdict on a property of a grasp, with its margin.
 
     Attributes:
         holds: The verdict.

@@ -23,7 +23,7 @@ _NEARLY_PARALLEL = 1e-6
 
 
 class ContactKind(str, Enum):
-    """What a contact can transmit besides its normal force.
+    """Kind of a contact: what it can transmit besides its normal force.
 
     Attributes:
         FRICTIONLESS: Nothing.

@@ -97,7 +97,7 @@ def net_wrench(grasp: Grasp) -> Wrench:
 
 
 def in_friction_cone(contact: ContactPoint, intensities: Sequence[float], *, tolerance_n: float = 1e-9) -> bool:
-    """Tell whether a contact can transmit a force: membership of the generalised friction cone C_i.
+    """True if a contact can transmit a force: membership of the generalised friction cone C_i.
 
     The cone is round: friction up to the coefficient times the normal force, and for a soft contact, independently, a
     torque up to the torsional coefficient times the normal force (Murray, Li, Sastry 1994, chapter 5).
@@ -138,7 +138,7 @@ def primitive_wrenches(
 def wrenches_of(
     grasp: Grasp, bases: Sequence[Matrix], *, cone_edges: int, frictionless: bool = False
 ) -> PrimitiveWrenches:
-    """What `primitive_wrenches` makes of a grasp in space, from the contacts' partial wrench bases.
+    """Primitive wrenches of a grasp in space, from the contacts' partial wrench bases.
 
     Args:
         grasp: The grasp.

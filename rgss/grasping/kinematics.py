@@ -17,7 +17,7 @@ _COINCIDENT_M = 1e-12
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BodyMotion:
-    """How a rigid body moves at one instant, in an inertial frame.
+    """Motion of a rigid body at one instant, in an inertial frame.
 
     Attributes:
         reference_m: A point of the body.
@@ -60,7 +60,7 @@ class Curvature:
     direction: Vector3
 
     def tensor(self, normal: Matrix) -> Matrix:
-        """How the unit normal turns when the point moves over the surface, shape (3, 3), in 1/m.
+        """Shape operator: change of the unit normal with the point on the surface, shape (3, 3), in 1/m.
 
         Raises:
             DefinitionError: The direction is along the normal.

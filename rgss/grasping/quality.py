@@ -45,7 +45,7 @@ def q_gii(matrix: Matrix) -> float:
 
 
 def of_ellipsoid(matrix: Matrix) -> tuple[float, float, float]:
-    """What `q_msv`, `q_voe` and `q_gii` say of a grasp matrix, from one decomposition."""
+    """Measures `q_msv`, `q_voe` and `q_gii` of a grasp matrix, from one decomposition."""
     values = singular_values(matrix)
     return float(values[-1]), float(np.prod(values)), float(values[-1] / values[0])
 

@@ -14,7 +14,7 @@ from rgss.grasping.screws import Twist, Wrench, reciprocal_product
 
 
 class ContactState(str, Enum):
-    """Where two bodies stand by the gap between them."""
+    """State of two bodies by the gap between them."""
 
     SEPARATED = "separated"
     TOUCHING = "touching"
@@ -22,7 +22,7 @@ class ContactState(str, Enum):
 
 
 class Tendency(str, Enum):
-    """Where the gap is going: growing, staying as it is, or shrinking (into penetration, if they touch)."""
+    """Tendency of the gap: growing, constant, or shrinking (into penetration, if they touch)."""
 
     SEPARATING = "separating"
     STAYING = "staying"
@@ -30,7 +30,7 @@ class Tendency(str, Enum):
 
 
 class Sliding(str, Enum):
-    """What the surfaces do to one another in the tangent plane.
+    """Relative motion of the surfaces in the tangent plane.
 
     Attributes:
         ROLLING: No relative tangential motion.
@@ -45,7 +45,7 @@ class Sliding(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactTolerances:
-    """What counts as zero: smaller gaps, speeds and accelerations are not told from none."""
+    """Tolerances: smaller gaps, speeds and accelerations count as zero."""
 
     gap_m: float = 1e-6
     speed_m_s: float = 1e-6

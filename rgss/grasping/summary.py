@@ -20,7 +20,7 @@ from rgss.grasping.screws import Wrench
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GraspQuality:
-    """What a grasp is worth; the names carry the units, 1 for pure numbers.
+    """Verdicts and quality measures of a grasp; the names carry the units, 1 for pure numbers.
 
     Attributes:
         contact_count: Number of contact points.

@@ -1,4 +1,4 @@
-"""What the watched trials decide, and how much of a change their own noise explains."""
+"""Decision of the watched trials, and the share of a change that their own noise explains."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def measured_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
 
 
 def decision_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialRecord]]) -> DecisionState:
-    """What is decided among the variants of a run by its records.
+    """Decision among the variants of a run by its records.
 
     Args:
         trials: The run.
@@ -92,7 +92,7 @@ def decision_of(trials: WatchedTrials, records: Mapping[int, Mapping[int, TrialR
 
 
 def p_values(project: Project, before: DecisionState, now: DecisionState) -> dict[str, float]:
-    """How probable it is that what moved in the decision moved by the luck of the seeds.
+    """Probability that what moved in the decision moved by the luck of the seeds.
 
     A verdict rests on its measure of its variant, a choice and a place on the front on every measure
     of every variant. Measures are held against those of the baseline, paired by seed.
@@ -138,7 +138,7 @@ def explained_by_noise(
     before: DecisionState,
     now: DecisionState,
 ) -> dict[str, float]:
-    """How probable each part of the decision that moved is as it was, over the noise of the seeds.
+    """Probability of the former state of each part of the decision that moved, over the noise of the seeds.
 
     The seeds are drawn anew with replacement, the same for all variants, and it is decided and
     judged again. A former choice also counts where it comes within the study's practical margin of

@@ -49,7 +49,7 @@ def shared_inputs(inputs: Inputs) -> dict[str, str]:
 
 
 def origin_of_trials(project: Project, provenances: Sequence[Provenance]) -> BaselineOrigin:
-    """Where the watched trials come from: what their provenance says, or what is installed where it says nothing.
+    """Origin of the watched trials: by their provenance, or by what is installed where it says nothing.
 
     Every field of a provenance counts that is not compared in another way, so that what is added to it later
     is guarded, too.

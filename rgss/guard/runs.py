@@ -111,7 +111,7 @@ class Records:
 
 
 def guard_of(project: Project) -> RegressionGuard:
-    """What a study guards.
+    """Regression section of a study.
 
     Raises:
         DefinitionError: It guards nothing.

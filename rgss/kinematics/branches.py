@@ -1,4 +1,4 @@
-"""Which branch of the inverse kinematics to take at each waypoint, so that the whole task moves least."""
+"""Choice of the inverse kinematics' branch at each waypoint, so that the whole task moves least."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the arm carries and what stands in its way during one move."""
+"""Carried object and obstacles of the arm during one move."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ def _duplicate(
     document: Document, seen: dict[str, int], name: str, location: tuple[str | int, ...]
 ) -> Iterable[Finding]:
     if name in seen:
-        message = f"id {name!r} stands already in line {seen[name]}"
+        message = f"id {name!r} is already in line {seen[name]}"
         yield document.finding("measures.duplicate-id", message, location, hint="give one of them another id")
     seen.setdefault(name, document.values[location][0])
 

@@ -27,7 +27,7 @@ _SKY_DEPTH = 0.9999
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class View:
-    """Where a camera stands.
+    """Viewpoint of a camera.
 
     Attributes:
         azimuth_rad: Direction from what it looks at to the camera, from the world's x towards its y.
@@ -54,7 +54,7 @@ VIEWS: Mapping[str, View] = MappingProxyType(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Background:
-    """What stands still as the camera sees it.
+    """Image of the fixed bodies from the camera.
 
     Attributes:
         picture: Its colours (height, width, 3), shaded by itself.

@@ -46,7 +46,7 @@ class ContactReader:
         self._resting: dict[tuple[str, ...], Contacts] = {}
 
     def contacts(self, standing: Contacts | None = None) -> Contacts:
-        """What touches what after the last step.
+        """Contacts after the last step.
 
         The arm's base link does not move and so is never reported, wherever it is mounted.
 
@@ -142,7 +142,7 @@ class ContactReader:
         return tuple(sorted(found, key=lambda point: (point.finger, point.position_m[2])))
 
     def _workpiece_pose_before(self, step_s: float) -> Pose:
-        """Where the workpiece was before a step: the engine moves a body with the velocity that it has afterwards."""
+        """Pose of the workpiece before a step: the engine moves a body with the velocity that it has afterwards."""
         engine, client = self._engine, self._client
         (x, y, z), turned = engine.getBasePositionAndOrientation(self._workpiece, physicsClientId=client)
         (vx, vy, vz), (wx, wy, wz) = engine.getBaseVelocity(self._workpiece, physicsClientId=client)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 
 class Contacts(NamedTuple):
-    """What touches what after a step.
+    """Contacts after a step.
 
     One is made at every step, and a named tuple in a third of the time of a dataclass.
 
@@ -46,7 +46,7 @@ class Contacts(NamedTuple):
 
     @property
     def is_robot_touching(self) -> bool:
-        """Whether any link of the robot touches anything."""
+        """True if any link of the robot touches anything."""
         return bool(self.robot_bodies) or self.other_force_n > 0.0 or any(self.finger_forces_n)
 
     @property

@@ -9,9 +9,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, BinaryIO
+from types import TracebackType
+from typing import Any, BinaryIO, TypeVar
 
 from rgss.errors import SimulationError
+
+_Owner = TypeVar("_Owner", bound="ClientOwner")
 
 _STANDARD_OUTPUT, _STANDARD_ERROR = 1, 2
 _MESSAGE = re.compile(r"b3(Error|Warning)\[[^\]]*\]:\s*")
@@ -37,6 +40,33 @@ def open_client() -> int:
     if client < 0:
         raise SimulationError("the physics engine opened no client", hint="close other worlds first")
     return client
+
+
+class ClientOwner:
+    """Owner of a physics client; a context manager that always closes it."""
+
+    def __init__(self) -> None:
+        """Open a client.
+
+        Raises:
+            SimulationError: The engine refused.
+        """
+        self._engine = pybullet()
+        self._client = open_client()
+
+    def __enter__(self: _Owner) -> _Owner:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the physics client; closing twice is allowed."""
+        if self._client >= 0:
+            self._engine.disconnect(physicsClientId=self._client)
+            self._client = -1
 
 
 def load_urdf_text(client: int, text: str, *, position: Any, orientation: Any, flags: int) -> int:

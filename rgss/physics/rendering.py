@@ -48,7 +48,7 @@ class Window:
 
     @property
     def slices(self) -> tuple[slice, slice]:
-        """What picks this part out of an array of rows and columns."""
+        """Slices of this part in an array of rows and columns."""
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
 

@@ -1,4 +1,4 @@
-"""How finely the physics is stepped."""
+"""Settings of the physics: time step and solver."""
 
 from __future__ import annotations
 

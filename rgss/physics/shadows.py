@@ -56,7 +56,7 @@ class Light:
         )
 
     def receiver(self, points_m: Array) -> Receiver:
-        """How the light sees points (height, width, 3) of the world."""
+        """Coordinates in the light's view of points (height, width, 3) of the world."""
         lens = self._lens
         column, row, depth = lens.project(points_m)
         inside = (column >= 1) & (column < lens.width - 1) & (row >= 1) & (row < lens.height - 1)

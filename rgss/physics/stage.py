@@ -41,7 +41,7 @@ _RAIL_HEIGHT_M = 0.012
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Posture:
-    """How everything that moves stands.
+    """Posture of everything that moves.
 
     Attributes:
         joints_rad: Joint positions of the arm.
@@ -55,7 +55,7 @@ class Posture:
 
 
 class Stage:
-    """What stands still in one client, what moves in another, so that each can be drawn alone.
+    """Fixed bodies in one client and moving ones in another, so that each can be drawn alone.
 
     Attributes:
         still: Client of the scene's bodies and of a mat that marks the place.

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from types import TracebackType
 
 from rgss.errors import SimulationError
-from rgss.physics.engine import load_urdf_text, open_client, pybullet
+from rgss.physics.engine import ClientOwner, load_urdf_text
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Gripper, Pose, Robot, Workpiece, assembled_urdf, finger_joint
 
 
-class TorqueArm:
+class TorqueArm(ClientOwner):
     """One arm with its gripper in an empty world; a context manager that always closes its client.
 
     The fingers are held where they are put by stiff motors.
@@ -29,8 +28,7 @@ class TorqueArm:
         Raises:
             SimulationError: The engine cannot build it.
         """
-        self._engine = pybullet()
-        self._client = open_client()
+        super().__init__()
         self._held = self._bond = -1
         self._grasp_centre = gripper.geometry.grasp_centre
         try:
@@ -41,20 +39,6 @@ class TorqueArm:
         except BaseException:
             self.close()
             raise
-
-    def __enter__(self) -> TorqueArm:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
-
-    def close(self) -> None:
-        """Close the physics client; closing twice is allowed."""
-        if self._client >= 0:
-            self._engine.disconnect(physicsClientId=self._client)
-            self._client = -1
 
     def reset(self, configuration_rad: Sequence[float], finger_travel_m: float) -> None:
         """Put the arm at rest at a configuration and the fingers at a travel from open."""

@@ -1,34 +1,30 @@
 """A headless world: the scene's bodies, the workpiece, and the arm with its gripper.
 
-Facts of the engine that shape this file: friction of a contact is the product of the two
-bodies' coefficients; damping must be set to zero or falling bodies are slowed; a finger held
-by a velocity motor exerts its force limit exactly, while a torque command slams; target
-position and velocity must be commanded at every step; every call names its client.
+Facts of the engine that shape this file: a finger held by a velocity motor exerts its force
+limit exactly, while a torque command slams; target position and velocity must be commanded at
+every step; every call names its client. `world_builder` has what shapes the bodies.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from types import TracebackType
-from typing import Any
 
 from rgss.errors import SimulationError
 from rgss.physics.contact_reader import ContactReader
 from rgss.physics.contacts import Contacts, FingerContact
-from rgss.physics.engine import load_urdf_text, open_client, pybullet
+from rgss.physics.engine import ClientOwner
 from rgss.physics.hand_view import HandView
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import RIBS, Box, Gripper, Pose, Scene, Shape, assembled_urdf, finger_joint, pad_ribs
+from rgss.physics.world_builder import WorldBuilder
+from rgss.scenes import Gripper, Pose, Scene
 
 _ARM_POSITION_GAIN = 0.2
-_GEAR_FORCE_N = 1.0e4
-_FRICTION_RECOVERY = 0.9
 _RENEWAL_COSINE = math.cos(math.radians(15.0) / 2)
 _RENEWAL_CHECK_STEPS = 8
 
 
-class World:
+class World(ClientOwner):
     """One physics world; a context manager that always closes its client.
 
     The arm follows targets through velocity motors with the joints' torque limits; fingers move
@@ -46,8 +42,7 @@ class World:
         Raises:
             SimulationError: The engine cannot build it.
         """
-        self._engine = pybullet()
-        self._client = open_client()
+        super().__init__()
         self.scene = scene
         self.gripper = gripper
         self.settings = settings
@@ -55,31 +50,20 @@ class World:
         self._to_renew: list[int] = []
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
-            self._set_parameters()
-            self._scene_names = self._add_scene()
-            self._workpiece = self._add_workpiece()
-            self._robot = self._add_robot()
-            self._index_robot()
+            builder = WorldBuilder(
+                engine=self._engine, client=self._client, scene=scene, gripper=gripper, settings=settings
+            )
+            builder.set_parameters()
+            self._scene_names = builder.add_scene()
+            self._workpiece = builder.add_workpiece()
+            self._robot = builder.add_robot()
+            self._index_robot(builder)
         except self._engine.error as error:
             self.close()
             raise SimulationError(f"the physics engine refused the world: {error}", hint="check the scene") from error
         except BaseException:
             self.close()
             raise
-
-    def __enter__(self) -> World:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
-
-    def close(self) -> None:
-        """Close the physics client; closing twice is allowed."""
-        if self._client >= 0:
-            self._engine.disconnect(physicsClientId=self._client)
-            self._client = -1
 
     def reset_arm(self, configuration_rad: Sequence[float]) -> None:
         """Put the arm at rest at a configuration, fingers open, without stepping."""
@@ -188,7 +172,7 @@ class World:
         return positions, velocities, torques
 
     def finger_travel_m(self) -> tuple[float, ...]:
-        """How far each finger has closed from its open end."""
+        """Distance that each finger has closed from its open end."""
         states = self._engine.getJointStates(self._robot, self._finger_joints, self._client)
         return tuple([state[0] for state in states])
 
@@ -208,7 +192,7 @@ class World:
         return HandView(position, orientation, state[4], state[5], self._grasp_centre_m, self.finger_travel_m())
 
     def contacts(self, standing: Contacts | None = None) -> Contacts:
-        """What touches what after the last step.
+        """Contacts after the last step.
 
         The arm's base link does not move and so is never reported, wherever it is mounted.
 
@@ -241,150 +225,22 @@ class World:
         # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
         self._engine.setCollisionFilterGroupMask(body, link, 1, -1, physicsClientId=self._client)
 
-    def _set_parameters(self) -> None:
-        engine, client = self._engine, self._client
-        engine.setGravity(0.0, 0.0, -self.scene.gravity_m_s2, physicsClientId=client)
-        engine.setPhysicsEngineParameter(
-            fixedTimeStep=self.settings.step_s,
-            numSolverIterations=self.settings.solver_iterations,
-            numSubSteps=0,
-            # With a residual threshold of zero every iteration runs, and a held object does not creep.
-            solverResidualThreshold=0.0,
-            # Friction takes a held body back by this share of what it was displaced in a step.
-            frictionERP=_FRICTION_RECOVERY,
-            # Without it the order of contact pairs, and so the last bits of a result, can differ by run.
-            deterministicOverlappingPairs=1,
-            physicsClientId=client,
-        )
-
-    def _shape(self, shape: Shape) -> int:
-        engine, client = self._engine, self._client
-        sizes = shape.size_m if isinstance(shape, Box) else (shape.radius_m, shape.height_m)
-        if not all(0.0 < size < math.inf for size in sizes):
-            # The engine takes some of these without a word and prints about the others.
-            raise SimulationError(f"a body cannot have the sizes {sizes}", hint="give lengths greater than zero")
-        if isinstance(shape, Box):
-            half = [size / 2 for size in shape.size_m]
-            return int(engine.createCollisionShape(engine.GEOM_BOX, halfExtents=half, physicsClientId=client))
-        return int(
-            engine.createCollisionShape(
-                engine.GEOM_CYLINDER, radius=shape.radius_m, height=shape.height_m, physicsClientId=client
-            )
-        )
-
-    def _add_body(self, shape: Shape, pose: Pose, mass_kg: float) -> int:
-        body = int(
-            self._engine.createMultiBody(
-                mass_kg,
-                self._shape(shape),
-                -1,
-                pose.position_m,
-                pose.quaternion_xyzw,
-                # What stands still is no articulated body without links: the same results, to the bit, for less
-                # time. What moves is one, since the engine has a rougher law of friction between two that are not.
-                useMaximalCoordinates=int(mass_kg == 0.0),
-                physicsClientId=self._client,
-            )
-        )
-        if body < 0:
-            raise SimulationError("the physics engine refused a body", hint="check its sizes")
-        return body
-
-    def _add_scene(self) -> dict[int, str]:
-        names = {}
-        for body in self.scene.bodies:
-            number = self._add_body(body.shape, body.pose, 0.0)
-            self._engine.changeDynamics(number, -1, lateralFriction=body.friction, physicsClientId=self._client)
-            names[number] = body.id
-        return names
-
-    def _add_workpiece(self) -> int:
-        workpiece = self.scene.workpiece
-        if not 0.0 < workpiece.mass_kg < math.inf:
-            # A body without mass would stand in the air.
-            raise SimulationError(
-                f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
-            )
-        body = self._add_body(workpiece.shape, workpiece.pose, workpiece.mass_kg)
-        self._engine.changeDynamics(
-            body,
-            -1,
-            lateralFriction=workpiece.friction,
-            linearDamping=0.0,
-            angularDamping=0.0,
-            frictionAnchor=1,
-            activationState=self._engine.ACTIVATION_STATE_DISABLE_SLEEPING,
-            physicsClientId=self._client,
-        )
-        return body
-
-    def _add_robot(self) -> int:
-        base, engine = self.scene.robot.base, self._engine
-        return load_urdf_text(
-            self._client,
-            assembled_urdf(
-                self.scene.robot,
-                self.gripper,
-                ribs=pad_ribs(self.gripper.geometry, self.scene.workpiece.shape),
-            ),
-            position=base.position_m,
-            orientation=base.quaternion_xyzw,
-            flags=engine.URDF_USE_INERTIA_FROM_FILE
-            | engine.URDF_USE_IMPLICIT_CYLINDER
-            | engine.URDF_IGNORE_VISUAL_SHAPES,
-        )
-
-    def _index_robot(self) -> None:
-        engine, client, robot = self._engine, self._client, self._robot
-        info: list[Any] = [
-            engine.getJointInfo(robot, index, physicsClientId=client)
-            for index in range(engine.getNumJoints(robot, physicsClientId=client))
-        ]
-        joints = {entry[1].decode(): entry[0] for entry in info}
-        links = {entry[12].decode(): entry[0] for entry in info}
-        link_names = {index: name for name, index in links.items()}
-        link_names[-1] = engine.getBodyInfo(robot, physicsClientId=client)[0].decode()
+    def _index_robot(self, builder: WorldBuilder) -> None:
+        index = builder.index_robot(self._robot)
         arm = self.scene.robot.joints
-        self._arm_joints = [joints[joint.name] for joint in arm]
+        self._arm_joints = index.arm_joints
         self._arm_torques = [joint.torque_n_m for joint in arm]
         self._arm_position_gains, self._arm_velocity_gains = [_ARM_POSITION_GAIN] * len(arm), [1.0] * len(arm)
-        fingers = range(self.gripper.geometry.fingers)
-        self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
-        self._flange = links[self.scene.robot.flange]
+        self._finger_joints = index.finger_joints
+        self._flange = index.flange
         self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
         self._reader = ContactReader(
-            engine,
-            client,
-            robot=robot,
+            self._engine,
+            self._client,
+            robot=self._robot,
             workpiece=self._workpiece,
             finger_links=self._finger_joints,
-            link_names=link_names,
+            link_names=index.link_names,
             scene_names=self._scene_names,
         )
-        for link in range(-1, len(info)):
-            engine.changeDynamics(
-                robot, link, linearDamping=0.0, angularDamping=0.0, jointDamping=0.0, physicsClientId=client
-            )
-        stiffness_n_m = self.settings.pad_stiffness_n_m / RIBS
-        for joint in self._finger_joints:
-            engine.changeDynamics(
-                robot,
-                joint,
-                lateralFriction=self.gripper.friction,
-                frictionAnchor=1,
-                contactStiffness=stiffness_n_m,
-                contactDamping=self.settings.pad_damping_n_s_m / RIBS,
-                physicsClientId=client,
-            )
-        if len(self._finger_joints) == 2:
-            self._couple_fingers()
-
-    def _couple_fingers(self) -> None:
-        """Gear two opposed fingers together: each alone resists no force along their common axis."""
-        engine = self._engine
-        one, other = self._finger_joints
-        frames = [1, 0, 0], [0, 0, 0], [0, 0, 0]
-        gear = engine.createConstraint(
-            self._robot, one, self._robot, other, engine.JOINT_GEAR, *frames, physicsClientId=self._client
-        )
-        engine.changeConstraint(gear, gearRatio=-1, maxForce=_GEAR_FORCE_N, erp=0.2, physicsClientId=self._client)
+        builder.set_robot_dynamics(self._robot, index)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     )
     from rgss.regression.input_changes import InputChange, InputKind, Inputs, origin_changes, value_changes
     from rgss.regression.looking import settle
-    from rgss.regression.observing import RECORDED_OF_PHASES, SUCCESS, fingerprint, observed
+    from rgss.regression.observing import SUCCESS, fingerprint, observed
     from rgss.regression.power import MEAN_LOSS, MOST_SEEDS, TARGET, Power, powers
     from rgss.regression.report import Behaviour, ChangedTrial, Failing, FailureCause, RegressionReport
     from rgss.regression.sign_flips import FEWEST_SEEDS, adjusted_p_values
@@ -36,7 +36,6 @@ __all__ = [
     "FEWEST_SEEDS",
     "MEAN_LOSS",
     "MOST_SEEDS",
-    "RECORDED_OF_PHASES",
     "SUCCESS",
     "TARGET",
     "WHOLE_TRIAL",

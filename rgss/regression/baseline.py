@@ -52,7 +52,7 @@ class BaselineRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DecisionState:
-    """What is decided among the variants of one run.
+    """Decision among the variants of one run.
 
     Attributes:
         run: The run.
@@ -71,7 +71,7 @@ class DecisionState:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BaselineOrigin:
-    """Where the values come from.
+    """Origin of the values.
 
     Attributes:
         revision: Revision of the code; empty if it is not known.
@@ -116,7 +116,7 @@ class Baseline:
         record: Name and unit of every metric that a trial's record has.
         runs: The trials by run.
         decision: The decision; None if the study guards none.
-        origin: Where the values come from.
+        origin: Origin of the values.
         history: Every change of the file, the first one first.
         inputs: The values of those inputs that all trials share, by dotted name, as text.
         phase_record: Name and unit of every metric that a phase's record may have; empty if it is not known.
@@ -136,7 +136,7 @@ class Baseline:
 
     @property
     def has_values(self) -> bool:
-        """Whether it has the values of inputs, which one of an earlier version of rgss has not."""
+        """True if it has the values of inputs, which one of an earlier version of rgss has not."""
         return self.schema > _WITHOUT_VALUES
 
     def inputs_of(self, run: str, variant: int) -> dict[str, str]:
@@ -204,7 +204,7 @@ def _add_empty_values(data: dict[str, Any]) -> None:
 
 
 def _check(baseline: Baseline, label: str, again: str) -> None:
-    """What the types do not say: every row has a value for each seed.
+    """Check beyond the types: every row has a value for each seed.
 
     Raises:
         EvidenceError: One has not.

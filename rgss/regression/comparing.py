@@ -17,7 +17,7 @@ WHOLE_TRIAL = "trial"
 
 
 class Outcome(str, Enum):
-    """What is said of one metric."""
+    """Outcome of the comparison of one metric."""
 
     BETTER = "better"
     MOVED = "moved"
@@ -28,13 +28,13 @@ class Outcome(str, Enum):
 
     @property
     def is_final(self) -> bool:
-        """Whether more seeds change nothing about it."""
+        """True if more seeds change nothing about it."""
         return self is not Outcome.INCONCLUSIVE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
 class Subject:
-    """What is compared.
+    """Compared quantity: a metric of a run at a phase.
 
     Attributes:
         run: The run whose trials observe it.
@@ -52,7 +52,7 @@ class Subject:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Guard:
-    """How a metric may move.
+    """Bounds within which a metric may move.
 
     Attributes:
         unit: Its unit.
@@ -116,7 +116,7 @@ class Comparison:
     """A metric against its baseline.
 
     Attributes:
-        subject: What is compared.
+        subject: Compared quantity: a metric of a run at a phase.
         guard: How it may move.
         outcome: What is said of it.
         worsening: By how much it is worse, in its unit; negative if better; None where unknown. If neither
@@ -155,7 +155,7 @@ class Candidate:
     """A comparison that is to be judged.
 
     Attributes:
-        subject: What is compared.
+        subject: Compared quantity: a metric of a run at a phase.
         guard: How it may move.
         baseline: The baseline's values.
         current: The present values.

@@ -50,7 +50,7 @@ def schema_notes(baseline: Baseline, record: Mapping[str, str]) -> Iterator[str]
 def run_failings(
     name: str, before: BaselineRun | None, *, fidelity: str, variants: Sequence[int], seeds: Sequence[int]
 ) -> Iterator[Failing]:
-    """What a run lacks beside its baseline.
+    """Failings of a run that has less than its baseline.
 
     Args:
         name: The run.
@@ -131,7 +131,7 @@ def decision_changes(
     error_rate: float,
     by_luck: Mapping[str, float] | None = None,
 ) -> tuple[tuple[Failing, ...], tuple[str, ...]]:
-    """How the decision moved.
+    """Changes of the decision.
 
     A choice, a place on the Pareto front or a verdict that is gone is unstable, unless what it rests on
     has not been shown to differ from the baseline by more than the luck of the seeds, or the present

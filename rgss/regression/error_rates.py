@@ -1,4 +1,4 @@
-"""What many comparisons and repeated looks may cost: Holm's rule and the spending of the error rate."""
+"""Error rates of many comparisons and repeated looks: Holm's rule and error spending."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def value_changes(baseline: Baseline, now: Inputs) -> Iterator[InputChange]:
 
 
 def origin_changes(then: BaselineOrigin, now: BaselineOrigin, *, with_values: bool) -> Iterator[InputChange]:
-    """What differs between the origins of two sets of trials.
+    """Differences between the origins of two sets of trials.
 
     Args:
         then: The origin of the baseline.
@@ -109,7 +109,7 @@ def origin_changes(then: BaselineOrigin, now: BaselineOrigin, *, with_values: bo
 
 
 def _compared(text: str) -> tuple[str, ...]:
-    """What counts of a version: where its names end with a digest of what it computes, that digest alone."""
+    """Compared part of a version: where its names end with a digest of what it computes, that digest alone."""
     found = set()
     for part in text.split(" | "):
         names, _, last = part.rpartition(" ")

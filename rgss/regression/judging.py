@@ -25,7 +25,7 @@ LEAST_LOSS = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PValues:
-    """How probable what is seen would be at the edge of each hypothesis.
+    """Probabilities of what is seen at the edge of each hypothesis.
 
     Attributes:
         worse: Against it not being worse by more than the margin.
@@ -120,7 +120,7 @@ def weights_of(candidates: Sequence[Candidate]) -> tuple[float, ...]:
 
 
 def shares_of(one: Candidate, weight: float) -> tuple[float, float]:
-    """How the part of a comparison is divided between its tests for worse and for better."""
+    """Division of a comparison's error rate between its tests for worse and for better."""
     share = 0.5 if one.guard.both_ways else WORSE_SHARE
     return weight * share, weight * (1.0 - share)
 

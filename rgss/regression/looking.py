@@ -12,7 +12,7 @@ from rgss.regression.judging import judge
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settled:
-    """What came of all looks.
+    """Result of all looks.
 
     Attributes:
         comparisons: Every comparison, as it was first decided or as it stands at the end.

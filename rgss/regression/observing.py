@@ -19,8 +19,6 @@ _OF_PLANNING = {
     "path_length_m": attrgetter("path_length_m"),
     "planning_checks": attrgetter("checks"),
 }
-RECORDED_OF_PHASES = (SUCCESS, "duration_s", *_OF_PLANNING)
-"""Metrics of a phase that are fields of its record or of its planning, not among the metrics that it observes."""
 
 _SHORT = 12
 

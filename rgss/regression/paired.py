@@ -20,7 +20,7 @@ CONFIDENCE = 0.95
 
 
 class PairedMean:
-    """What the differences of some seeds tell of their mean.
+    """Inference on the mean of paired differences.
 
     A p-value is the greater of two. The percentile bootstrap (Efron, "Bootstrap methods: another
     look at the jackknife", 1979) follows a skew, but takes the spread of few seeds for known;
@@ -38,7 +38,7 @@ class PairedMean:
             DefinitionError: There are fewer than two seeds.
         """
         if len(differences) < 2:
-            raise DefinitionError("one seed tells nothing of noise", hint="compare at least two")
+            raise DefinitionError("one seed shows nothing of noise", hint="compare at least two")
         self._count = len(differences)
         self._mean = math.fsum(differences) / self._count
         self._spread = float(np.std(differences, ddof=1))
@@ -78,6 +78,6 @@ class PairedMean:
 
 @lru_cache(maxsize=8)
 def _counts(seeds: int) -> NDArray[np.float64]:
-    """How often each seed is in each resample, shape (draws, n)."""
+    """Count of each seed in each resample, shape (draws, n)."""
     drawn = np.random.default_rng(seeds).multinomial(seeds, np.full(seeds, 1.0 / seeds), size=DRAWS)
     return np.asarray(drawn, dtype=np.float64)

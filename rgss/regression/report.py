@@ -68,7 +68,7 @@ class Behaviour:
 
     @property
     def is_changed(self) -> bool:
-        """Whether records differ for another reason than the machine."""
+        """True if records differ for another reason than the machine."""
         return bool(self.changed) and not self.machine
 
 
@@ -110,17 +110,17 @@ class RegressionReport:
 
     @property
     def fails(self) -> bool:
-        """Whether anything is worse, missing, unstable or otherwise failing."""
+        """True if anything is worse, missing, unstable or otherwise failing."""
         return bool(self.failing or self.of(Outcome.WORSE, Outcome.MISSING))
 
     @property
     def incomplete(self) -> bool:
-        """Whether a trial could not be run, so that something was not compared at all."""
+        """True if a trial could not be run, so that something was not compared at all."""
         return any(one.trouble is FailureCause.NOT_RUN for one in self.failing)
 
     @property
     def has_changes(self) -> bool:
-        """Whether anything changed that needs a stated reason.
+        """True if anything changed that needs a stated reason.
 
         Records that are not the same bit by bit, another version of an engine or other numerics, under which
         no trial but the few that are watched is known to be the same, and any metric that moved by more than
@@ -131,7 +131,7 @@ class RegressionReport:
 
     @property
     def is_unexplained(self) -> bool:
-        """Whether anything changed and no reason is stated."""
+        """True if anything changed and no reason is stated."""
         return self.has_changes and not self.accepted
 
     @property

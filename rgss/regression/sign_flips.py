@@ -1,4 +1,4 @@
-"""Which of many paired differences are more than the luck of the seeds: joint sign flips."""
+"""Joint sign-flip test of many paired differences against the luck of the seeds."""
 
 from __future__ import annotations
 

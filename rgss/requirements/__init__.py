@@ -1,7 +1,6 @@
 """Needs, requirements, criteria, and the architecture that is to satisfy them."""
 
 from rgss.requirements.architecture import Architecture, Behaviour, BehaviourKind, Block, BlockLevel, BlockRelation
-from rgss.requirements.architecture_files import ArchitectureFile, BehaviourFile, BlockFile
 from rgss.requirements.attributes import (
     NeedKind,
     Priority,
@@ -25,9 +24,9 @@ from rgss.requirements.behaviour import (
 )
 from rgss.requirements.comparison import RELATIVE_TOLERANCE, Comparison
 from rgss.requirements.content import Element, content_digest_of
-from rgss.requirements.criterion import Criterion, Statistic
+from rgss.requirements.criterion import Criterion, CriterionFile, Statistic
 from rgss.requirements.exemption import Exemption
-from rgss.requirements.files import NeedFile, RequirementFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
+from rgss.requirements.files import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.requirements.links import LinkKind, TraceLink
 from rgss.requirements.loading import load_requirements
 from rgss.requirements.needs import StakeholderNeed
@@ -41,14 +40,13 @@ __all__ = [
     "Architecture",
     "ArchitectureFile",
     "Behaviour",
-    "BehaviourFile",
     "BehaviourKind",
     "Block",
-    "BlockFile",
     "BlockLevel",
     "BlockRelation",
     "Comparison",
     "Criterion",
+    "CriterionFile",
     "Element",
     "Exemption",
     "Flow",
@@ -58,12 +56,10 @@ __all__ = [
     "Interaction",
     "LinkKind",
     "Message",
-    "NeedFile",
     "NeedKind",
     "Place",
     "Priority",
     "Requirement",
-    "RequirementFile",
     "RequirementGroup",
     "RequirementSet",
     "Review",

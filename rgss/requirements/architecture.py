@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import dataclasses
 from enum import Enum
+from typing import Any
 
+from pydantic import model_validator
+from pydantic.dataclasses import dataclass
+
+from rgss.documents import STRICT, Identifier, Text
 from rgss.requirements.behaviour import Flow, Interaction, StateMachine
 from rgss.requirements.exemption import Exemption
 
@@ -34,65 +39,52 @@ class BehaviourKind(str, Enum):
     STATE_MACHINE = "state_machine"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Block:
-    """A piece of structure: physical, software or environment.
+    """A block."""
 
-    Attributes:
-        id: Its id, such as ``BLK-manipulator``.
-        name: What it is called.
-        level: How far down the decomposition it stands.
-        parent: Id of the block that contains it; None at the top.
-        relation: Whether it is a part or a kind of its parent.
-        text: What it is.
-        actor: It stands outside and takes part in use cases.
-        exemptions: The rules that it may break, and why.
-    """
-
-    id: str
-    name: str
+    id: Identifier
+    name: Text
     level: BlockLevel
-    parent: str | None
-    relation: BlockRelation
-    text: str
+    parent: Identifier | None = None
+    relation: BlockRelation = BlockRelation.PART
+    text: Text
     actor: bool = False
-    exemptions: tuple[Exemption, ...] = ()
+    exempt: tuple[Exemption, ...] = ()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Behaviour:
-    """Something that the system does.
+    """A behaviour."""
 
-    Attributes:
-        id: Its id, such as ``ACT-grasp``.
-        name: What it is called.
-        kind: Use case, activity, sequence or state machine.
-        allocated_to: Ids of the blocks that do it.
-        refines: Ids of the behaviours, needs and requirements that it spells out.
-        includes: Ids of the behaviours that always run as part of it.
-        text: What happens.
-        actors: Of a use case, ids of the blocks that take part in it from outside.
-        flow: Of an activity, its actions and their order; None while that is open.
-        interaction: Of a sequence, its messages; None while that is open.
-        machine: Of a state machine, its states; None while that is open.
-        exemptions: The rules that it may break, and why.
-    """
-
-    id: str
-    name: str
+    id: Identifier
+    name: Text
     kind: BehaviourKind
-    allocated_to: tuple[str, ...]
-    refines: tuple[str, ...]
-    includes: tuple[str, ...]
-    text: str
-    actors: tuple[str, ...] = ()
+    allocated_to: tuple[Identifier, ...] = ()
+    refines: tuple[Identifier, ...] = ()
+    includes: tuple[Identifier, ...] = ()
+    text: Text
+    actors: tuple[Identifier, ...] = ()
     flow: Flow | None = None
     interaction: Interaction | None = None
     machine: StateMachine | None = None
-    exemptions: tuple[Exemption, ...] = ()
+    exempt: tuple[Exemption, ...] = ()
+
+    @model_validator(mode="after")
+    def _detail_fits_kind(self) -> Behaviour:
+        details: dict[str, tuple[Any, BehaviourKind]] = {
+            "actors": (self.actors, BehaviourKind.USE_CASE),
+            "flow": (self.flow, BehaviourKind.ACTIVITY),
+            "interaction": (self.interaction, BehaviourKind.SEQUENCE),
+            "machine": (self.machine, BehaviourKind.STATE_MACHINE),
+        }
+        for key, (detail, kind) in details.items():
+            if detail and self.kind is not kind:
+                raise ValueError(f"{key!r} belongs to a behaviour of kind {kind.value!r}, not {self.kind.value!r}")
+        return self
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
 class Architecture:
     """The model of the system.
 

@@ -26,12 +26,12 @@ class Comparison(str, Enum):
 
     @property
     def is_strict(self) -> bool:
-        """Whether a quantity that equals the limit is refused."""
+        """True if a quantity that equals the limit is refused."""
         return self in (Comparison.ABOVE, Comparison.BELOW)
 
     @property
     def is_lower_bound(self) -> bool:
-        """Whether the good side of the limit lies above it."""
+        """True if the good side of the limit lies above it."""
         return self in (Comparison.AT_LEAST, Comparison.ABOVE)
 
     def margin(self, quantity: float, limit: float) -> float:
@@ -40,7 +40,7 @@ class Comparison(str, Enum):
         return difference if self.is_lower_bound else -difference
 
     def holds(self, quantity: float | None, limit: float) -> bool:
-        """Tell whether a quantity keeps a limit; an unknown one (None) does not.
+        """True if a quantity keeps a limit; an unknown one (None) does not.
 
         Args:
             quantity: The quantity, in the unit of the limit.

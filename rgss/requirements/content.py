@@ -14,7 +14,7 @@ from rgss.requirements.requirement import Requirement
 Element = StakeholderNeed | Requirement | Block | Behaviour
 """Whatever an id of the requirements names."""
 
-_NOT_CONTENT = frozenset({"exemptions"})
+_NOT_CONTENT = frozenset({"exempt"})
 
 
 def content_digest_of(element: Element) -> str:

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from decimal import Decimal
 from enum import Enum
 
+from rgss.documents import DocumentModel, Identifier
 from rgss.quantities import conversion_factor
 from rgss.requirements.comparison import Comparison
+from rgss.requirements.fields import ThresholdText, split_quantity
 
 
 class Statistic(str, Enum):
@@ -50,3 +52,19 @@ class Criterion:
         plain = self.statistic is Statistic.VALUE
         number = self.measure if plain else f"{self.statistic.value}({self.measure})"
         return f"{number} {self.comparison.value} {self.threshold:g}{unit}"
+
+
+class CriterionFile(DocumentModel):
+    """The success criterion of a system requirement."""
+
+    measure: Identifier
+    statistic: Statistic = Statistic.VALUE
+    comparison: Comparison
+    threshold: ThresholdText
+
+    def criterion(self) -> Criterion:
+        """The criterion, its threshold divided into number and unit."""
+        threshold, unit = split_quantity(self.threshold)
+        return Criterion(
+            measure=self.measure, statistic=self.statistic, comparison=self.comparison, threshold=threshold, unit=unit
+        )

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from pydantic.dataclasses import dataclass
+
+from rgss.documents import STRICT, Identifier, Text
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Exemption:
-    """Exemption of one element from one rule.
+    """Exemption of an element from a rule."""
 
-    Attributes:
-        rule: Id of the rule, such as ``wording.R7``.
-        reason: Why it may be broken here.
-    """
-
-    rule: str
-    reason: str
+    rule: Identifier
+    reason: Text

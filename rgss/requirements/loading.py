@@ -9,17 +9,8 @@ from rgss.documents import LoadedDocument
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.requirements.architecture import Architecture
-from rgss.requirements.architecture_files import ArchitectureFile
-from rgss.requirements.building import (
-    build_behaviour,
-    build_block,
-    build_need,
-    build_requirement,
-    build_review,
-    build_setting,
-)
 from rgss.requirements.checks import check_behaviours, declared_elements, declared_needs, declared_requirements
-from rgss.requirements.files import ReviewsFile, RulesFile, StakeholderFile, SystemFile
+from rgss.requirements.files import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.requirements.hints import Hints
 from rgss.requirements.reading import FolderReader
 from rgss.requirements.references import Declaration, ElementKind, check_references
@@ -68,24 +59,18 @@ def load_requirements(folder: Path, *, label_root: str = "requirements") -> Requ
         raise DocumentError(sorted(findings))
 
     return RequirementSet(
-        stakeholder=tuple(build_need(item) for part in stakeholder.documents for item in part.value.requirements),
-        system=tuple(build_requirement(item) for part in system.documents for item in part.value.requirements),
+        stakeholder=tuple(item for part in stakeholder.documents for item in part.value.requirements),
+        system=tuple(item for part in system.documents for item in part.value.requirements),
         architecture=Architecture(
-            blocks=tuple(build_block(item) for part in architecture.documents for item in part.value.blocks),
-            behaviours=tuple(
-                build_behaviour(item) for part in architecture.documents for item in part.value.behaviours
-            ),
+            blocks=tuple(item for part in architecture.documents for item in part.value.blocks),
+            behaviours=tuple(item for part in architecture.documents for item in part.value.behaviours),
         ),
         places=MappingProxyType(
             {item.id: Place(document=item.document, location=item.location) for item in declarations}
         ),
-        reviews=MappingProxyType(
-            {} if reviews is None else {name: build_review(name, item) for name, item in reviews.value.reviews.items()}
-        ),
+        reviews=MappingProxyType({} if reviews is None else reviews.value.reviews),
         review_places=_places(reviews, "reviews"),
-        settings=MappingProxyType(
-            {} if rules is None else {name: build_setting(name, item) for name, item in rules.value.rules.items()}
-        ),
+        settings=MappingProxyType({} if rules is None else rules.value.rules),
         setting_places=_places(rules, "rules"),
     )
 

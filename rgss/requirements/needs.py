@@ -2,36 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from pydantic.dataclasses import dataclass
 
+from rgss.documents import STRICT, Identifier, Text
 from rgss.requirements.attributes import NeedKind, Priority, Status
 from rgss.requirements.exemption import Exemption
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class StakeholderNeed:
-    """One stakeholder requirement.
+    """A stakeholder requirement in ``stakeholder.yaml``."""
 
-    Attributes:
-        id: Its id, such as ``STK-006``.
-        kind: The part of the system that it speaks of.
-        text: The sentence, in EARS form.
-        rationale: Reason for it.
-        source: Where it comes from.
-        priority: How much it matters.
-        status: How far it has come.
-        owner: The role that answers for it.
-        parent: Id of the stakeholder requirement that contains it; None at the top.
-        exemptions: The rules that it may break, and why.
-    """
-
-    id: str
+    id: Identifier
     kind: NeedKind
-    text: str
-    rationale: str
-    source: str
+    parent: Identifier | None = None
+    text: Text
+    rationale: Text
+    source: Text
     priority: Priority
     status: Status
-    owner: str
-    parent: str | None = None
-    exemptions: tuple[Exemption, ...] = ()
+    owner: Text
+    exempt: tuple[Exemption, ...] = ()

@@ -14,7 +14,7 @@ _LONGEST_CHAIN = 10
 
 
 class ElementKind(Enum):
-    """What an id names, in the words of messages."""
+    """Kind of the element that an id names, in the words of messages."""
 
     NEED = "stakeholder requirement"
     REQUIREMENT = "system requirement"
@@ -112,7 +112,7 @@ def check_references(
 
 def _duplicate(again: Declaration, first: Declaration) -> Finding:
     where = first.finding("duplicate-id", "", ("id",))
-    message = f"id {again.id!r} stands already at {where.file}:{where.line}:{where.column}"
+    message = f"id {again.id!r} is already declared at {where.file}:{where.line}:{where.column}"
     return again.finding("duplicate-id", message, ("id",), hint="give it an id of its own")
 
 

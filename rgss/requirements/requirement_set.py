@@ -21,7 +21,7 @@ from rgss.requirements.rule_settings import RuleSetting
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """Where something is declared.
+    """Place of a declaration: a file and a location in it.
 
     Attributes:
         document: The file.
@@ -164,7 +164,7 @@ class RequirementSet:
 
     def _unknown(self, element_id: str) -> DefinitionError:
         hint = nearest(element_id, self._by_id)
-        return DefinitionError(f"{element_id!r} is no element of the requirements", hint=hint)
+        return DefinitionError(f"{element_id!r} is not an element of the requirements", hint=hint)
 
 
 def nearest(name: str, names: Collection[str]) -> str:

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import StringConstraints
+from pydantic.dataclasses import dataclass
+
+from rgss.documents import STRICT, Identifier, Text
+
+ContentDigest = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+"""A SHA-256 in hexadecimal digits."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Review:
-    """The stamp of one element.
+    """The review of one element, in ``reviews.yaml``."""
 
-    Attributes:
-        id: The element.
-        digest: Content digest of the element when it was reviewed.
-        upstream: Content digests, at that time, of the elements that it depends on.
-        reviewer: Who reviewed it.
-    """
-
-    id: str
-    digest: str
-    upstream: Mapping[str, str]
-    reviewer: str
+    digest: ContentDigest
+    reviewer: Text
+    upstream: dict[Identifier, ContentDigest]

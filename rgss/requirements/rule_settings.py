@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from pydantic.dataclasses import dataclass
 
+from rgss.documents import STRICT, Text
 from rgss.findings import Severity
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class RuleSetting:
-    """Configuration of one rule.
+    """How one rule is to be applied, in ``rules.yaml``."""
 
-    Attributes:
-        rule: Id of the rule, such as ``wording.R19``.
-        severity: Severity of a violation; None for the rule's own.
-        enabled: The rule is applied at all.
-        terms_added: Terms that the rule looks for beside its own.
-        terms_removed: Terms of its own that the rule passes over.
-        reason: Why the project departs from the rule.
-    """
-
-    rule: str
-    severity: Severity | None
-    enabled: bool
-    terms_added: tuple[str, ...]
-    terms_removed: tuple[str, ...]
-    reason: str
+    severity: Severity | None = None
+    """None for the rule's own."""
+    enabled: bool = True
+    terms_added: tuple[Text, ...] = ()
+    terms_removed: tuple[Text, ...] = ()
+    reason: Text

@@ -100,7 +100,7 @@ def record_problem(spec: TrialSpec, record: object) -> str:
 
 
 def is_end_of(ended: object, key: str) -> TypeGuard[Ended]:
-    """Whether something is the end of the task with a name, and each part of it of its type.
+    """True if a value is the end of the task with a name, and each part of it of its type.
 
     Args:
         ended: What a worker elsewhere has sent.

@@ -62,7 +62,7 @@ def _leaves(value: Any, name: str) -> Iterator[tuple[str, str]]:
 
 
 def _title(item: Any, index: int) -> str:
-    """What has a name goes by it, anything else by its position."""
+    """Title of an entry: its name, or its position where it has none."""
     if isinstance(item, Mapping):
         return str(next((item[title] for title in _TITLES if title in item), index))
     return str(index)

@@ -59,7 +59,7 @@ class Replay:
 
     @property
     def same(self) -> bool:
-        """Whether the new record is bit for bit the stored one."""
+        """True if the new record is bit for bit the stored one."""
         return not self.differences
 
 

@@ -91,7 +91,7 @@ def failed_task(key: str, kind: RunFailureKind, detail: str, *, may_pass: bool =
 
 
 def is_answer(message: object, task: int) -> bool:
-    """Whether a message is the answer to a task, and each part of it of its type."""
+    """True if a message is the answer to a task, and each part of it of its type."""
     return (
         type(message) is Answer
         and type(message.task) is int

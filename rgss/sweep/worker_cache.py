@@ -32,7 +32,7 @@ def share_plot_cache() -> None:
 
 
 def _are_writable() -> bool:
-    """Whether the folders can be had that are used where none is named."""
+    """True if the default folders can be written."""
     for setting, usual in (("XDG_CONFIG_HOME", ".config"), ("XDG_CACHE_HOME", ".cache")):
         try:
             folder = Path(os.environ.get(setting) or Path.home() / usual) / "matplotlib"

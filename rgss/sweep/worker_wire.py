@@ -101,7 +101,7 @@ class Channel:
 
     @property
     def has_unsent(self) -> bool:
-        """Whether something is still to be written."""
+        """True if something is still to be written."""
         return bool(self._unsent)
 
     def send(self, content: bytes) -> None:

@@ -9,12 +9,12 @@ CASES = {
     "duplicate component": (
         "id: large",
         "id: ¦small",
-        "error: id 'small' stands already in line 8 (give each its own id) [design.duplicate-id]",
+        "error: id 'small' is already in line 8 (give each its own id) [design.duplicate-id]",
     ),
     "duplicate role": (
         "  - id: planner\n    name: Planner\ncomponents",
         "  - id: planner\n    name: Planner\n  - id: ¦planner\n    name: Again\ncomponents",
-        "error: id 'planner' stands already in line 5 (give each its own id) [design.duplicate-id]",
+        "error: id 'planner' is already in line 5 (give each its own id) [design.duplicate-id]",
     ),
     "unknown role": (
         "id: large\n    role: gripper",

@@ -99,10 +99,10 @@ def test_a_name_without_a_component_breaks_nothing():
 MISTAKES = {
     "d1 * d2": (0, "nothing is compared"),
     "1 <= 2": (0, "no number of the design is named"),
-    "d1 <= ": (6, "the end stands where a value is expected"),
+    "d1 <= ": (6, "the end is found where a value is expected"),
     "d1 <= 3 d2": (6, "'3 d2': 'd2' is not a unit"),
     "d1 <= 3 3": (8, "'3' is out of place"),
-    "(d1 <= 3": (4, "'<=' stands where ')' is expected"),
+    "(d1 <= 3": (4, "'<=' is found where ')' is expected"),
     "d1 = 3": (3, "'=' has no place in a constraint"),
     "d1 ** d1 <= 3": (6, "'d1' is not an exponent"),
     "d1 ** 7 <= 3": (6, "'7' is not an exponent"),

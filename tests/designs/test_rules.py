@@ -137,7 +137,7 @@ def _first_of(project):
 def test_duplicate_rules_are_found(project):
     project.space_text += RULES + "    exclude: {d2: 3}\n  - {id: ¦r, rationale: So., exclude: {d3: PRM}}\n"
     assert project.findings() == [
-        f"{project.marks()[0]}: error: id 'r' stands already in line 25 (give each its own id) [design.duplicate-id]"
+        f"{project.marks()[0]}: error: id 'r' is already in line 25 (give each its own id) [design.duplicate-id]"
     ]
 
 

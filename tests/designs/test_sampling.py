@@ -197,7 +197,7 @@ MISTAKES = {
         "resolution: ¦0.03 N",
         "",
         "",
-        "0.4 N to 1.2 N is no whole number of steps of 0.03 N (let one divide the other) [design.range]",
+        "0.4 N to 1.2 N is not a whole number of steps of 0.03 N (let one divide the other) [design.range]",
     ),
     "resolution of nothing": (
         "resolution: 0.01 N",
@@ -264,7 +264,7 @@ MISTAKES = {
         "",
         "",
         (
-            "100 is no power of two, and a Sobol sample is even only with one "
+            "100 is not a power of two, and a Sobol sample is even only with one "
             "(write 64 or 128, or take latin_hypercube) [design.sample]"
         ),
     ),

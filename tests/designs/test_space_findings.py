@@ -8,22 +8,22 @@ CASES = {
     "duplicate parameter": (
         "{id: d2, name: fingers",
         "{id: ¦d1, name: fingers",
-        "error: id 'd1' stands already in line 2 (give each its own id) [design.duplicate-id]",
+        "error: id 'd1' is already in line 2 (give each its own id) [design.duplicate-id]",
     ),
     "duplicate name": (
         "{id: d2, name: fingers",
         "{id: d2, name: ¦mass",
-        "error: name 'mass' stands already in line 2 (give each its own name) [design.duplicate-id]",
+        "error: name 'mass' is already in line 2 (give each its own name) [design.duplicate-id]",
     ),
     "duplicate factor": (
         "id: fingers\n",
         "id: ¦mass\n",
-        "error: id 'mass' stands already in line 9 (give each its own id) [design.duplicate-id]",
+        "error: id 'mass' is already in line 9 (give each its own id) [design.duplicate-id]",
     ),
     "duplicate level": (
         "{id: three,",
         "{id: ¦two,",
-        "error: id 'two' stands already in line 17 (give each its own id) [design.duplicate-id]",
+        "error: id 'two' is already in line 17 (give each its own id) [design.duplicate-id]",
     ),
     "parameter with a dot": (
         "{id: d4, name: force",

@@ -35,11 +35,11 @@ def findings_of(path):
         ("<<: {a: 1}\n", "1:1: error: merge key << is refused (write the keys out) [document.merge-key]"),
         (
             "a: 1\nb: 2\na: 3\n",
-            "3:1: error: key 'a' stands already in line 1 (keep one) [document.duplicate-key]",
+            "3:1: error: key 'a' is already in line 1 (keep one) [document.duplicate-key]",
         ),
         (
             "x: {'a': 1, a: 3}\n",
-            "1:13: error: key 'a' stands already in line 1 (keep one) [document.duplicate-key]",
+            "1:13: error: key 'a' is already in line 1 (keep one) [document.duplicate-key]",
         ),
         (
             "a: 1\n---\nb: 2\n",
@@ -170,4 +170,4 @@ def test_long_texts_are_shown_cut(write):
     (finding,) = findings_of(write(f"{key}: 1\n{key}: 2\n"))
 
     assert len(finding.message) < 120
-    assert "kkk…' stands already in line 1" in finding.message
+    assert "kkk…' is already in line 1" in finding.message

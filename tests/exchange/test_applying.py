@@ -113,7 +113,7 @@ def test_details_of_behaviour_are_written(project):
     foreign = changed(project.content, "ACT-close", flow=flow)
     project.apply(foreign)
     behaviour = project.requirements.element("ACT-close")
-    assert [node.text for node in behaviour.flow.nodes] == ["", "Close: now", ""]
+    assert [node.text for node in behaviour.flow.nodes] == [None, "Close: now", None]
     assert project.compare(foreign) == ()
 
 

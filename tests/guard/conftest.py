@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import EvidenceStore, Provenance
-from rgss.guard.guard import compare_with_baseline, make_baseline
+from rgss.guard import compare_with_baseline, make_baseline
 from rgss.studies.study import read_study
 from rgss.sweep.trial_keys import key_of
 from tests.fixtures.shipped_project import STUDY

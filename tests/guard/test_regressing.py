@@ -10,7 +10,7 @@ import pytest
 
 from rgss.errors import DefinitionError, DocumentError, EvidenceError
 from rgss.evidence import PieceKind, Provenance
-from rgss.guard.guard import baseline_name, compare_with_baseline, make_baseline
+from rgss.guard import baseline_name, compare_with_baseline, make_baseline
 from rgss.guard.inputs import constants_of, origin_of_trials
 from rgss.guard.runs import guard_of, watched_trials
 from rgss.regression.baseline import baseline_to_text

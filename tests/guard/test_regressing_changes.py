@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import EvidenceStore
-from rgss.guard.guard import compare_with_baseline, make_baseline
+from rgss.guard import compare_with_baseline, make_baseline
 from rgss.physics import world
 from rgss.regression.comparing import Outcome
 from rgss.regression.input_changes import InputKind

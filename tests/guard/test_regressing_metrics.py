@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.guard import guard
+from rgss.guard import schema as guard_schema
 from rgss.trials import METRICS, Aggregation, MetricDescriptor
 
 
@@ -15,7 +15,7 @@ def test_a_metric_that_trials_newly_have_changes_nothing(compared, monkeypatch, 
     new = MetricDescriptor(name="noise_1", unit="1", meaning="noise", trial=Aggregation.GREATEST)
 
     def with_new(baseline):
-        monkeypatch.setattr(guard, "METRICS", {**METRICS, "noise_1": new})
+        monkeypatch.setattr(guard_schema, "METRICS", {**METRICS, "noise_1": new})
         return baseline if schema == 4 else replace(baseline, schema=3, phase_record={})
 
     report = compared(baseline_of=with_new, more_metrics={"noise_1": 0.5}, more_of_phases=schema == 4)

@@ -226,13 +226,13 @@ def test_ids_are_symbols_and_stand_once(load: Loader, findings_of: Finder) -> No
         """,
     )
     assert [(finding.line, finding.message) for finding in findings] == [
-        (4, "id 'g' stands already in line 3"),
+        (4, "id 'g' is already in line 3"),
         (6, "'sum' is the name of a function"),
         (7, "'lambda' cannot be a symbol"),
-        (10, "id 'one' stands already in line 9"),
+        (10, "id 'one' is already in line 9"),
         (10, "'nowhere' is not a constant, an input, a measure or an equation"),
-        (13, "id '1.1' stands already in line 12"),
-        (15, "id 'g' stands already in line 3"),
+        (13, "id '1.1' is already in line 12"),
+        (15, "id 'g' is already in line 3"),
         (15, "measures depend on one another in a circle: g → g"),
         (16, "'x.y' cannot be a symbol"),
     ]

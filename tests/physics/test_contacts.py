@@ -8,6 +8,7 @@ import pybullet
 import pytest
 
 from rgss.physics import Contacts, PhysicsSettings, World
+from rgss.physics.world_builder import WorldBuilder
 from rgss.scenes import Pose
 from rgss.scenes.assembly import assembled_urdf
 
@@ -93,7 +94,7 @@ def test_fingers_pressed_into_the_counter_are_reported_by_name(cell):
 def flat_pads(monkeypatch):
     """Fingers of one solid each, of which the engine tells more and in another order than of those with ribs."""
     monkeypatch.setattr(
-        "rgss.physics.world.assembled_urdf", lambda robot, gripper, ribs: assembled_urdf(robot, gripper)
+        "rgss.physics.world_builder.assembled_urdf", lambda robot, gripper, ribs: assembled_urdf(robot, gripper)
     )
 
 
@@ -148,24 +149,26 @@ def test_a_cup_in_the_air_touches_nothing(three_fingers):
     assert contacts.robot_bodies == ()
 
 
-class RobotFirst(World):
-    """A world whose robot is made before the workpiece, so that contacts name them in the other order."""
+def make_the_robot_first(monkeypatch):
+    """Make the robot before the workpiece, so that contacts name them in the other order."""
+    add_robot, add_workpiece, robots = WorldBuilder.add_robot, WorldBuilder.add_workpiece, []
 
-    def _add_workpiece(self) -> int:
-        self._robot = super()._add_robot()
-        return super()._add_workpiece()
+    def both(builder: WorldBuilder) -> int:
+        robots.append(add_robot(builder))
+        return add_workpiece(builder)
 
-    def _add_robot(self) -> int:
-        return self._robot
+    monkeypatch.setattr(WorldBuilder, "add_workpiece", both)
+    monkeypatch.setattr(WorldBuilder, "add_robot", lambda _: robots.pop())
 
 
 @pytest.mark.engine
 @pytest.mark.usefixtures("flat_pads")
-def test_friction_acts_on_the_cup_whichever_body_the_engine_names_first(cell):
+def test_friction_acts_on_the_cup_whichever_body_the_engine_names_first(cell, monkeypatch):
     weight = cell.scene.workpiece.mass_kg * cell.scene.gravity_m_s2
     named_first = set()
-    for kind in (World, RobotFirst):
-        with kind(cell.scene, cell.gripper, PhysicsSettings()) as world:
+    for prepare in (lambda _: None, make_the_robot_first):
+        prepare(monkeypatch)
+        with World(cell.scene, cell.gripper, PhysicsSettings()) as world:
             cell.lift(world)
             point = world._engine.getContactPoints(physicsClientId=world._client)[0]
             named_first.add("robot" if point[1] == world._robot else "workpiece")

@@ -66,7 +66,7 @@ def test_a_broken_urdf_closes_the_client_and_says_why_in_one_line(three_fingers,
     # The text goes to the engine as it is, past the checks of the loader.
     urdf = three_fingers.scene.robot.urdf
     assert old in urdf
-    monkeypatch.setattr("rgss.physics.world.assembled_urdf", lambda robot, gripper, ribs: robot.urdf)
+    monkeypatch.setattr("rgss.physics.world_builder.assembled_urdf", lambda robot, gripper, ribs: robot.urdf)
     error = refused(three_fingers, robot=replace(three_fingers.scene.robot, urdf=urdf.replace(old, new)))
     assert error.message.startswith("the physics engine cannot load the robot: ")
     assert reason in error.message
@@ -117,7 +117,7 @@ def test_an_interruption_while_building_closes_the_client(three_fingers, monkeyp
     def interrupt(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("rgss.physics.world.assembled_urdf", interrupt)
+    monkeypatch.setattr("rgss.physics.world_builder.assembled_urdf", interrupt)
     before = open_clients()
     with pytest.raises(KeyboardInterrupt):
         three_fingers.world()

@@ -159,7 +159,7 @@ def test_equal_differences_prove_much_but_not_everything():
 
 
 def test_one_seed_tells_nothing():
-    with pytest.raises(DefinitionError, match=r"one seed tells nothing of noise \(compare at least two\)"):
+    with pytest.raises(DefinitionError, match=r"one seed shows nothing of noise \(compare at least two\)"):
         PairedMean(np.ones(1), margin=1.0)
 
 

@@ -37,9 +37,9 @@ def test_a_requirement_as_it_is_written(project):
     assert (requirement.derived_from, requirement.satisfied_by) == (("STK-1",), ("BLK-1", "ACT-1"))
     assert (requirement.priority, requirement.status) == (Priority.MEDIUM, Status.DRAFT)
     assert requirement.verification is VerificationMethod.ANALYSIS
-    assert requirement.criterion_exemption == ""
-    assert (requirement.parent, requirement.traces, requirement.success) == (None, (), "")
-    assert (requirement.facility, requirement.phase, requirement.exemptions) == ("", None, ())
+    assert requirement.criterion_exemption is None
+    assert (requirement.parent, requirement.traces, requirement.success) == (None, (), None)
+    assert (requirement.facility, requirement.phase, requirement.exempt) == (None, None, ())
     assert requirement.criterion == Criterion(
         measure="P", statistic=Statistic.LOW, comparison=Comparison.AT_LEAST, threshold=800.0, unit="g"
     )

@@ -45,7 +45,7 @@ def test_an_id_is_unique_across_the_files_of_a_part(project):
     divided(project).edit("system/1-early.yaml", "SYS-2", "SYS-1")
     assert project.findings() == [
         (
-            "requirements/system/2-late.yaml:2:9: error: id 'SYS-1' stands already at "
+            "requirements/system/2-late.yaml:2:9: error: id 'SYS-1' is already declared at "
             "requirements/system/1-early.yaml:2:9 (give it an id of its own) [requirements.duplicate-id]"
         )
     ]
@@ -120,7 +120,6 @@ def test_settings_of_rules(project):
     requirements = project.load()
     assert dict(requirements.settings) == {
         "wording.R19": RuleSetting(
-            rule="wording.R19",
             severity=Severity.INFO,
             enabled=True,
             terms_added=(),
@@ -128,7 +127,6 @@ def test_settings_of_rules(project):
             reason="Lists are short here.",
         ),
         "wording.R7": RuleSetting(
-            rule="wording.R7",
             severity=None,
             enabled=False,
             terms_added=("nice",),
@@ -148,9 +146,7 @@ def test_reviews(project):
         f"  GONE-1: {{digest: '{DIGEST}', reviewer: A. Reader, upstream: {{}}}}\n",
     )
     requirements = project.load()
-    assert requirements.reviews["SYS-1"] == Review(
-        id="SYS-1", digest=DIGEST, upstream={"STK-1": OTHER}, reviewer="A. Reader"
-    )
+    assert requirements.reviews["SYS-1"] == Review(digest=DIGEST, upstream={"STK-1": OTHER}, reviewer="A. Reader")
     assert requirements.reviews["GONE-1"].upstream == {}
     place = requirements.review_places["GONE-1"]
     assert str(place.finding("r", "m", hint="h", at_key=True)) == "requirements/reviews.yaml:3:3: error: m (h) [r]"
@@ -185,7 +181,7 @@ def test_exemptions(project):
     project.edit("architecture.yaml", "text: The whole.", "text: The whole., exempt: [{rule: r.3, reason: Big.}]")
     project.edit("architecture.yaml", "text: Closes.", "text: Closes., exempt: [{rule: r.4, reason: Odd.}]")
     requirements = project.load()
-    exempt = {item.id: item.exemptions for item in requirements.elements if item.exemptions}
+    exempt = {item.id: item.exempt for item in requirements.elements if item.exempt}
     assert exempt == {
         "STK-1": (Exemption(rule="r.1", reason="Old."),),
         "SYS-1": (Exemption(rule="r.2", reason="New."),),

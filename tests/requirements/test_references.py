@@ -26,14 +26,14 @@ ANOTHER = """\
             "id: SYS-1",
             "id: STK-1",
             "STK-1\n",
-            "id 'STK-1' stands already at requirements/stakeholder.yaml:2:9 " + DUPLICATE,
+            "id 'STK-1' is already declared at requirements/stakeholder.yaml:2:9 " + DUPLICATE,
         ),
         (
             "architecture.yaml",
             "behaviours:",
             "  - {id: BLK-0, name: Again, level: system, text: Again.}\nbehaviours:",
             "BLK-0, name: Again",
-            "id 'BLK-0' stands already at requirements/architecture.yaml:2:10 " + DUPLICATE,
+            "id 'BLK-0' is already declared at requirements/architecture.yaml:2:10 " + DUPLICATE,
         ),
         (
             "system.yaml",

@@ -75,7 +75,9 @@ def test_what_is_replaced_is_found_as_it_is_now(project):
 
 @pytest.mark.parametrize("ask", ["element", "content_digest"])
 def test_an_unknown_element_is_refused_with_the_nearest(project, ask):
-    with pytest.raises(DefinitionError, match=r"'BLK-2' is no element of the requirements \(did you mean 'BLK-1'\?\)"):
+    with pytest.raises(
+        DefinitionError, match=r"'BLK-2' is not an element of the requirements \(did you mean 'BLK-1'\?\)"
+    ):
         getattr(project.load(), ask)("BLK-2")
 
 
@@ -114,5 +116,7 @@ def test_a_finding_points_at_a_part_of_the_element(project, at, line, column):
 
 
 def test_a_finding_at_nothing_is_refused(project):
-    with pytest.raises(DefinitionError, match=r"'BLK-2' is no element of the requirements \(did you mean 'BLK-1'\?\)"):
+    with pytest.raises(
+        DefinitionError, match=r"'BLK-2' is not an element of the requirements \(did you mean 'BLK-1'\?\)"
+    ):
         project.load().finding("rule", "BLK-2", "message")

@@ -92,7 +92,7 @@ def test_what_a_study_names_is_read_even_if_the_study_is_wrong(edit, problems, p
             "requirements/system/1-manipulator.yaml",
             "measure: C_total, statistic",
             "measure: C_totl, statistic",
-            "error: criterion of 'SYS-004' bounds 'C_totl', which is no measure (known measures: P_max,",
+            "error: criterion of 'SYS-004' bounds 'C_totl', which is not a measure (known measures: P_max,",
         ),
         (
             "requirements/system/2-gripper.yaml",

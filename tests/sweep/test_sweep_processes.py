@@ -12,7 +12,6 @@ import signal
 import sqlite3
 import subprocess
 import sys
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,6 +21,7 @@ from rgss.evidence import EvidenceStore
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.running import sweep
+from tests.fixtures.processes import is_running, wait_until
 
 pytestmark = pytest.mark.engine
 
@@ -160,20 +160,6 @@ def wait_for(condition, process):
         return False
 
     wait_until(is_so)
-
-
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.02)
-
-
-def is_running(pid):
-    try:
-        return (Path("/proc") / str(pid) / "stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
 
 
 def stored(evidence, table="trials"):

@@ -112,7 +112,7 @@ class Database:
 
 
 def is_writable(path: Path) -> bool:
-    """Whether a file can be written, and the logs beside it that SQLite needs for that."""
+    """True if a file can be written, and the logs beside it that SQLite needs for that."""
     effective = os.access in os.supports_effective_ids
     return all(os.access(place, os.W_OK, effective_ids=effective) for place in (path, path.parent))
 

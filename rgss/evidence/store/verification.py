@@ -64,7 +64,7 @@ class Verification:
 
     @property
     def pages_are_damaged(self) -> bool:
-        """Whether the file itself is damaged, so that a row cannot simply be taken out of it."""
+        """True if the file itself is damaged, so that a row cannot simply be taken out of it."""
         return any(damage.what == PAGES for damage in self.damages)
 
 

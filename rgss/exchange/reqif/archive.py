@@ -21,7 +21,7 @@ _DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, E
 
 
 def is_archive(content: bytes) -> bool:
-    """Whether a file is a ZIP file, whatever its name ends in."""
+    """True if a file is a ZIP file, whatever its name ends in."""
     return content.startswith(_SIGNATURES)
 
 

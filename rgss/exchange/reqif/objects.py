@@ -97,7 +97,7 @@ class ObjectReader:
         return found
 
     def notes(self) -> Iterator[str]:
-        """What was not taken over."""
+        """Notes on content that was not imported."""
         for name, count in sorted(self._nameless.items()):
             had = ", ".join(map(shown, itertools.islice(self._attributes[name], _MOST_NAMED)))
             has = f" among their attributes {had}" if had else ""

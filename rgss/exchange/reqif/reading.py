@@ -111,7 +111,7 @@ def _content_alone(text: str) -> str:
 
 
 def _unreadable(content: bytes, file: str, error: Exception | None, *, line: int = 1) -> DocumentError:
-    """What is wrong with the file, in our own words: the library's are about its own code."""
+    """Error for a file that cannot be read, in our own words: the library's are about its own code."""
     found = structure_problems(content, file)
     if found:
         return refusal_of(found)

@@ -98,7 +98,7 @@ class RelationReader:
         return found
 
     def notes(self) -> Iterator[str]:
-        """What was not taken over."""
+        """Notes on content that was not imported."""
         for kind, count in sorted(self._left.items()):
             yield f"{count} relations of type {kind!r} are left aside: there is no such link between such elements here"
 

@@ -166,7 +166,7 @@ class _Reader:
             self.parts.append(self.apart(caption) + "\n")
 
     def apart(self, node: Any) -> str:
-        """What is in an element, as a text of its own."""
+        """Content of an element, as a text of its own."""
         inner = _Reader(losses=self.losses)
         inner.children(node)
         return "".join(inner.parts).strip()

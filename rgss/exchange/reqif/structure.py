@@ -1,4 +1,4 @@
-"""Where XML departs from the structure of ReqIF: what to say of a file that its reader gave up on."""
+"""Structural errors of ReqIF in an XML file, for files that the reader of the library gives up on."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ class _Reader:
         if element.identifier and name != "ALTERNATIVE-ID":
             _, before = self._identifiers.setdefault(element.identifier, (name, line))
             if self._identifiers[element.identifier] != (name, line):
-                self._report(line, f"the identifier {shown(element.identifier)} stands already in line {before}")
+                self._report(line, f"the identifier {shown(element.identifier)} is already in line {before}")
 
     def _broken_references(self) -> Iterator[Finding]:
         for name, identifier, line in self._references:

@@ -1,4 +1,4 @@
-"""What our attributes and relations are called in ReqIF, and other tools' names for them."""
+"""Names of attributes and relations in ReqIF, and other tools' names for them."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ def identifier(*parts: str) -> str:
 
 
 def long_name(attribute: Attribute) -> str:
-    """What an attribute is called in ReqIF."""
+    """Name of an attribute in ReqIF."""
     return _STANDARD.get(attribute.name, attribute.name)
 
 
 def attribute_name(long: str) -> str:
-    """What an attribute of any tool is called here; a name of ours where there is one for it."""
+    """Name here of an attribute of any tool; one of ours where there is one for it."""
     plain = re.sub(r"[\s-]+", "_", long.strip()).lower()
     plain = plain.removeprefix("reqif.")
     return _OTHERS.get(plain, plain)
@@ -79,10 +79,10 @@ def relation_name(long: str) -> str | None:
 
 
 def is_string(attribute: Attribute) -> bool:
-    """Whether an attribute is a plain string in ReqIF: one that holds no prose, so no breaks of lines."""
+    """True if an attribute is a plain string in ReqIF: one that holds no prose, so no breaks of lines."""
     return attribute.form is Form.DETAIL or attribute.name in ("id", "threshold")
 
 
 def is_relation(attribute: Attribute) -> bool:
-    """Whether an attribute is relations in ReqIF, or the hierarchy, and no attribute."""
+    """True if an attribute is relations in ReqIF, or the hierarchy, and no attribute."""
     return attribute.holds_ids

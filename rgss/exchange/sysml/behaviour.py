@@ -48,8 +48,8 @@ def _lines(each: Behaviour, parts: Parts) -> Iterator[str]:
         yield from _machine(each.machine)
 
 
-def _guards(texts: Iterator[str]) -> Iterator[str]:
-    """What guards ask is prose, so each is a truth value of that name."""
+def _guards(texts: Iterator[str | None]) -> Iterator[str]:
+    """Truth values named by the guards, which are prose."""
     return (f"attribute {name(text)} : Boolean;" for text in dict.fromkeys(texts) if text)
 
 

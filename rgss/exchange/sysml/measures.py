@@ -56,7 +56,7 @@ def _unit(unit: str) -> str:
 
 
 def _length(node: Node, rows: Mapping[str, int]) -> int | None:
-    """How many entries a node has; None for one number."""
+    """Number of entries of a node; None for one number."""
     return next((rows[symbol] for symbol in _rows(node, rows)), None)
 
 

@@ -81,7 +81,7 @@ def _requirement_lines(requirement: Requirement) -> Iterator[str]:
         yield from _constraint(criterion)
 
 
-def _common(element: StakeholderNeed | Requirement) -> dict[str, str]:
+def _common(element: StakeholderNeed | Requirement) -> dict[str, str | None]:
     return {
         "rationale": element.rationale,
         "source": element.source,
@@ -91,7 +91,7 @@ def _common(element: StakeholderNeed | Requirement) -> dict[str, str]:
     }
 
 
-def _attributes(values: Mapping[str, str]) -> Iterator[str]:
+def _attributes(values: Mapping[str, str | None]) -> Iterator[str]:
     for key, value in values.items():
         if value:
             yield f"attribute :>> {key} = {string(' '.join(value.split()))};"

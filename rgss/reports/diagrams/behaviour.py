@@ -127,7 +127,8 @@ def state_diagram(behaviour: Behaviour) -> Drawing | None:
 def _flow_node(node: FlowNode) -> Node:
     shape = _FLOW_SHAPES[node.kind]
     texts = (f"calls {node.does}",) if node.does else ()
-    return Node(id=node.id, shape=shape, name=node.text, texts=texts, tint="behaviour" if shape is Shape.ROUND else "")
+    tint = "behaviour" if shape is Shape.ROUND else ""
+    return Node(id=node.id, shape=shape, name=node.text or "", texts=texts, tint=tint)
 
 
 def _state_node(state: State) -> Node:

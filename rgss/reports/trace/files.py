@@ -10,21 +10,6 @@ from rgss.reports.trace.report import TraceReport
 from rgss.trace.views import Chain, Impact
 
 
-def report_file(report: TraceReport, file_format: str, *, gaps_only: bool = False, table: str = "") -> bytes:
-    """A report as the content of one file.
-
-    Args:
-        report: The report.
-        file_format: Name of a registered format.
-        gaps_only: Only what is open.
-        table: Name of the only table; empty for all.
-
-    Raises:
-        DefinitionError: The format or the table is unknown, or a package is not installed.
-    """
-    return trace_format(file_format).write_report(report, Selection(gaps_only=gaps_only, table=table))
-
-
 def tables_of(report: TraceReport, file_format: str, *, gaps_only: bool = False, table: str = "") -> tuple[Table, ...]:
     """The tables of a report as a format writes them.
 
@@ -39,20 +24,6 @@ def tables_of(report: TraceReport, file_format: str, *, gaps_only: bool = False,
     """
     selection = Selection(gaps_only=gaps_only, table=table)
     return selected_tables(report, selection, widest_grid=trace_format(file_format).widest_grid)
-
-
-def found_file(found: Chain | Impact, report: TraceReport, file_format: str) -> bytes:
-    """A chain or an impact as the content of one file.
-
-    Args:
-        found: The chain or the impact.
-        report: The report of the same project, for the texts.
-        file_format: Name of a registered format.
-
-    Raises:
-        DefinitionError: The format is unknown, or a package is not installed.
-    """
-    return trace_format(file_format).write_found(found, report)
 
 
 def trace_files(

@@ -146,7 +146,7 @@ def _verification(row: VerificationRow) -> dict[str, Any]:
         "text": requirement.text,
         "success_criterion": row.success,
         "method": None if requirement.verification is None else requirement.verification.value,
-        "facility": requirement.facility,
+        "facility": requirement.facility or "",
         "phase": None if requirement.phase is None else requirement.phase.value,
         "document": row.document,
         "responsible": requirement.owner,

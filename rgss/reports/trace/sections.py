@@ -207,7 +207,7 @@ def _verification_row(row: VerificationRow) -> dict[str, Any]:
         "text": requirement.text,
         "success": row.success,
         "method": "" if requirement.verification is None else requirement.verification.value,
-        "facility": requirement.facility,
+        "facility": requirement.facility or "",
         "phase": "" if requirement.phase is None else requirement.phase.value,
         "measured": "" if row.estimate is None else f"{measure} = {estimate_in_words(row.estimate)}",
         "variant": row.variant,

@@ -190,7 +190,7 @@ def _verification_cells(row: VerificationRow) -> tuple[Cell, ...]:
         requirement.text,
         row.success,
         "" if requirement.verification is None else requirement.verification.value,
-        requirement.facility,
+        requirement.facility or "",
         "" if requirement.phase is None else requirement.phase.value,
         evidence_in_words(row),
         verdict_in_words(row.verdict, row.causes),

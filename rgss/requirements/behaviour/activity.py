@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
+
+from pydantic.dataclasses import dataclass
+
+from rgss.documents import STRICT, Identifier, Text
+from rgss.requirements.fields import Entries
 
 
 class FlowNodeKind(str, Enum):
@@ -18,46 +22,28 @@ class FlowNodeKind(str, Enum):
     FINAL = "final"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class FlowNode:
-    """One node of a flow.
+    """A node of an activity's flow."""
 
-    Attributes:
-        id: Its id, unique within the flow.
-        kind: What control does there.
-        text: The action or the question; empty where the kind says it all.
-        does: Id of the behaviour that an action calls; None if it calls none.
-    """
-
-    id: str
+    id: Identifier
     kind: FlowNodeKind
-    text: str
-    does: str | None
+    text: Text | None = None
+    does: Identifier | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class FlowEdge:
-    """One way from node to node.
+    """A way from node to node of an activity's flow."""
 
-    Attributes:
-        source: Id of the node that it leaves.
-        target: Id of the node that it reaches.
-        guard: When it is taken; empty if always.
-    """
-
-    source: str
-    target: str
-    guard: str
+    source: Identifier
+    target: Identifier
+    guard: Text | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Flow:
-    """What an activity diagram shows.
+    """The flow of an activity."""
 
-    Attributes:
-        nodes: The nodes, in the file's order.
-        edges: The ways between them, in the file's order.
-    """
-
-    nodes: tuple[FlowNode, ...]
-    edges: tuple[FlowEdge, ...]
+    nodes: Entries[FlowNode]
+    edges: Entries[FlowEdge]

@@ -2,57 +2,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from pydantic.dataclasses import dataclass
+
+from rgss.documents import STRICT, Identifier, Text
+from rgss.requirements.fields import Entries
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Message:
-    """One message from block to block.
+    """A message of a sequence."""
 
-    Attributes:
-        id: Its id, unique within the interaction.
-        source: Id of the block that sends it.
-        target: Id of the block that receives it.
-        text: The request or the reply.
-        does: Id of the behaviour that it sets off; None if none.
-        reply: It answers an earlier message.
-    """
-
-    id: str
-    source: str
-    target: str
-    text: str
-    does: str | None
-    reply: bool
+    id: Identifier
+    source: Identifier
+    target: Identifier
+    text: Text
+    does: Identifier | None = None
+    reply: bool = False
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class TimingConstraint:
-    """A bound on the time between two messages: the criterion of a requirement.
+    """A bound on the time between two messages of a sequence."""
 
-    Attributes:
-        first: Id of the message that starts the time.
-        last: Id of the message that ends it.
-        criterion_of: Id of the system requirement whose criterion bounds it.
-        text: What is timed.
-    """
-
-    first: str
-    last: str
-    criterion_of: str
-    text: str
+    first: Identifier
+    last: Identifier
+    criterion_of: Identifier
+    text: Text
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Interaction:
-    """What a sequence diagram shows.
+    """The messages of a sequence."""
 
-    Attributes:
-        lifelines: Ids of the blocks that take part, from left to right.
-        messages: The messages, in their order.
-        timings: The bounds on the time between them.
-    """
-
-    lifelines: tuple[str, ...]
-    messages: tuple[Message, ...]
-    timings: tuple[TimingConstraint, ...]
+    lifelines: Entries[Identifier]
+    messages: Entries[Message]
+    timings: tuple[TimingConstraint, ...] = ()

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
+
+from pydantic.dataclasses import dataclass
+
+from rgss.documents import STRICT, Identifier, Text
+from rgss.requirements.fields import Entries
 
 
 class StateKind(str, Enum):
@@ -15,50 +19,32 @@ class StateKind(str, Enum):
     FAILED = "failed"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class State:
-    """One state.
+    """A state of a state machine."""
 
-    Attributes:
-        id: Its id, unique within the machine.
-        kind: Where it stands.
-        name: What it is called.
-        phase: The task phase that it is, a value of ``rgss.evidence.Phase``; empty if it is none.
-        does: Id of the behaviour that runs in it; None if none.
-    """
-
-    id: str
+    id: Identifier
     kind: StateKind
-    name: str
-    phase: str
-    does: str | None
+    name: Text
+    phase: Identifier | None = None
+    """A value of `rgss.evidence.Phase`."""
+    does: Identifier | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Transition:
-    """One way from state to state.
+    """A way from state to state of a state machine."""
 
-    Attributes:
-        source: Id of the state that it leaves.
-        target: Id of the state that it reaches.
-        guard: When it is taken; empty if as soon as the state is complete.
-        failure: The failure that takes it, a value of ``rgss.evidence.Failure``; empty if none.
-    """
-
-    source: str
-    target: str
-    guard: str
-    failure: str
+    source: Identifier
+    target: Identifier
+    guard: Text | None = None
+    failure: Identifier | None = None
+    """A value of `rgss.evidence.Failure`."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class StateMachine:
-    """What a state diagram shows.
+    """The states of a state machine."""
 
-    Attributes:
-        states: The states, in the file's order.
-        transitions: The ways between them, in the file's order.
-    """
-
-    states: tuple[State, ...]
-    transitions: tuple[Transition, ...]
+    states: Entries[State]
+    transitions: Entries[Transition]

@@ -6,17 +6,18 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from rgss.documents import LoadedDocument
 from rgss.findings import Finding
-from rgss.requirements.architecture_files import ArchitectureFile, BehaviourFile, BlockFile
+from rgss.requirements.architecture import Behaviour, Block
 from rgss.requirements.checks.flow import check_flow
 from rgss.requirements.checks.interaction import check_interaction
 from rgss.requirements.checks.state_machine import check_machine
-from rgss.requirements.files import RequirementFile
+from rgss.requirements.files import ArchitectureFile
 from rgss.requirements.hints import Hints
 from rgss.requirements.references import Declaration, ElementKind
+from rgss.requirements.requirement import Requirement
 
 
 def check_behaviours(
-    documents: Sequence[LoadedDocument[ArchitectureFile]], requirements: Mapping[str, RequirementFile], hints: Hints
+    documents: Sequence[LoadedDocument[ArchitectureFile]], requirements: Mapping[str, Requirement], hints: Hints
 ) -> Iterator[Finding]:
     """Find what is wrong inside of behaviours.
 
@@ -43,10 +44,8 @@ def check_behaviours(
                 yield from check_machine(declaration, behaviour.machine, hints)
 
 
-def _check_actors(
-    declaration: Declaration, behaviour: BehaviourFile, blocks: Mapping[str, BlockFile]
-) -> Iterator[Finding]:
+def _check_actors(declaration: Declaration, behaviour: Behaviour, blocks: Mapping[str, Block]) -> Iterator[Finding]:
     for index, actor in enumerate(behaviour.actors):
         if actor in blocks and not blocks[actor].actor:
-            message = f"actors: block {actor!r} is no actor"
+            message = f"actors: block {actor!r} is not an actor"
             yield declaration.finding("actor", message, ("actors", index), hint="give it 'actor: true'")

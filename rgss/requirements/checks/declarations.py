@@ -1,20 +1,16 @@
-"""What each file declares, and what the declared elements refer to."""
+"""Declarations of each file, and the references of the declared elements."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 from rgss.documents import Document, LoadedDocument
-from rgss.requirements.architecture_files import (
-    ArchitectureFile,
-    BehaviourFile,
-    BlockFile,
-    FlowFile,
-    InteractionFile,
-    MachineFile,
-)
-from rgss.requirements.files import NeedFile, RequirementFile, StakeholderFile, SystemFile
+from rgss.requirements.architecture import Behaviour, Block
+from rgss.requirements.behaviour import Flow, Interaction, StateMachine
+from rgss.requirements.files import ArchitectureFile, StakeholderFile, SystemFile
+from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.references import Declaration, ElementKind, Reference
+from rgss.requirements.requirement import Requirement
 
 _NEED = (ElementKind.NEED,)
 _REQUIREMENT = (ElementKind.REQUIREMENT,)
@@ -54,7 +50,7 @@ def declared_elements(loaded: LoadedDocument[ArchitectureFile]) -> Iterator[Decl
         yield _declaration(behaviour, ElementKind.BEHAVIOUR, loaded.document, ("behaviours", index), references)
 
 
-def _behaviour_references(behaviour: BehaviourFile) -> Iterator[Reference]:
+def _behaviour_references(behaviour: Behaviour) -> Iterator[Reference]:
     yield from _many("allocated_to", behaviour.allocated_to, _BLOCK)
     yield from _many("refines", behaviour.refines, _REFINED)
     # Inclusion and calls are no order: what a retry includes may include the retry.
@@ -68,12 +64,12 @@ def _behaviour_references(behaviour: BehaviourFile) -> Iterator[Reference]:
         yield from _machine_references(behaviour.machine)
 
 
-def _flow_references(flow: FlowFile) -> Iterator[Reference]:
+def _flow_references(flow: Flow) -> Iterator[Reference]:
     for index, node in enumerate(flow.nodes):
         yield from _inner(("flow", "nodes", index, "does"), node.does, _BEHAVIOUR)
 
 
-def _interaction_references(interaction: InteractionFile) -> Iterator[Reference]:
+def _interaction_references(interaction: Interaction) -> Iterator[Reference]:
     for index, lifeline in enumerate(interaction.lifelines):
         yield from _inner(("interaction", "lifelines", index), lifeline, _BLOCK)
     for index, message in enumerate(interaction.messages):
@@ -82,7 +78,7 @@ def _interaction_references(interaction: InteractionFile) -> Iterator[Reference]
         yield from _inner(("interaction", "timings", index, "criterion_of"), timing.criterion_of, _REQUIREMENT)
 
 
-def _machine_references(machine: MachineFile) -> Iterator[Reference]:
+def _machine_references(machine: StateMachine) -> Iterator[Reference]:
     for index, state in enumerate(machine.states):
         yield from _inner(("machine", "states", index, "does"), state.does, _BEHAVIOUR)
 
@@ -104,7 +100,7 @@ def _inner(at: tuple[str | int, ...], target: str | None, kinds: tuple[ElementKi
 
 
 def _declaration(
-    item: NeedFile | RequirementFile | BlockFile | BehaviourFile,
+    item: StakeholderNeed | Requirement | Block | Behaviour,
     kind: ElementKind,
     document: Document,
     location: tuple[str | int, ...],

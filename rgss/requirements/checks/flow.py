@@ -1,4 +1,4 @@
-"""What makes the flow of an activity a flow: one beginning, an end, and a definite way between them."""
+"""Consistency of an activity's flow: one beginning, an end, and a definite way between them."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from rgss.findings import Finding
-from rgss.requirements.architecture_files import FlowFile, FlowNodeFile
-from rgss.requirements.behaviour import FlowNodeKind
+from rgss.requirements.behaviour import Flow, FlowNode, FlowNodeKind
 from rgss.requirements.checks.inner_ids import At, reached_from, repeated, unknown
 from rgss.requirements.hints import Hints
 from rgss.requirements.references import Declaration
@@ -19,7 +18,7 @@ _DIVIDING = (FlowNodeKind.DECISION, FlowNodeKind.FORK)
 _JOINING = (FlowNodeKind.MERGE, FlowNodeKind.JOIN, FlowNodeKind.FINAL)
 
 
-def check_flow(declaration: Declaration, flow: FlowFile, hints: Hints) -> Iterator[Finding]:
+def check_flow(declaration: Declaration, flow: Flow, hints: Hints) -> Iterator[Finding]:
     """Find what is wrong with a flow.
 
     Args:
@@ -49,16 +48,14 @@ def check_flow(declaration: Declaration, flow: FlowFile, hints: Hints) -> Iterat
     yield from _check_guards(declaration, flow)
 
 
-def _check_node(declaration: Declaration, node: FlowNodeFile, at: At) -> Iterator[Finding]:
+def _check_node(declaration: Declaration, node: FlowNode, at: At) -> Iterator[Finding]:
     if node.kind in _WITH_TEXT and node.text is None:
         yield _broken(declaration, f"{node.kind.value} {node.id!r} has no text", at)
     if node.kind is not FlowNodeKind.ACTION and node.does is not None:
         yield _broken(declaration, f"{node.kind.value} {node.id!r} does nothing; only an action does", (*at, "does"))
 
 
-def _check_ways(
-    declaration: Declaration, node: FlowNodeFile, at: At, *, arriving: int, leaving: int
-) -> Iterator[Finding]:
+def _check_ways(declaration: Declaration, node: FlowNode, at: At, *, arriving: int, leaving: int) -> Iterator[Finding]:
     said = f"{node.kind.value} {node.id!r}"
     if node.kind is FlowNodeKind.INITIAL and arriving:
         yield _broken(declaration, f"{said} is reached by an edge", at)
@@ -75,7 +72,7 @@ def _check_ways(
         yield _broken(declaration, f"{said} is reached by {arriving} edges, not by 2 or more", at)
 
 
-def _check_guards(declaration: Declaration, flow: FlowFile) -> Iterator[Finding]:
+def _check_guards(declaration: Declaration, flow: Flow) -> Iterator[Finding]:
     decisions = {node.id for node in flow.nodes if node.kind is FlowNodeKind.DECISION}
     seen: set[tuple[str, str | None]] = set()
     for index, edge in enumerate(flow.edges):

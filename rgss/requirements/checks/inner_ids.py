@@ -22,7 +22,7 @@ def repeated(declaration: Declaration, at: At, ids: Sequence[str]) -> Iterator[F
     seen: set[str] = set()
     for index, each in enumerate(ids):
         if each in seen:
-            yield declaration.finding("duplicate-id", f"id {each!r} stands twice in {at[-1]}", (*at, index, "id"))
+            yield declaration.finding("duplicate-id", f"id {each!r} is repeated in {at[-1]}", (*at, index, "id"))
         seen.add(each)
 
 
@@ -40,7 +40,7 @@ def unknown(
         hints: Names what was probably meant.
     """
     if named not in known:
-        message = f"{at[-1]}: {named!r} is no {what}"
+        message = f"{at[-1]}: {named!r} is not a {what}"
         yield declaration.finding("dangling-id", message, at, hint=hints.nearest(named, known))
 
 

@@ -1,4 +1,4 @@
-"""What makes the messages of a sequence an interaction, and its timing constraints bounds on a time."""
+"""Consistency of a sequence's messages and of its timing constraints."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from rgss.findings import Finding
-from rgss.requirements.architecture_files import InteractionFile, TimingFile
+from rgss.requirements.behaviour import Interaction, TimingConstraint
 from rgss.requirements.checks.inner_ids import At, repeated, unknown
-from rgss.requirements.files import RequirementFile
 from rgss.requirements.hints import Hints
 from rgss.requirements.references import Declaration
+from rgss.requirements.requirement import Requirement
 
 _MESSAGES: At = ("interaction", "messages")
 _TIMINGS: At = ("interaction", "timings")
@@ -18,8 +18,8 @@ _TIMINGS: At = ("interaction", "timings")
 
 def check_interaction(
     declaration: Declaration,
-    interaction: InteractionFile,
-    requirements: Mapping[str, RequirementFile],
+    interaction: Interaction,
+    requirements: Mapping[str, Requirement],
     hints: Hints,
 ) -> Iterator[Finding]:
     """Find what is wrong with an interaction.
@@ -53,7 +53,7 @@ def check_interaction(
 
 
 def _check_timing(
-    declaration: Declaration, timing: TimingFile, order: Mapping[str, int], at: At, hints: Hints
+    declaration: Declaration, timing: TimingConstraint, order: Mapping[str, int], at: At, hints: Hints
 ) -> Iterator[Finding]:
     yield from unknown(declaration, (*at, "first"), timing.first, order, "message of the sequence", hints)
     yield from unknown(declaration, (*at, "last"), timing.last, order, "message of the sequence", hints)
@@ -62,7 +62,7 @@ def _check_timing(
 
 
 def _check_criterion(
-    declaration: Declaration, timing: TimingFile, requirements: Mapping[str, RequirementFile], at: At
+    declaration: Declaration, timing: TimingConstraint, requirements: Mapping[str, Requirement], at: At
 ) -> Iterator[Finding]:
     requirement = requirements.get(timing.criterion_of)
     # That the criterion is in a unit of time is left to the check of its unit: one mistake, one line.

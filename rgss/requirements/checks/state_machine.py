@@ -1,12 +1,11 @@
-"""What makes states and transitions a state machine."""
+"""Consistency of the states and transitions of a state machine."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from rgss.findings import Finding
-from rgss.requirements.architecture_files import MachineFile, StateFile
-from rgss.requirements.behaviour import StateKind
+from rgss.requirements.behaviour import State, StateKind, StateMachine
 from rgss.requirements.checks.inner_ids import At, reached_from, repeated, unknown
 from rgss.requirements.hints import Hints
 from rgss.requirements.references import Declaration
@@ -16,7 +15,7 @@ _TRANSITIONS: At = ("machine", "transitions")
 _ENDS = (StateKind.FINAL, StateKind.FAILED)
 
 
-def check_machine(declaration: Declaration, machine: MachineFile, hints: Hints) -> Iterator[Finding]:
+def check_machine(declaration: Declaration, machine: StateMachine, hints: Hints) -> Iterator[Finding]:
     """Find what is wrong with a state machine.
 
     Args:
@@ -45,7 +44,7 @@ def check_machine(declaration: Declaration, machine: MachineFile, hints: Hints) 
     yield from _check_transitions(declaration, machine, hints)
 
 
-def _check_state(declaration: Declaration, state: StateFile, at: At, *, reached: bool, left: bool) -> Iterator[Finding]:
+def _check_state(declaration: Declaration, state: State, at: At, *, reached: bool, left: bool) -> Iterator[Finding]:
     said = f"{state.kind.value} state" if state.kind is not StateKind.STATE else "state"
     if state.kind in _ENDS and left:
         yield _broken(declaration, f"{said} {state.id!r} is left by a transition", at)
@@ -58,7 +57,7 @@ def _check_state(declaration: Declaration, state: StateFile, at: At, *, reached:
             yield _broken(declaration, f"{said} {state.id!r} has a {key!r}; only a plain state has", (*at, key))
 
 
-def _check_transitions(declaration: Declaration, machine: MachineFile, hints: Hints) -> Iterator[Finding]:
+def _check_transitions(declaration: Declaration, machine: StateMachine, hints: Hints) -> Iterator[Finding]:
     ids = {state.id: None for state in machine.states}
     failed = {state.id for state in machine.states if state.kind is StateKind.FAILED}
     seen: set[tuple[str, str | None, str | None]] = set()

@@ -15,7 +15,9 @@ from typing import Any
 from rgss.errors import DefinitionError, SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.evidence.records import machine
-from rgss.sweep.dask.tasks import Differs, Order, are_alike, environment, inspect
+from rgss.sweep.dask.engines import Differs, Order
+from rgss.sweep.dask.process_environment import are_alike, environment
+from rgss.sweep.dask.tasks import inspect
 from rgss.sweep.dask.workers import WITHOUT_WORKERS_S, DaskWorkers, stop_all
 from rgss.sweep.task_end import Ended
 

@@ -20,7 +20,8 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.evidence import RunFailureKind
 from rgss.sweep.answers import is_end_of, wrong_answer
-from rgss.sweep.dask.tasks import Differs, Order, carry_out, stop
+from rgss.sweep.dask.engines import Differs, Order
+from rgss.sweep.dask.tasks import carry_out, stop
 from rgss.sweep.task_end import Ended, TaskError
 
 IN_FLIGHT = 2

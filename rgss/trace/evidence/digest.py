@@ -17,7 +17,7 @@ def verification_digest(requirement: Requirement) -> str:
         {
             "text": " ".join(requirement.text.split()),
             "verification": requirement.verification,
-            "success": " ".join(requirement.success.split()),
+            "success": " ".join((requirement.success or "").split()),
             "criterion": None
             if criterion is None
             else [

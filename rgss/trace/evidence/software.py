@@ -185,7 +185,7 @@ def _tested(project: Path) -> list[Path]:
 
 
 def _is_tested(requirement: Requirement, marks: Mapping[str, object]) -> bool:
-    """Whether tests decide: it is verified by test, or marked tests inspect or demonstrate it."""
+    """True if tests decide: it is verified by test, or marked tests inspect or demonstrate it."""
     method = requirement.verification
     if method is VerificationMethod.TEST:
         return True

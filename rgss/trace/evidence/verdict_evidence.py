@@ -136,7 +136,7 @@ class TraceEvidence:
         return tuple((verdict, counts[verdict]) for verdict in Verdict if counts[verdict])
 
     def has_evidence(self, requirement: Requirement) -> bool:
-        """Whether there is evidence that holds now: trials, the design, or a test that was run."""
+        """True if there is evidence that holds now: trials, the design, or a test that was run."""
         verdict = self.verdict(requirement)
         if requirement.criterion is not None:
             return verdict not in (Verdict.NOT_RUN, Verdict.STALE)

@@ -41,7 +41,7 @@ class VerificationRow:
 
     @property
     def has_gap(self) -> bool:
-        """Whether anything is open: the method, the criterion, the evidence, or that it is met."""
+        """True if anything is open: the method, the criterion, the evidence, or that it is met."""
         return self.requirement.verification is None or not self.success or self.verdict is not Verdict.MET
 
 
@@ -59,7 +59,7 @@ def success_criterion(requirement: Requirement) -> str:
     """Criterion or success condition of a requirement, in words; empty while that is open."""
     if requirement.criterion is not None:
         return str(requirement.criterion)
-    return requirement.success or requirement.criterion_exemption
+    return requirement.success or requirement.criterion_exemption or ""
 
 
 def _row(model: TraceModel, evidence: TraceEvidence, requirement: Requirement) -> VerificationRow:

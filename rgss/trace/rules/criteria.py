@@ -58,7 +58,7 @@ def _unknown_measures(model: TraceModel) -> Iterator[Violation]:
     known = {measure.id: None for measure in model.measures}
     for requirement, criterion in _criteria(model):
         if criterion.measure not in known:
-            message = f"criterion of {requirement.id!r} bounds {criterion.measure!r}, which is no measure"
+            message = f"criterion of {requirement.id!r} bounds {criterion.measure!r}, which is not a measure"
             hint = f"known measures: {', '.join(known)}"
             yield Violation(subject=requirement.id, message=message, hint=hint, at=("criterion", "measure"))
 

@@ -16,11 +16,11 @@ def _dangling(model: TraceModel) -> Iterator[Violation]:
     for measure in model.measures:
         for target in measure.traces:
             if target not in needs:
-                message = f"{measure.id!r} traces to {target!r}, which is no stakeholder requirement"
+                message = f"{measure.id!r} traces to {target!r}, which is not a stakeholder requirement"
                 yield Violation(subject=measure, message=message, hint=nearest(target, needs))
         for target in measure.contributes_to:
             if target not in measures:
-                message = f"{measure.id!r} contributes to {target!r}, which is no measure"
+                message = f"{measure.id!r} contributes to {target!r}, which is not a measure"
                 yield Violation(subject=measure, message=message, hint=nearest(target, measures))
 
 
@@ -31,7 +31,7 @@ def _duplicates(model: TraceModel) -> Iterator[Violation]:
         if measure.id in model.requirements.places:
             other = model.requirements.finding("", measure.id, "")
         if other is not measure:
-            message = f"id {measure.id!r} stands already at {other.file}:{other.line}:{other.column}"
+            message = f"id {measure.id!r} is already declared at {other.file}:{other.line}:{other.column}"
             yield Violation(subject=measure, message=message, hint="give it an id of its own")
 
 

@@ -110,7 +110,7 @@ class _Check:
         self._exempt = {
             rule_configuration.Exempted(element.id, exemption.rule)
             for element in requirements.elements
-            for exemption in element.exemptions
+            for exemption in element.exempt
         }
         self._used: set[rule_configuration.Exempted] = set()
 

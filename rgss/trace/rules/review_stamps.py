@@ -67,7 +67,6 @@ def stamped(requirements: RequirementSet, ids: Sequence[str], reviewer: str) -> 
     digest_of = lru_cache(maxsize=None)(requirements.content_digest)
     for each in expanded(requirements, ids):
         kept[each] = Review(
-            id=each,
             digest=digest_of(each),
             upstream={link.target: digest_of(link.target) for link in upstream[each]},
             reviewer=name,

@@ -87,7 +87,7 @@ class Rule:
 
     @property
     def allows_exemption(self) -> bool:
-        """Whether an element may be exempt from it."""
+        """True if an element may be exempt from it."""
         return self.of_elements and not self.fixed
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import NamedTuple
 
 from rgss.findings import Severity
@@ -45,9 +44,6 @@ UNUSED_SETTING = ConfigurationRule(
 RULES: tuple[ConfigurationRule, ...] = (UNKNOWN_EXEMPTION, UNUSED_EXEMPTION, UNKNOWN_SETTING, UNUSED_SETTING)
 
 
-_IDLE = RuleSetting(rule="", severity=None, enabled=True, terms_added=(), terms_removed=(), reason="")
-
-
 class Exempted(NamedTuple):
     """An exemption by what it is of."""
 
@@ -74,7 +70,7 @@ def setting_violations(
             message = f"rule {name!r} cannot be set: what breaks it cannot be decided"
             yield UNKNOWN_SETTING, Violation(subject=place, message=message, hint="remove it", at=(), at_key=True)
             continue
-        if setting == replace(_IDLE, rule=name, reason=setting.reason):
+        if setting == RuleSetting(reason=setting.reason):
             message = f"the setting of {name!r} changes nothing"
             yield UNUSED_SETTING, Violation(subject=place, message=message, hint="remove it", at=(), at_key=True)
         if setting.severity is rule.severity:
@@ -96,7 +92,7 @@ def exemption_violations(
         used: The exemptions that exempted something.
     """
     for element in requirements.elements:
-        for index, exemption in enumerate(element.exemptions):
+        for index, exemption in enumerate(element.exempt):
             rule, at = rules.get(exemption.rule), ("exempt", index, "rule")
             if rule is None:
                 message, hint = f"there is no rule {exemption.rule!r}", nearest(exemption.rule, rules)

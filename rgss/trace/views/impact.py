@@ -114,7 +114,7 @@ def impact_of(
         trials=(root.id,) if root.kind is ThingKind.TRIAL else _trials(requirements, evidence),
         tests=_without(root.id, _unique(*([test.test for test in evidence.tests(one)] for one in required))),
         reviews=tuple(
-            review.id for review in model.requirements.reviews.values() if root.id in (review.id, *review.upstream)
+            name for name, review in model.requirements.reviews.items() if root.id in (name, *review.upstream)
         ),
     )
 

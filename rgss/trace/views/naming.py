@@ -53,7 +53,7 @@ def named(model: TraceModel, evidence: TraceEvidence, name: str, *, definitions:
         return trial
     hint = nearest(name, [*kinds, *symbols])
     raise DefinitionError(
-        f"{name!r} is no id of the requirements, the architecture, the measures, the tests or the trials shown",
+        f"{name!r} is not an id of the requirements, the architecture, the measures, the tests or the trials shown",
         hint=hint or "name one, such as SYS-004, BLK-gripper, P_max or 28/1",
     )
 

@@ -9,7 +9,6 @@ import signal
 import sqlite3
 import subprocess
 import sys
-import time
 
 import pytest
 from distributed import LocalCluster
@@ -18,6 +17,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence.records.origin import machine
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.dask import cluster as dask_cluster
+from tests.fixtures.processes import wait_until
 
 
 @pytest.fixture(scope="module")
@@ -141,10 +141,3 @@ def stored(evidence):
         return 0
     finally:
         connection.close()
-
-
-def wait_until(condition, timeout_s=60.0):
-    end = time.monotonic() + timeout_s
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.02)

@@ -126,8 +126,8 @@ def test_without_a_name_the_login_name_is_the_reviewer(rgss, folder, monkeypatch
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        (["SYS-0011"], "rgss: 'SYS-0011' is no element of the requirements (did you mean 'SYS-011'?)"),
-        (["sys-011"], "rgss: 'sys-011' is no element of the requirements (did you mean 'SYS-011'?)"),
+        (["SYS-0011"], "rgss: 'SYS-0011' is not an element of the requirements (did you mean 'SYS-011'?)"),
+        (["sys-011"], "rgss: 'sys-011' is not an element of the requirements (did you mean 'SYS-011'?)"),
         (["SYS-001", "--reviewer", "\x1b[2J"], "rgss: a reviewer is named by 1 to 80 printable characters"),
     ],
 )

@@ -103,7 +103,7 @@ def test_a_table_is_reported_applied_and_then_no_change(rgss, folder, table):
         ),
         ({"derived_from": "SYS-999"}, "SYS-002: derived_from: there is no element 'SYS-999'"),
         ({"status": "frozen"}, "SYS-002: status: 'frozen' is not one of"),
-        ({"id": "SYS-001"}, "'SYS-001' stands already in line"),
+        ({"id": "SYS-001"}, "'SYS-001' is already in line"),
     ],
 )
 def test_what_would_break_the_project_is_not_applied(rgss, untouched, table, cells, complaint):

@@ -190,7 +190,7 @@ def test_results_of_tests_decide(rgss, folder, tmp_path):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        (["SYS-999"], "'SYS-999' is no id of the requirements, the architecture, the measures"),
+        (["SYS-999"], "'SYS-999' is not an id of the requirements, the architecture, the measures"),
         (["--impact"], "--impact needs an id (rgss trace SYS-004 --impact)"),
         (["SYS-004", "--gaps"], "--gaps does not go with an id (leave one of them away)"),
         (["SYS-004", "--table", "gaps"], "--table does not go with an id"),

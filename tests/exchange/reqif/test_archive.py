@@ -72,7 +72,7 @@ def test_an_id_in_two_files_is_said_with_the_file(project, text, archive, refuse
     path = archive({"a.reqif": text, "b.reqif": text})
     lines = refused(lambda: project.compare(read_reqif(path)))
     assert lines[0].startswith(f"{path} (b.reqif):")
-    assert "stands already in line" in lines[0]
+    assert "is already in line" in lines[0]
 
 
 @pytest.mark.parametrize("name", ["../outside.reqif", "/outside.reqif", "a/../../b.png", "..\\outside.reqif"])

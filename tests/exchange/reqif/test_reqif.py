@@ -267,7 +267,7 @@ def test_xml_that_is_refused_or_no_reqif_is_one_line_each(as_xml, refused, text,
             "<OBJECT>\n<SPEC-OBJECT-REF>_",
             "the hierarchy",
         ),
-        ('THE-VALUE="STK-2"', 'THE-VALUE="STK-1"', "'STK-1' stands already in line"),
+        ('THE-VALUE="STK-2"', 'THE-VALUE="STK-1"', "'STK-1' is already in line"),
         ('THE-VALUE="STK-2"', 'THE-VALUE="2"', "id: '2' is not an identifier"),
     ],
 )

@@ -123,7 +123,7 @@ def test_markup_stays_text(project, written):
         (
             b"stakeholder,STK-2",
             b"stakeholder,STK-1",
-            "t.csv:3:2: error: 'STK-1' stands already in line 2 \\[exchange.duplicate\\]",
+            "t.csv:3:2: error: 'STK-1' is already in line 2 \\[exchange.duplicate\\]",
         ),
         (b"medium", b"urgent", "STK-2: priority: 'urgent' is not one of 'high', 'medium' or 'low'"),
         (b"stakeholder,STK-2", b"user,STK-2", "part: 'user' is not one of stakeholder, system"),
@@ -134,7 +134,7 @@ def test_markup_stays_text(project, written):
         (b",SYS-1,The gripper", b",SYS-9,The gripper", "SYS-2: parent: there is no element 'SYS-9'"),
         (b"25 s,", b"fast,", "SYS-1: threshold: "),
         (b"<=", b"~", "SYS-1: comparison: '~' is not one of"),
-        (b"Simulation", b"Simu\x07lation", "SYS-1: facility: a control character is no text"),
+        (b"Simulation", b"Simu\x07lation", "SYS-1: facility: a control character is not text"),
         (b"Simulation", b"Simu\xfclation", "t.csv:\\d+:1: error: is not UTF-8 \\(save it as CSV UTF-8\\)"),
         (b'"When', b'"When" ', "not CSV: a quotation mark within a quoted cell must be doubled"),
         (b"gripper engineer", b'"gripper engineer', "not CSV: a cell that begins with a quotation mark has no closing"),
@@ -159,7 +159,7 @@ def test_a_csv_that_is_wrong_is_one_line_each(project, tmp_path, refused, old, n
         (lambda book: book.remove(book["system"]), "there is no sheet 'system' (sheets: stakeholder)"),
         (lambda book: book["system"].delete_rows(1, 9), "sheet 'system': columns 'id', 'group', "),
         (lambda book: setattr(book["system"]["D2"], "value", "=1+1"), "row 2: the cell holds a formula, not a text"),
-        (lambda book: setattr(book["system"]["A3"], "value", "SYS-1"), "'SYS-1' stands already in line 2"),
+        (lambda book: setattr(book["system"]["A3"], "value", "SYS-1"), "'SYS-1' is already in line 2"),
         (lambda book: setattr(book["system"]["A1"], "value", "name"), "sheet 'system': column 'id' missing"),
     ],
 )

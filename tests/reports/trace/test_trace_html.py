@@ -12,10 +12,11 @@ from rgss.errors import DefinitionError
 from rgss.reports.diagrams.diagrams import diagrams_of, drawings_for_page
 from rgss.reports.page import script_hash
 from rgss.reports.trace import html as trace_html
-from rgss.reports.trace.files import found_file, report_file
 from rgss.reports.trace.report import trace_report
 from rgss.trace.views.chain import chain_of
 from rgss.trace.views.impact import impact_of
+
+from .one_file import only_file
 
 HOSTILE = "</title><script>alert(1)</script><img src=x onerror=alert(2)> \" ' & {{ 7 * 7 }} 🤖"
 VOID = {"meta", "input", "br", "link", "img", "hr"}
@@ -63,7 +64,7 @@ def report(model, story):
 
 
 def page_of(report, **options) -> str:
-    return report_file(report, "html", **options).decode("utf-8")
+    return only_file(report, None, "html", **options).decode("utf-8")
 
 
 def test_the_matrices_are_those_of_the_model(report):
@@ -130,8 +131,8 @@ def test_texts_are_shown_and_never_executed(tmp_path, story, kind):
     text = {
         "report": lambda: page_of(report),
         "gaps": lambda: page_of(report, gaps_only=True),
-        "chain": lambda: found_file(chain_of(model, evidence, "SYS-2"), report, "html").decode("utf-8"),
-        "impact": lambda: found_file(impact_of(model, evidence, "SYS-1"), report, "html").decode("utf-8"),
+        "chain": lambda: only_file(report, chain_of(model, evidence, "SYS-2"), "html").decode("utf-8"),
+        "impact": lambda: only_file(report, impact_of(model, evidence, "SYS-1"), "html").decode("utf-8"),
     }[kind]()
     page = Page(text)
 

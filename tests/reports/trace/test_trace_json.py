@@ -8,12 +8,13 @@ import jsonschema
 import pytest
 
 from rgss.measures import StaleCause
-from rgss.reports.trace.files import found_file, report_file
 from rgss.reports.trace.json_document import json_schema
 from rgss.reports.trace.report import trace_report
 from rgss.trace.evidence.verdict_evidence import TraceEvidence
 from rgss.trace.views.chain import chain_of
 from rgss.trace.views.impact import impact_of
+
+from .one_file import only_file
 
 
 @pytest.fixture
@@ -29,7 +30,7 @@ def validator():
 
 
 def report_of(model, evidence, **options):
-    return json.loads(report_file(trace_report(model, evidence, title="T"), "json", **options))
+    return json.loads(only_file(trace_report(model, evidence, title="T"), None, "json", **options))
 
 
 def test_every_document_keeps_the_schema(model, story, validator):
@@ -41,9 +42,9 @@ def test_every_document_keeps_the_schema(model, story, validator):
         report_of(model, TraceEvidence()),
         report_of(model, story.evidence(shown=False)),
         report_of(model, story.evidence(causes=(StaleCause.MODEL,))),
-        *(json.loads(found_file(chain_of(model, evidence, name), report, "json")) for name in ("SYS-1", "7/1", "P")),
-        *(json.loads(found_file(impact_of(model, evidence, name), report, "json")) for name in ("STK-1", "P_g")),
-        json.loads(found_file(impact_of(model, story.evidence(shown=False), "SYS-1"), report, "json")),
+        *(json.loads(only_file(report, chain_of(model, evidence, name), "json")) for name in ("SYS-1", "7/1", "P")),
+        *(json.loads(only_file(report, impact_of(model, evidence, name), "json")) for name in ("STK-1", "P_g")),
+        json.loads(only_file(report, impact_of(model, story.evidence(shown=False), "SYS-1"), "json")),
     ]
 
     for document in documents:

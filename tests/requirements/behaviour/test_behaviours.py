@@ -34,7 +34,7 @@ def test_a_flow_as_it_is_written(detailed):
     assert activity.kind is BehaviourKind.ACTIVITY
     assert isinstance(activity.flow, Flow)
     assert activity.flow.nodes[:3] == (
-        FlowNode(id="start", kind=FlowNodeKind.INITIAL, text="", does=None),
+        FlowNode(id="start", kind=FlowNodeKind.INITIAL, text=None, does=None),
         FlowNode(id="close", kind=FlowNodeKind.ACTION, text="Close.", does="ACT-2"),
         FlowNode(id="firm", kind=FlowNodeKind.DECISION, text="Is it firm?", does=None),
     )
@@ -47,7 +47,7 @@ def test_a_flow_as_it_is_written(detailed):
         FlowNodeKind.FINAL,
     ]
     assert activity.flow.edges[3] == FlowEdge(source="firm", target="again", guard="not yet")
-    assert activity.flow.edges[0].guard == ""
+    assert activity.flow.edges[0].guard is None
     assert (activity.interaction, activity.machine) == (None, None)
 
 
@@ -66,22 +66,22 @@ def test_an_interaction_as_it_is_written(detailed):
 def test_a_machine_as_it_is_written(detailed):
     assert detail(detailed, "STM-9").machine == StateMachine(
         states=(
-            State(id="start", kind=StateKind.INITIAL, name="Before", phase="", does=None),
+            State(id="start", kind=StateKind.INITIAL, name="Before", phase=None, does=None),
             State(id="lifting", kind=StateKind.STATE, name="Lifting", phase="lift", does="ACT-1"),
-            State(id="up", kind=StateKind.FINAL, name="Up", phase="", does=None),
-            State(id="dropped", kind=StateKind.FAILED, name="Dropped", phase="", does=None),
+            State(id="up", kind=StateKind.FINAL, name="Up", phase=None, does=None),
+            State(id="dropped", kind=StateKind.FAILED, name="Dropped", phase=None, does=None),
         ),
         transitions=(
-            Transition(source="start", target="lifting", guard="", failure=""),
-            Transition(source="lifting", target="up", guard="at the top", failure=""),
-            Transition(source="lifting", target="dropped", guard="", failure="object_dropped"),
+            Transition(source="start", target="lifting", guard=None, failure=None),
+            Transition(source="lifting", target="up", guard="at the top", failure=None),
+            Transition(source="lifting", target="dropped", guard=None, failure="object_dropped"),
         ),
     )
 
 
 def test_actors_are_blocks_that_act(project):
     project.edit(ARCHITECTURE, "kind: use_case,", "kind: use_case, actors: [BLK-0],")
-    expected = f"{project.position(ARCHITECTURE, 'BLK-0], alloc')}: error: actors: block 'BLK-0' is no actor "
+    expected = f"{project.position(ARCHITECTURE, 'BLK-0], alloc')}: error: actors: block 'BLK-0' is not an actor "
     assert project.findings() == [expected + "(give it 'actor: true') [requirements.actor]"]
 
     requirements = project.edit(ARCHITECTURE, "{id: BLK-0,", "{id: BLK-0, actor: true,").load()
@@ -117,18 +117,18 @@ NODES, EDGES, MESSAGES, TIMINGS, STATES, WAYS = (
 LAST_EDGE = "{source: done, target: end}"
 
 BROKEN_FLOWS = [
-    ("{id: look, kind", "{id: lift, kind", (*NODES, 6, "id"), f"id 'lift' stands twice in nodes {DUPLICATE}"),
+    ("{id: look, kind", "{id: lift, kind", (*NODES, 6, "id"), f"id 'lift' is repeated in nodes {DUPLICATE}"),
     (
         "target: end}",
         "target: edn}",
         (*EDGES, 9, "target"),
-        "target: 'edn' is no node of the flow (did you mean 'end'?)",
+        "target: 'edn' is not a node of the flow (did you mean 'end'?)",
     ),
     (
         "source: look",
         "source: lok",
         (*EDGES, 8, "source"),
-        "source: 'lok' is no node of the flow (did you mean 'look'?)",
+        "source: 'lok' is not a node of the flow (did you mean 'look'?)",
     ),
     ("kind: initial", "kind: merge", NODES, "a flow has 1 initial node, this one has 0"),
     ("kind: merge", "kind: initial", NODES, "a flow has 1 initial node, this one has 2"),
@@ -186,13 +186,33 @@ BROKEN_FLOWS = [
 ]
 
 BROKEN_INTERACTIONS = [
-    ("id: close,", "id: lift,", (*MESSAGES, 1, "id"), f"id 'lift' stands twice in messages {DUPLICATE}"),
-    ("[BLK-0, BLK-1]", "[BLK-1]", (*MESSAGES, 0, "source"), "source: 'BLK-0' is no lifeline (did you mean 'BLK-1'?)"),
-    ("[BLK-0, BLK-1]", "[BLK-1]", (*MESSAGES, 2, "target"), "target: 'BLK-0' is no lifeline (did you mean 'BLK-1'?)"),
+    ("id: close,", "id: lift,", (*MESSAGES, 1, "id"), f"id 'lift' is repeated in messages {DUPLICATE}"),
+    (
+        "[BLK-0, BLK-1]",
+        "[BLK-1]",
+        (*MESSAGES, 0, "source"),
+        "source: 'BLK-0' is not a lifeline (did you mean 'BLK-1'?)",
+    ),
+    (
+        "[BLK-0, BLK-1]",
+        "[BLK-1]",
+        (*MESSAGES, 2, "target"),
+        "target: 'BLK-0' is not a lifeline (did you mean 'BLK-1'?)",
+    ),
     ("reply: true", "reply: true, does: ACT-2", (*MESSAGES, 2, "does"), "reply 'up' sets nothing off"),
     ("lift, source: BLK-0", "lift, source: BLK-1", (*MESSAGES, 2), "reply 'up' answers no message"),
-    ("first: lift", "first: lifd", (*TIMINGS, 0, "first"), "first: 'lifd' is no message of the sequence (did you mean"),
-    ("last: up", "last: upp", (*TIMINGS, 0, "last"), "last: 'upp' is no message of the sequence (did you mean 'up'?)"),
+    (
+        "first: lift",
+        "first: lifd",
+        (*TIMINGS, 0, "first"),
+        "first: 'lifd' is not a message of the sequence (did you mean",
+    ),
+    (
+        "last: up",
+        "last: upp",
+        (*TIMINGS, 0, "last"),
+        "last: 'upp' is not a message of the sequence (did you mean 'up'?)",
+    ),
     (
         "first: lift, last: up",
         "first: up, last: lift",
@@ -203,7 +223,7 @@ BROKEN_INTERACTIONS = [
 ]
 
 BROKEN_MACHINES = [
-    ("id: up,", "id: lifting,", (*STATES, 2, "id"), f"id 'lifting' stands twice in states {DUPLICATE}"),
+    ("id: up,", "id: lifting,", (*STATES, 2, "id"), f"id 'lifting' is repeated in states {DUPLICATE}"),
     ("kind: initial", "kind: state", STATES, "a machine has 1 initial state, this one has 0"),
     ("kind: final", "kind: state", STATES, "a machine has a final state, this one has none"),
     ("kind: final", "kind: state", (*STATES, 2), "state 'up' is never left"),
@@ -228,9 +248,14 @@ BROKEN_MACHINES = [
         "target: up,",
         "target: upp,",
         (*WAYS, 1, "target"),
-        "target: 'upp' is no state of the machine (did you mean 'up'?)",
+        "target: 'upp' is not a state of the machine (did you mean 'up'?)",
     ),
-    ("source: start", "source: stat", (*WAYS, 0, "source"), "source: 'stat' is no state of the machine (did you mean"),
+    (
+        "source: start",
+        "source: stat",
+        (*WAYS, 0, "source"),
+        "source: 'stat' is not a state of the machine (did you mean",
+    ),
     ("guard: at the top", "failure: slip", (*WAYS, 1, "failure"), "failure 'slip' does not lead to a failed state"),
     (", failure: object_dropped", "", (*WAYS, 2), "the transition to 'dropped' names no failure"),
     (

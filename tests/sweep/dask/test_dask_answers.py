@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rgss.evidence import RunFailureKind
-from rgss.sweep.dask.tasks import Order
+from rgss.sweep.dask.engines import Order
 from rgss.sweep.dask.workers import DaskWorkers
 from rgss.sweep.task_end import Ended
 

@@ -6,7 +6,6 @@ import os
 import pickle
 import signal
 import sys
-import time
 from pathlib import Path
 
 import dask
@@ -18,10 +17,12 @@ from rgss.evidence import EvidenceStore, RunFailureKind
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.dask import cluster as dask_cluster_module
 from rgss.sweep.dask.cluster import dask_cluster, difference
-from rgss.sweep.dask.tasks import Differs, Engines, Order, are_alike, environment
+from rgss.sweep.dask.engines import Differs, Engines, Order
+from rgss.sweep.dask.process_environment import are_alike, environment
 from rgss.sweep.running import sweep
 from rgss.sweep.task_end import TaskError
 from rgss.sweep.trial_keys import trials_of
+from tests.fixtures.processes import is_running, wait_until
 
 DOUBLES = Path(__file__).parents[1] / "doubles"
 GIB = 1024**3
@@ -56,20 +57,6 @@ def threads(doubles):
         n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0", silence_logs=60
     ) as cluster:
         yield cluster
-
-
-def is_running(pid):
-    try:
-        return (Path("/proc") / str(pid) / "stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
-
-
-def wait_until(condition, timeout_s=600.0):
-    end = time.monotonic() + timeout_s
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.02)
 
 
 def digests_in(store):

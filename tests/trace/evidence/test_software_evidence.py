@@ -106,7 +106,7 @@ def test_a_marked_test_may_inspect_or_demonstrate(project, method):
         ("then", {}, ()),
         ("now", {}, (StaleCause.CODE,)),
         ("then", {"text": "Another."}, (StaleCause.REQUIREMENT,)),
-        ("then", {"success": "Another."}, (StaleCause.REQUIREMENT,)),
+        ("then", {"criterion": None}, (StaleCause.REQUIREMENT,)),
         ("now", {"text": "Another."}, (StaleCause.REQUIREMENT, StaleCause.CODE)),
         ("then", {"text": "The gripper shall\nlift at least 0.8 kg."}, ()),
         ("then", {"owner": "another", "rationale": "Another.", "derived_from": ()}, ()),
@@ -119,6 +119,12 @@ def test_a_result_is_stale_when_what_was_tested_changed(requirement, software, c
 
     assert found.causes == causes
     assert found.verdict is (Verdict.STALE if causes else Verdict.NOT_MET)
+
+
+def test_a_success_criterion_in_words_is_part_of_what_was_tested(requirement):
+    opens, closes = (replace(requirement, criterion=None, success=words) for words in ("It opens.", "It closes."))
+    assert verification_digest(opens) != verification_digest(closes)
+    assert verification_digest(opens) == verification_digest(replace(opens, success="It\nopens."))
 
 
 def test_what_was_never_run_is_not_stale(requirement):

@@ -132,7 +132,7 @@ def test_unknown_measure(project):
     project.edit("system.yaml", "measure: P,", "measure: Q,")
     assert project.findings() == [
         (
-            "requirements/system.yaml:15:26: error: criterion of 'SYS-1' bounds 'Q', which is no measure "
+            "requirements/system.yaml:15:26: error: criterion of 'SYS-1' bounds 'Q', which is not a measure "
             "(known measures: P, P_g) [trace.unknown-measure]"
         )
     ]

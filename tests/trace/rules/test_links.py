@@ -14,11 +14,11 @@ def test_a_measure_that_traces_to_nothing_known(project):
     project.change("P", traces=("STK-1", "STK-11", "Owner"))
     assert project.findings() == [
         (
-            "requirements/measures.yaml:2:5: error: 'P' traces to 'Owner', which is no stakeholder requirement "
+            "requirements/measures.yaml:2:5: error: 'P' traces to 'Owner', which is not a stakeholder requirement "
             "[trace.dangling-id]"
         ),
         (
-            "requirements/measures.yaml:2:5: error: 'P' traces to 'STK-11', which is no stakeholder requirement "
+            "requirements/measures.yaml:2:5: error: 'P' traces to 'STK-11', which is not a stakeholder requirement "
             "(did you mean 'STK-1'?) [trace.dangling-id]"
         ),
     ]
@@ -26,14 +26,14 @@ def test_a_measure_that_traces_to_nothing_known(project):
 
 def test_a_measure_traces_to_stakeholder_requirements_only(project):
     (finding,) = project.change("P", traces=("STK-1", "SYS-1")).findings()
-    assert "'P' traces to 'SYS-1', which is no stakeholder requirement" in finding
+    assert "'P' traces to 'SYS-1', which is not a stakeholder requirement" in finding
 
 
 def test_a_measure_that_contributes_to_nothing_known(project):
     project.change("P_g", contributes_to=("P", "P_gg"))
     assert project.findings() == [
         (
-            "requirements/measures.yaml:3:5: error: 'P_g' contributes to 'P_gg', which is no measure "
+            "requirements/measures.yaml:3:5: error: 'P_g' contributes to 'P_gg', which is not a measure "
             "(did you mean 'P_g'?) [trace.dangling-id]"
         )
     ]
@@ -43,7 +43,7 @@ def test_two_measures_of_one_id(project):
     project.add("P_g", MeasureKind.MOP, contributes_to=("P",))
     assert project.findings() == [
         (
-            "requirements/measures.yaml:4:5: error: id 'P_g' stands already at requirements/measures.yaml:3:5 "
+            "requirements/measures.yaml:4:5: error: id 'P_g' is already declared at requirements/measures.yaml:3:5 "
             "(give it an id of its own) [trace.duplicate-id]"
         )
     ]
@@ -53,8 +53,8 @@ def test_a_measure_with_the_id_of_a_block(project):
     project.add("BLK-1", MeasureKind.SUPPLEMENTARY)
     assert project.findings() == [
         (
-            "requirements/measures.yaml:4:5: error: id 'BLK-1' stands already at requirements/architecture.yaml:2:10 "
-            "(give it an id of its own) [trace.duplicate-id]"
+            "requirements/measures.yaml:4:5: error: id 'BLK-1' is already declared at "
+            "requirements/architecture.yaml:2:10 (give it an id of its own) [trace.duplicate-id]"
         )
     ]
 

@@ -55,8 +55,8 @@ def test_a_stamp_is_of_the_element_and_of_what_it_rests_on(reviewed):
         "BLK-1": {"SYS-1", "SYS-2"},
     }
     assert {one.reviewer for one in reviews.values()} == {"A. Reader"}
-    for one in reviews.values():
-        assert one.digest == requirements.content_digest(one.id)
+    for element, one in reviews.items():
+        assert one.digest == requirements.content_digest(element)
         assert all(digest == requirements.content_digest(name) for name, digest in one.upstream.items())
 
 
@@ -193,7 +193,7 @@ def test_names_that_are_none(project, reviewer):
 def test_an_element_that_is_not_there(project):
     with pytest.raises(DefinitionError) as caught:
         review(project, "SYS-1", "SYS-11")
-    assert str(caught.value) == "'SYS-11' is no element of the requirements (did you mean 'SYS-1'?)"
+    assert str(caught.value) == "'SYS-11' is not an element of the requirements (did you mean 'SYS-1'?)"
     assert not (project.folder / "reviews.yaml").exists()
 
 

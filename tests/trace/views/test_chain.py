@@ -208,7 +208,7 @@ def test_an_id_that_is_not_there(model, name, hint, story):
     with pytest.raises(DefinitionError) as caught:
         chain_of(model, story.evidence(), name)
 
-    assert caught.value.message.startswith(f"{name!r} is no id of the requirements, the architecture, the measures")
+    assert caught.value.message.startswith(f"{name!r} is not an id of the requirements, the architecture, the measures")
     assert hint in caught.value.hint
 
 

@@ -124,27 +124,22 @@ def bare_model(names, needs, parents):
 
 
 EXAMPLE_NEED = StakeholderNeed(
-    id="",
+    id="N",
     kind=NeedKind.DESIGN,
-    text="",
-    rationale="",
-    source="",
+    text="The system shall move.",
+    rationale="It waits.",
+    source="interview",
     priority=Priority.LOW,
     status=Status.DRAFT,
-    owner="",
+    owner="cook",
 )
 EXAMPLE = Requirement(
-    id="",
+    id="R",
     group=RequirementGroup.GRIPPER,
-    text="",
-    rationale="",
-    source="",
-    derived_from=(),
-    satisfied_by=(),
-    verification=None,
-    criterion=None,
-    criterion_exemption="",
+    text="The system shall move.",
+    rationale="It waits.",
+    source="interview",
     priority=Priority.LOW,
     status=Status.DRAFT,
-    owner="",
+    owner="cook",
 )

@@ -17,12 +17,12 @@ SENTENCE_RULES = {rule.id: (rule, TermList(rule.terms)) for rule in RULES if isi
 NEED = StakeholderNeed(
     id="STK-1",
     kind=NeedKind.DESIGN,
-    text="",
-    rationale="",
-    source="",
+    text="The system shall move.",
+    rationale="It waits.",
+    source="interview",
     priority=Priority.LOW,
     status=Status.DRAFT,
-    owner="",
+    owner="cook",
 )
 
 

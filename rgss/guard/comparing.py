@@ -1,38 +1,34 @@
-"""Guarding a study's metrics and decision against a baseline."""
+"""Comparison of a study's metrics and decision with its baseline."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from pathlib import Path
 
-from rgss.errors import DefinitionError, EvidenceError
+from rgss.errors import DefinitionError
 from rgss.evidence import EvidenceStore, Phase
 from rgss.findings import shown
 from rgss.guard.decision import decision_of, explained_by_noise, p_values
-from rgss.guard.inputs import BASELINE_SUFFIX, inputs_of_trials, origin_of_trials, shared_inputs
+from rgss.guard.inputs import inputs_of_trials, origin_of_trials
 from rgss.guard.runs import (
     Records,
     RunTrials,
-    WatchedTrials,
     fingerprints_of,
     guard_of,
     series_of,
     subjects_of,
     watched_trials,
 )
+from rgss.guard.schema import one_line_reason, record_schema, units_of
 from rgss.regression import (
     Baseline,
-    BaselineRun,
     Behaviour,
     Candidate,
-    Change,
     ChangedTrial,
     Failing,
     FailureCause,
     InputChange,
     InputKind,
-    Inputs,
     Power,
     RegressionReport,
     Subject,
@@ -48,70 +44,8 @@ from rgss.regression import (
     value_changes,
 )
 from rgss.studies import Project, RegressionGuard
-from rgss.trials import METRICS, PHASE_METRICS
-
-LONGEST_REASON = 500
 
 _PHASES = tuple(phase.value for phase in Phase)
-
-
-def baseline_name(label: str) -> str:
-    """The baseline's file of a study, beside it."""
-    return Path(label).with_suffix(BASELINE_SUFFIX).as_posix()
-
-
-def make_baseline(
-    project: Project, store: EvidenceStore, run_trials: RunTrials, *, before: Baseline | None, reason: str
-) -> Baseline:
-    """Make a baseline of what there is now: every run at its cap, so that any look has its pairs.
-
-    Args:
-        project: The project with its study.
-        store: The evidence.
-        run_trials: Runs the trials that the store has not.
-        before: The baseline that is replaced, whose history goes on; None if it is the first.
-        reason: Why, in one line.
-
-    Raises:
-        DefinitionError: The study guards nothing, there is no reason, or a phase that is named
-            observes nothing.
-        EvidenceError: A trial could not be run.
-    """
-    guard = guard_of(project)
-    words = _reason(reason)
-    if not words:
-        raise DefinitionError("--update needs a reason", hint="say with --reason why the numbers may move")
-    watched = watched_trials(project, guard)
-    records = Records(store, run_trials)
-    records.fetch([(trials, trials.run.cap) for trials in watched])
-    for trials in watched:
-        lost = records.lost(trials, trials.run.cap)
-        if lost:
-            variant, seed = lost[0]
-            raise EvidenceError(
-                f"{len(lost)} trials of run {trials.run.id} could not be run, the first of variant {variant} "
-                f"with seed {seed}",
-                hint="a baseline needs all of them",
-            )
-    origin = origin_of_trials(project, records.provenances())
-    inputs = inputs_of_trials(watched)
-    shared = shared_inputs(inputs)
-    decision = None
-    if guard.decision is not None:
-        trials = next(one for one in watched if one.run.id == guard.decision)
-        decision = decision_of(trials, records.of(trials, trials.run.replicates))
-    history = () if before is None else before.history
-    return Baseline(
-        study=project.study.id,
-        units=_units(guard),
-        record=_record_schema(),
-        phase_record={name: metric.unit for name, metric in PHASE_METRICS.items()},
-        runs={trials.run.id: _baseline_run(guard, trials, records, inputs, shared) for trials in watched},
-        decision=decision,
-        origin=origin,
-        history=(*history, Change(reason=words, revision=origin.revision)),
-        inputs=shared,
-    )
 
 
 def compare_with_baseline(
@@ -145,14 +79,9 @@ def compare_with_baseline(
             f"the baseline {label} is of study {shown(baseline.study)}, not of {project.study.id!r}",
             hint="name another with --baseline",
         )
-    return _Comparing(project, guard, Records(store, run_trials), baseline, label).run(on_look, _reason(accepted))
-
-
-def _reason(text: str) -> str:
-    words = " ".join(text.split())
-    if len(words) > LONGEST_REASON:
-        raise DefinitionError(f"the reason has {len(words)} characters", hint=f"say it in {LONGEST_REASON}")
-    return words
+    return _Comparing(project, guard, Records(store, run_trials), baseline, label).run(
+        on_look, one_line_reason(accepted)
+    )
 
 
 class _Comparing:
@@ -170,7 +99,7 @@ class _Comparing:
         self._seeds = {trials.run.id: 0 for trials in self._watched}
 
     def run(self, on_look: Callable[[int, int], None] | None, accepted: str) -> RegressionReport:
-        failing = list(schema_failings(self._baseline, _units(self._guard)))
+        failing = list(schema_failings(self._baseline, units_of(self._guard)))
         for trials in self._watched:
             failing += run_failings(
                 trials.run.id,
@@ -202,7 +131,7 @@ class _Comparing:
             comparisons=tuple(latest[subject] for subject in sorted(latest, key=_order)),
             behaviour=self._behaviour(inputs),
             failing=(*failing, *unstable),
-            notes=(*self._of_the_baseline(), *schema_notes(self._baseline, _record_schema()), *notes),
+            notes=(*self._of_the_baseline(), *schema_notes(self._baseline, record_schema()), *notes),
             looks=settled.looks,
             trials=dict(self._seeds),
             error_rate=self._guard.error_rate,
@@ -273,7 +202,7 @@ class _Comparing:
         return powers(candidates, seeds_at, error_rate=self._guard.error_rate)
 
     def _unguarded(self) -> list[Failing]:
-        """What stands on one side alone: named by the study, or kept by the baseline."""
+        """Metrics of one side alone: named by the study, or kept by the baseline."""
         failing = []
         for trials in self._watched:
             before = self._baseline.runs.get(trials.run.id)
@@ -282,7 +211,7 @@ class _Comparing:
             guarded = {(metric.metric, phase): metric for metric, phase in subjects_of(self._guard, trials.run.id)}
             kept = {(metric, phase) for metric, phases in before.values.items() for phase in phases}
             for metric, phase in sorted(kept - guarded.keys()):
-                if metric in _units(self._guard):
+                if metric in units_of(self._guard):
                     text = f"run {trials.run.id}: the baseline guards {metric} at {phase}, the study no longer does"
                     failing.append(Failing(trouble=FailureCause.MISSING_METRIC, text=text))
             for (metric, phase), entry in sorted(guarded.items(), key=lambda item: item[0]):
@@ -346,44 +275,6 @@ class _Comparing:
 def _mean_of(series: Mapping[int, Mapping[int, float | None]]) -> float | None:
     known = [value for row in series.values() for value in row.values() if value is not None]
     return math.fsum(known) / len(known) if known else None
-
-
-def _baseline_run(
-    guard: RegressionGuard, trials: WatchedTrials, records: Records, inputs: Inputs, shared: Mapping[str, str]
-) -> BaselineRun:
-    rows = records.of(trials, trials.run.cap)
-    values: dict[str, dict[str, dict[str, tuple[float | None, ...]]]] = {}
-    for metric, phase in subjects_of(guard, trials.run.id):
-        series = series_of(rows, metric.metric, phase)
-        if all(value is None for row in series.values() for value in row.values()):
-            if metric.wherever:
-                continue
-            raise DefinitionError(
-                f"run {trials.run.id} observes no {metric.metric} at {phase}",
-                hint="guard it in another run or phase; with 'phases: all' only those that observe it count",
-            )
-        by_variant = {str(variant): tuple(row.values()) for variant, row in series.items()}
-        values.setdefault(metric.metric, {})[phase] = by_variant
-    return BaselineRun(
-        fidelity=trials.run.fidelity.value,
-        seeds=trials.seeds(trials.run.cap),
-        values=values,
-        fingerprints={str(variant): tuple(row.values()) for variant, row in fingerprints_of(rows).items()},
-        inputs={
-            str(variant): {name: value for name, value in values.items() if name not in shared}
-            for variant, values in inputs[trials.run.id].items()
-        },
-    )
-
-
-def _units(guard: RegressionGuard) -> dict[str, str]:
-    return {metric.metric: metric.guard.unit for metric in guard.metrics}
-
-
-def _record_schema() -> dict[str, str]:
-    return {
-        name: kind.unit if kind.length is None else f"{kind.length} × {kind.unit}" for name, kind in METRICS.items()
-    }
 
 
 def _order(subject: Subject) -> tuple[str, str, int]:

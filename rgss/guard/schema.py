@@ -1,0 +1,33 @@
+"""Schema of a baseline: units of the guarded metrics, the metrics of a record, the reason of an update."""
+
+from __future__ import annotations
+
+from rgss.errors import DefinitionError
+from rgss.studies import RegressionGuard
+from rgss.trials import METRICS
+
+LONGEST_REASON = 500
+
+
+def one_line_reason(text: str) -> str:
+    """A reason in one line.
+
+    Raises:
+        DefinitionError: It is too long.
+    """
+    words = " ".join(text.split())
+    if len(words) > LONGEST_REASON:
+        raise DefinitionError(f"the reason has {len(words)} characters", hint=f"say it in {LONGEST_REASON}")
+    return words
+
+
+def units_of(guard: RegressionGuard) -> dict[str, str]:
+    """Unit of each guarded metric."""
+    return {metric.metric: metric.guard.unit for metric in guard.metrics}
+
+
+def record_schema() -> dict[str, str]:
+    """Unit, and length of a row, of each metric that a record may have."""
+    return {
+        name: kind.unit if kind.length is None else f"{kind.length} × {kind.unit}" for name, kind in METRICS.items()
+    }

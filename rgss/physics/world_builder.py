@@ -1,0 +1,202 @@
+"""Building of a world in a physics client: parameters, bodies, robot.
+
+Facts of the engine that shape this file: friction of a contact is the product of the two
+bodies' coefficients; damping must be set to zero or falling bodies are slowed; every call
+names its client.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rgss.errors import SimulationError
+from rgss.physics.engine import load_urdf_text
+from rgss.physics.settings import PhysicsSettings
+from rgss.scenes import RIBS, Box, Gripper, Pose, Scene, Shape, assembled_urdf, finger_joint, pad_ribs
+
+_GEAR_FORCE_N = 1.0e4
+_FRICTION_RECOVERY = 0.9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotIndex:
+    """Numbers that the engine gave to the parts of the robot.
+
+    Attributes:
+        arm_joints: Joints of the arm, from the base to the flange.
+        finger_joints: Joints of the fingers, which are the numbers of their links too.
+        flange: Link of the flange.
+        link_names: Name of each link by its number; -1 is the base.
+    """
+
+    arm_joints: list[int]
+    finger_joints: list[int]
+    flange: int
+    link_names: Mapping[int, str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldBuilder:
+    """Puts a scene, a workpiece and a robot with its gripper into a physics client.
+
+    Attributes:
+        engine: The module of the engine.
+        client: The client.
+        scene: Fixed bodies, workpiece and robot.
+        gripper: The gripper on the robot's flange.
+        settings: Step length and solver.
+    """
+
+    engine: Any
+    client: int
+    scene: Scene
+    gripper: Gripper
+    settings: PhysicsSettings
+
+    def set_parameters(self) -> None:
+        """Set gravity, step and solver."""
+        engine, client = self.engine, self.client
+        engine.setGravity(0.0, 0.0, -self.scene.gravity_m_s2, physicsClientId=client)
+        engine.setPhysicsEngineParameter(
+            fixedTimeStep=self.settings.step_s,
+            numSolverIterations=self.settings.solver_iterations,
+            numSubSteps=0,
+            # With a residual threshold of zero every iteration runs, and a held object does not creep.
+            solverResidualThreshold=0.0,
+            # Friction takes a held body back by this share of what it was displaced in a step.
+            frictionERP=_FRICTION_RECOVERY,
+            # Without it the order of contact pairs, and so the last bits of a result, can differ by run.
+            deterministicOverlappingPairs=1,
+            physicsClientId=client,
+        )
+
+    def _shape(self, shape: Shape) -> int:
+        engine, client = self.engine, self.client
+        sizes = shape.size_m if isinstance(shape, Box) else (shape.radius_m, shape.height_m)
+        if not all(0.0 < size < math.inf for size in sizes):
+            # The engine takes some of these without a word and prints about the others.
+            raise SimulationError(f"a body cannot have the sizes {sizes}", hint="give lengths greater than zero")
+        if isinstance(shape, Box):
+            half = [size / 2 for size in shape.size_m]
+            return int(engine.createCollisionShape(engine.GEOM_BOX, halfExtents=half, physicsClientId=client))
+        return int(
+            engine.createCollisionShape(
+                engine.GEOM_CYLINDER, radius=shape.radius_m, height=shape.height_m, physicsClientId=client
+            )
+        )
+
+    def _add_body(self, shape: Shape, pose: Pose, mass_kg: float) -> int:
+        body = int(
+            self.engine.createMultiBody(
+                mass_kg,
+                self._shape(shape),
+                -1,
+                pose.position_m,
+                pose.quaternion_xyzw,
+                # What stands still is no articulated body without links: the same results, to the bit, for less
+                # time. What moves is one, since the engine has a rougher law of friction between two that are not.
+                useMaximalCoordinates=int(mass_kg == 0.0),
+                physicsClientId=self.client,
+            )
+        )
+        if body < 0:
+            raise SimulationError("the physics engine refused a body", hint="check its sizes")
+        return body
+
+    def add_scene(self) -> dict[int, str]:
+        """Add the fixed bodies; the result names each by its number."""
+        names = {}
+        for body in self.scene.bodies:
+            number = self._add_body(body.shape, body.pose, 0.0)
+            self.engine.changeDynamics(number, -1, lateralFriction=body.friction, physicsClientId=self.client)
+            names[number] = body.id
+        return names
+
+    def add_workpiece(self) -> int:
+        """Add the workpiece; the result is its number."""
+        workpiece = self.scene.workpiece
+        if not 0.0 < workpiece.mass_kg < math.inf:
+            # A body without mass would stand in the air.
+            raise SimulationError(
+                f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
+            )
+        body = self._add_body(workpiece.shape, workpiece.pose, workpiece.mass_kg)
+        self.engine.changeDynamics(
+            body,
+            -1,
+            lateralFriction=workpiece.friction,
+            linearDamping=0.0,
+            angularDamping=0.0,
+            frictionAnchor=1,
+            activationState=self.engine.ACTIVATION_STATE_DISABLE_SLEEPING,
+            physicsClientId=self.client,
+        )
+        return body
+
+    def add_robot(self) -> int:
+        """Add the robot with its gripper; the result is its number."""
+        base, engine = self.scene.robot.base, self.engine
+        return load_urdf_text(
+            self.client,
+            assembled_urdf(
+                self.scene.robot,
+                self.gripper,
+                ribs=pad_ribs(self.gripper.geometry, self.scene.workpiece.shape),
+            ),
+            position=base.position_m,
+            orientation=base.quaternion_xyzw,
+            flags=engine.URDF_USE_INERTIA_FROM_FILE
+            | engine.URDF_USE_IMPLICIT_CYLINDER
+            | engine.URDF_IGNORE_VISUAL_SHAPES,
+        )
+
+    def index_robot(self, robot: int) -> RobotIndex:
+        """Numbers of the robot's joints and links."""
+        engine, client = self.engine, self.client
+        info: list[Any] = [
+            engine.getJointInfo(robot, index, physicsClientId=client)
+            for index in range(engine.getNumJoints(robot, physicsClientId=client))
+        ]
+        joints = {entry[1].decode(): entry[0] for entry in info}
+        links = {entry[12].decode(): entry[0] for entry in info}
+        link_names = {index: name for name, index in links.items()}
+        link_names[-1] = engine.getBodyInfo(robot, physicsClientId=client)[0].decode()
+        return RobotIndex(
+            arm_joints=[joints[joint.name] for joint in self.scene.robot.joints],
+            finger_joints=[joints[finger_joint(finger)] for finger in range(self.gripper.geometry.fingers)],
+            flange=links[self.scene.robot.flange],
+            link_names=link_names,
+        )
+
+    def set_robot_dynamics(self, robot: int, index: RobotIndex) -> None:
+        """Take damping off the robot, and give the fingers their friction and the compliance of their pads."""
+        engine, client = self.engine, self.client
+        for link in range(-1, engine.getNumJoints(robot, physicsClientId=client)):
+            engine.changeDynamics(
+                robot, link, linearDamping=0.0, angularDamping=0.0, jointDamping=0.0, physicsClientId=client
+            )
+        stiffness_n_m = self.settings.pad_stiffness_n_m / RIBS
+        for joint in index.finger_joints:
+            engine.changeDynamics(
+                robot,
+                joint,
+                lateralFriction=self.gripper.friction,
+                frictionAnchor=1,
+                contactStiffness=stiffness_n_m,
+                contactDamping=self.settings.pad_damping_n_s_m / RIBS,
+                physicsClientId=client,
+            )
+        if len(index.finger_joints) == 2:
+            self._couple_fingers(robot, *index.finger_joints)
+
+    def _couple_fingers(self, robot: int, one: int, other: int) -> None:
+        """Gear two opposed fingers together: each alone resists no force along their common axis."""
+        engine = self.engine
+        frames = [1, 0, 0], [0, 0, 0], [0, 0, 0]
+        gear = engine.createConstraint(
+            robot, one, robot, other, engine.JOINT_GEAR, *frames, physicsClientId=self.client
+        )
+        engine.changeConstraint(gear, gearRatio=-1, maxForce=_GEAR_FORCE_N, erp=0.2, physicsClientId=self.client)

@@ -1,0 +1,70 @@
+"""Field types of the requirements' files: lists that are not empty, thresholds with their units."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Any, TypeVar
+
+from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+
+from rgss.documents import QuantityText
+from rgss.errors import QuantityError
+from rgss.quantities import parse_quantity
+
+_Entry = TypeVar("_Entry")
+
+_UNIT_START = re.compile(r"(?![eE][+-]?\d)[A-Za-zµμ°%$]")
+
+
+def split_quantity(text: str) -> tuple[float, str]:
+    """Read a quantity of any unit.
+
+    Returns:
+        The magnitude, and the unit as it is written; ``"1"`` for a pure number.
+
+    Raises:
+        QuantityError: The text is not a number with a known unit.
+    """
+    start = _UNIT_START.search(text)
+    if start is None:
+        return parse_quantity(text, "1"), "1"
+    if not text[: start.start()].strip():
+        raise QuantityError(f"{text!r} has no number", hint='write a number and a unit, such as "1 kg"')
+    unit = text[start.start() :].strip()
+    return parse_quantity(text, unit), unit
+
+
+def _as_text(value: Any) -> Any:
+    # A threshold without a unit may be a plain number.
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+def _check_quantity(text: str) -> str:
+    split_quantity(text)
+    return text
+
+
+def _not_empty(entries: tuple[_Entry, ...]) -> tuple[_Entry, ...]:
+    # Not pydantic's min_length, which counts only sound entries and so reports a broken one twice.
+    if not entries:
+        raise ValueError("at least 1 entry is expected")
+    return entries
+
+
+Entries = Annotated[tuple[_Entry, ...], AfterValidator(_not_empty), Field(json_schema_extra={"minItems": 1})]
+"""A list that is not empty."""
+
+ThresholdText = Annotated[
+    QuantityText,
+    BeforeValidator(_as_text),
+    AfterValidator(_check_quantity),
+    WithJsonSchema(
+        {
+            "type": ["string", "number"],
+            "minLength": 1,
+            "maxLength": 60,
+            "description": "A quantity in a unit of the measure's dimension.",
+        }
+    ),
+]
+"""A quantity whose unit the measure decides, such as ``"0.8 kg"``; a pure number may be bare."""
