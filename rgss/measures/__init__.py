@@ -17,12 +17,12 @@ from rgss.measures.definitions import (
     Summary,
 )
 from rgss.measures.document import MeasuresDocument
+from rgss.measures.equation_gaps import ModelGap, model_gaps
 from rgss.measures.estimates import Estimate, proportion_estimate
 from rgss.measures.evaluation import COMPLETE, design_values, evaluate, trial_values
 from rgss.measures.expressions import Binary, Call, Name, Negative, Node, Number, Power
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.loading import load_measures
-from rgss.measures.model_gaps import ModelGap, model_gaps
 from rgss.measures.ratios import ratio_values
 from rgss.measures.readings import with_alternative
 from rgss.measures.verdicts import StaleCause, Verdict, judge, meets

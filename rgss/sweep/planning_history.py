@@ -14,7 +14,8 @@ def planning_runs(project: Project, store: EvidenceStore) -> tuple[PlanningRun, 
     """Read the searches off the evidence of a study.
 
     Variants that share a search differ in when it was stopped; it is taken as the one with the
-    longest limit saw it. A move that was not planned, because one before it failed, has no run.
+    longest limit saw it. A move that was not planned, because one before it failed or the study makes it another
+    way, has no run.
 
     Args:
         project: The project with its study.
@@ -45,5 +46,5 @@ def planning_runs(project: Project, store: EvidenceStore) -> tuple[PlanningRun, 
         )
         for key, record in found.items()
         for planned in record.planning
-        if planned.outcome is not PlanOutcome.NOT_RUN
+        if planned.outcome is not PlanOutcome.NOT_RUN and planned.subtask in keys[key].settings.planning.searched
     )

@@ -268,9 +268,8 @@ def _direct(
     )
     path = found.path_rad
     length_m = None if path is None else _tool_path_length(cell, path, settings.resolution_rad)
-    move = _ill_posed(phase, found.outcome, found.detail)
-    times = {"search_time_s": found.time_s, "time_s": found.time_s}
-    return replace(move, checks=found.checks, path_rad=path, path_length_m=length_m, **times)
+    move = replace(_ill_posed(phase, found.outcome, found.detail), checks=found.checks, time_s=found.time_s)
+    return replace(move, search_time_s=found.time_s, path_rad=path, path_length_m=length_m)
 
 
 def _tool_path_length(cell: Workcell, path: Array, resolution_rad: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from rgss.evidence import PLANNED_PHASES
+from rgss.evidence import PLANNED_PHASES, Phase
 from rgss.motion import PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.trials.move_kinds import MoveKind
@@ -34,6 +34,12 @@ class PlanningSettings:
     simplification_limit_s: float = 2.0
     clearance_m: float = 0.008
     moves: tuple[MoveKind, ...] = (MoveKind.PLANNED,) * len(PLANNED_PHASES)
+
+    @property
+    def searched(self) -> frozenset[Phase]:
+        """The moves that a planner searches for."""
+        kinds = zip(PLANNED_PHASES, self.moves, strict=True)
+        return frozenset(phase for phase, kind in kinds if kind is MoveKind.PLANNED)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -22,7 +22,7 @@ from tests.fixtures.stored_inputs import put_inputs
 
 REQUIREMENT, MEASURE, MODEL = StaleCause.REQUIREMENT, StaleCause.MEASURE, StaleCause.MODEL
 CODE_CHANGED, ENGINES = StaleCause.CODE, StaleCause.ENGINES
-OF_TRIALS = {"SYS-005", "SYS-024", "SYS-033"}
+OF_TRIALS = {"SYS-005", "SYS-024", "SYS-033", "SYS-040"}
 """Requirements whose measure is observed in trials; the others follow from the design alone."""
 
 

@@ -45,7 +45,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
     for text in suppositions:
         name, value = _split(text)
         name = _full_name(project, name)
-        if name in {one.id for one in (*changes, *readings)}:
+        if name in {*(change.id for change in changes), *(reading.id for reading in readings)}:
             raise DefinitionError(f"--what-if: {name} is supposed twice", hint="say it once")
         kind, _, rest = name.partition(".")
         if kind == READING:
