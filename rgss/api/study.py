@@ -177,8 +177,7 @@ class Study:
 
         Raises:
             DefinitionError: The study asks for no fleet.
-            EvidenceError: Trials of one of the studies have no evidence.
-            TradeoffError: The choice is ill posed.
+            EvidenceError, TradeoffError: Trials have no evidence, or the choice is ill posed.
         """
         return fleet_frame(self.project)
 

@@ -132,7 +132,7 @@ def test_the_document_is_described(page, rgss, with_evidence):
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
     # Below these, keys are ids of measures, factors, requirements or components.
     by_id = re.compile(
-        r"^robustness\.(weights|refused|costs\.(worst_corner|assumed)"
+        r"^(robustness|sensitivity)\.(weights|refused|costs\.(worst_corner|assumed)"
         r"|.*\.(effective_weights|regrets|centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
     )
     own = re.compile(r"^(robustness|sensitivity|what_if|fleet|model_gaps|readings)\b")
