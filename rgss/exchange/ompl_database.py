@@ -38,6 +38,7 @@ _STATUS_OF: Mapping[PlanOutcome, int] = MappingProxyType(
         PlanOutcome.INVALID_GOAL: 2,
         PlanOutcome.BUDGET_SPENT: 4,
         PlanOutcome.SOLVED: 6,
+        PlanOutcome.NOT_VERIFIED: 9,
     }
 )
 

@@ -90,6 +90,7 @@ class CollisionModel:
         bearing = {scene.support, scene.place_support}
         margins: list[float] = []
         self._pairs: list[tuple[str, str]] = []
+        self._to_surroundings: list[int] = []
         allowed = _checked_pairs(situation, scene, parts)
         for first, one in enumerate(parts):
             for second in range(first + 1, len(parts)):
@@ -102,6 +103,8 @@ class CollisionModel:
                 self._geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
                 self._pairs.append((one.name, other.name))
                 margins.append(clearance_m if surroundings and not stands else 0.0)
+                if surroundings and not stands:
+                    self._to_surroundings.append(len(margins) - 1)
         self._margins = tuple(margins)
         self._state = self._geometry.createData()
         for request, margin in zip(self._state.collisionRequests, margins, strict=True):
@@ -180,6 +183,18 @@ class CollisionModel:
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         return min((float(result.min_distance) for result in self._state.distanceResults), default=float("inf"))
+
+    def clearance_m(self, q: Sequence[float] | Vector) -> float:
+        """Distance from what moves to what stands in the scene; negative when they overlap.
+
+        Pairs of the robot's own links, and of the workpiece with what it stands on by intention, do not count.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+        """
+        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
+        results = self._state.distanceResults
+        return min((float(results[index].min_distance) for index in self._to_surroundings), default=float("inf"))
 
     def nearest_pair(self, q: Sequence[float] | Vector) -> NearestPair | None:
         """The pair of parts with the least distance beyond its clearance; None where no pair is checked.

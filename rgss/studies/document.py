@@ -18,6 +18,7 @@ from rgss.documents import (
     Text,
 )
 from rgss.findings import shown
+from rgss.studies.planner_section import PlannerField
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
@@ -64,11 +65,15 @@ class PlanningEntry(DocumentModel):
     clock: Literal["counted", "wall"] = "counted"
     charge_per_check: Seconds
     resolution: Radians
+    verification_resolution: Radians | None = None
+    on_unverified: Literal["fail", "repair"] = "fail"
     simplification_checks: Annotated[int, Field(ge=0, le=1_000_000)]
     simplification_limit: Seconds = 2.0
     clearance: Metres
     planner: Text | None = None
     time_limit: Seconds | None = None
+    planners: dict[Identifier, PlannerField] = Field(default_factory=dict)
+    references: tuple[Text, ...] = ()
 
 
 class PhysicsEntry(DocumentModel):

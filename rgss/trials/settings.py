@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from rgss.motion import PlanningClock
+from rgss.motion import OnUnverified, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.trials.plants import ControlSettings
 
@@ -17,7 +17,10 @@ class PlanningSettings:
         clock: What a planner's time is counted by.
         search_limit_s: How long a shared search goes on: at least the greatest planning limit
             of any design, which are all read off it.
-        resolution_rad: Greatest joint step between two checked states of a path.
+        resolution_rad: Greatest joint step between two states of a motion that a search checks.
+        verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as
+            the search if None.
+        on_unverified: What is done with a path of the search that is not valid at that resolution.
         simplification_checks: Validity checks that may be spent on looking for shortcuts.
         simplification_limit_s: Longest time of simplifying a path by the planning clock, the final check of
             its result included. A move's planning time is at most the planning limit and this one together.
@@ -27,9 +30,17 @@ class PlanningSettings:
     clock: PlanningClock
     search_limit_s: float
     resolution_rad: float = 0.01
+    verification_resolution_rad: float | None = None
+    on_unverified: OnUnverified = OnUnverified.FAIL
     simplification_checks: int = 1500
     simplification_limit_s: float = 2.0
     clearance_m: float = 0.008
+
+    @property
+    def verified_every_rad(self) -> float:
+        """Greatest joint step between two checked states of the path that will run."""
+        given = self.verification_resolution_rad
+        return self.resolution_rad if given is None else given
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

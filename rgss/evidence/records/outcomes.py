@@ -44,12 +44,14 @@ class PlanOutcome(str, Enum):
     INVALID_START = "invalid_start"
     INVALID_GOAL = "invalid_goal"
     NOT_RUN = "not_run"
+    NOT_VERIFIED = "not_verified"
 
 
 class Failure(str, Enum):
     """Failure that ended a trial before its last phase was complete."""
 
     PLANNING_LIMIT = "planning_limit"
+    PATH_NOT_VERIFIED = "path_not_verified"
     INVALID_START = "invalid_start"
     INVALID_GOAL = "invalid_goal"
     UNREACHABLE_WAYPOINT = "unreachable_waypoint"
