@@ -46,10 +46,11 @@ def test_a_planner_that_only_the_catalogue_knows(edit, problems, place_of):
     edit(SPACE, "sets: {d8: TRRT}", "sets: {d8: RRTconect}")
     edit(CATALOGUE, "matches: {d8: TRRT}", "matches: {d8: RRTconect}")
 
-    assert problems() == [
+    (problem,) = problems()
+    assert problem == (
         f"{place_of(SPACE, 'RRTconect')}: error: there is no planner 'RRTconect' "
         f"(did you mean 'RRTConnect'? planners: {', '.join(available_planners())}) [design.planner]"
-    ]
+    )
 
 
 def test_a_planner_of_ompl_that_cannot_be_run(edit, problems, place_of):
