@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from rgss.designs.components import Catalogue, Component, Role
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue, read_magnitude
-from rgss.designs.quantity import SettableQuantity
+from rgss.designs.settable import SettableQuantity
 from rgss.designs.settable_quantities import CATALOGUE_PREFIX, settable_quantity
 from rgss.designs.space import DesignSpace
 from rgss.documents import Document

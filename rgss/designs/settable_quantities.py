@@ -16,8 +16,7 @@ from pydantic_core import PydanticCustomError
 
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterKind
-from rgss.designs.planner_quantities import PLANNER_PREFIX, PLANNER_QUANTITIES
-from rgss.designs.quantity import Application, SettableQuantity
+from rgss.designs.settable import PLANNER_PREFIX, PLANNER_QUANTITIES, Application, SettableQuantity
 from rgss.findings import shown
 
 CATALOGUE_PREFIX = "catalogue."

@@ -1,9 +1,8 @@
-"""The table of planners as the installed OMPL declares them; ``python -m`` of this module writes it anew."""
+"""The table of planners as the installed OMPL declares them; ``python -m`` of this module writes it out."""
 
 from __future__ import annotations
 
-from importlib import resources
-from pathlib import Path
+import sys
 from typing import Any
 
 from rgss.documents import canonical_json
@@ -74,12 +73,5 @@ def _keeps(planner: Any, name: str, text: str) -> bool:
         return False
 
 
-def write_planner_table() -> Path:
-    """Write the table of the installed OMPL where `rgss.motion.planner_table` reads it."""
-    path = Path(str(resources.files("rgss.motion") / "ompl_planners.json"))
-    path.write_text(canonical_json(planner_table()) + "\n", encoding="utf-8")
-    return path
-
-
 if __name__ == "__main__":
-    write_planner_table()
+    sys.stdout.write(canonical_json(planner_table()) + "\n")

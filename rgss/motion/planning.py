@@ -75,18 +75,8 @@ def plan(
     """
     chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
     _check_arguments(chosen, seed, budget_checks, simplification_checks, simplification_limit_s)
-    for state, outcome in ((problem.start, PlanOutcome.INVALID_START), (problem.goal, PlanOutcome.INVALID_GOAL)):
-        if not problem.in_range(state) or not validity.is_valid(state):
-            return PlanResult(outcome=outcome, path=None, checks=0, simplification_checks=0, search_time_s=0.0)
-    if problem.start == problem.goal:
-        # A planner may wander off and come back.
-        return PlanResult(
-            outcome=PlanOutcome.SOLVED,
-            path=JointPath(np.array([problem.start, problem.goal])),
-            checks=0,
-            simplification_checks=0,
-            search_time_s=0.0,
-        )
+    if (known := _known_without_search(problem, validity)) is not None:
+        return known
     counted = clock.kind is ClockKind.COUNTED
     load_engine()  # The first use in a process takes longer than many a search and must not count as one.
     elapsed_s = clock.start()
@@ -108,16 +98,13 @@ def plan(
     corners, simplification, simplification_s = found.corners, 0, 0.0
     if simplification_checks:
         shortening_s = clock.start()
-        limit_checks = (
-            clock.checks_within(simplification_limit_s) if counted and simplification_limit_s < math.inf else None
-        )
         corners, simplification = shorten(
             found.corners,
             validity,
             generator=np.random.default_rng(_derived_seed(seed, _SIMPLIFICATION_STREAM)),
             budget_checks=simplification_checks,
             resolution_rad=problem.verified_every_rad,
-            limit_checks=limit_checks,
+            limit_checks=_limit_checks(clock, simplification_limit_s),
             is_over=None if counted else lambda: shortening_s(0) > simplification_limit_s,
         )
         # By a wall clock the simplification is over at its limit: nothing that came later is used.
@@ -132,6 +119,27 @@ def plan(
         verification_checks=found.verification_checks,
         repairs=found.repairs,
     )
+
+
+def _limit_checks(clock: PlanningClock, limit_s: float) -> int | None:
+    return clock.checks_within(limit_s) if clock.kind is ClockKind.COUNTED and limit_s < math.inf else None
+
+
+def _known_without_search(problem: PlanningProblem, validity: StateValidity) -> PlanResult | None:
+    """The result of a problem that is ill posed or trivial; None of one that needs a search."""
+    for state, outcome in ((problem.start, PlanOutcome.INVALID_START), (problem.goal, PlanOutcome.INVALID_GOAL)):
+        if not problem.in_range(state) or not validity.is_valid(state):
+            return PlanResult(outcome=outcome, path=None, checks=0, simplification_checks=0, search_time_s=0.0)
+    if problem.start == problem.goal:
+        # A planner may wander off and come back.
+        return PlanResult(
+            outcome=PlanOutcome.SOLVED,
+            path=JointPath(np.array([problem.start, problem.goal])),
+            checks=0,
+            simplification_checks=0,
+            search_time_s=0.0,
+        )
+    return None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

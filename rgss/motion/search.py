@@ -60,9 +60,8 @@ def search(
         MotionError: OMPL refuses a parameter, or the objective needs a cost that is not given.
     """
     engine = load_engine()
-    joints = len(problem.start)
     # The engine's states are read element by element, which is most of what a check costs beside its verdict.
-    angles_of = itemgetter(*range(joints)) if joints > 1 else lambda state: (state[0],)
+    angles_of = itemgetter(*range(len(problem.start))) if len(problem.start) > 1 else lambda state: (state[0],)
     is_valid_at = validity.is_valid
     checks = 0
 
@@ -88,10 +87,7 @@ def search(
     validator = motion_validator(engine, information, angles_of, is_valid, first_invalid)
     information.setMotionValidator(validator)
     information.setup()
-    definition = engine.base.ProblemDefinition(information)
-    definition.setStartAndGoalStates(
-        _state(engine, information, problem.start), _state(engine, information, problem.goal)
-    )
+    definition = _definition(engine, information, problem)
     costs: dict[tuple[float, ...], float] = {}
 
     def cost_at(state: Any) -> float:
@@ -103,24 +99,39 @@ def search(
             costs[angles] = _cost_of(cost, angles)
         return costs[angles]
 
-    objective = _objective(planner)
-    if objective is not None:
-        needs_cost = objective is not Objective.PATH_LENGTH
-        made = objective_of(engine, information, cost_at if needs_cost else None)
-        definition.setOptimizationObjective(made)
+    if (objective := _objective(planner)) is not None:
+        cost_of = None if objective is Objective.PATH_LENGTH else cost_at
+        definition.setOptimizationObjective(objective_of(engine, information, cost_of))
     algorithm = _algorithm(engine, information, planner)
     algorithm.setProblemDefinition(definition)
     algorithm.setup()
     if planner.algorithm in ROADMAP_PLANNERS:
         corners = solve_by_roadmap(engine, algorithm, information, angles_of, lambda: is_over(checks))
-        return SearchResult(corners=corners, checks=checks)
-    stop = engine.base.PlannerTerminationConditionFn(lambda: is_over(checks))
+    else:
+        corners = _solved(engine, algorithm, definition, angles_of, lambda: is_over(checks))
+    return SearchResult(corners=corners, checks=checks)
+
+
+def _definition(engine: Engine, information: Any, problem: PlanningProblem) -> Any:
+    definition = engine.base.ProblemDefinition(information)
+    definition.setStartAndGoalStates(
+        _state(engine, information, problem.start), _state(engine, information, problem.goal)
+    )
+    return definition
+
+
+def _solved(
+    engine: Engine,
+    algorithm: Any,
+    definition: Any,
+    angles_of: Callable[[Any], tuple[float, ...]],
+    is_over: Callable[[], bool],
+) -> Vector | None:
+    stop = engine.base.PlannerTerminationConditionFn(is_over)
     algorithm.solve(engine.base.PlannerTerminationCondition(stop))
     if not definition.hasExactSolution():
-        return SearchResult(corners=None, checks=checks)
-    path = definition.getSolutionPath()
-    corners = np.array([angles_of(state) for state in path.getStates()])
-    return SearchResult(corners=corners, checks=checks)
+        return None
+    return np.array([angles_of(state) for state in definition.getSolutionPath().getStates()])
 
 
 def _objective(planner: PlannerSettings) -> Objective | None:

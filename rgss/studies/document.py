@@ -12,13 +12,10 @@ from rgss.documents import (
     DocumentModel,
     Hertz,
     Identifier,
-    Metres,
-    Radians,
-    Seconds,
     Text,
 )
 from rgss.findings import shown
-from rgss.studies.planner_section import PlannerField
+from rgss.studies.planning_section import PlanningEntry
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
@@ -57,23 +54,6 @@ FidelityField = Annotated[
     ),
 ]
 """One fidelity, or that which screens and that which decides."""
-
-
-class PlanningEntry(DocumentModel):
-    """How moves are planned."""
-
-    clock: Literal["counted", "wall"] = "counted"
-    charge_per_check: Seconds
-    resolution: Radians
-    verification_resolution: Radians | None = None
-    on_unverified: Literal["fail", "repair"] = "fail"
-    simplification_checks: Annotated[int, Field(ge=0, le=1_000_000)]
-    simplification_limit: Seconds = 2.0
-    clearance: Metres
-    planner: Text | None = None
-    time_limit: Seconds | None = None
-    planners: dict[Identifier, PlannerField] = Field(default_factory=dict)
-    references: tuple[Text, ...] = ()
 
 
 class PhysicsEntry(DocumentModel):

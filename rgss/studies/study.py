@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
@@ -12,59 +12,16 @@ from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
-from rgss.motion import OnUnverified, PlannerSettings
 from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
 from rgss.requirements import RequirementSet, load_requirements
-from rgss.studies.document import PlanningEntry, StudyDocument
-from rgss.studies.planner_section import planner_problem, read_planners
+from rgss.studies.document import StudyDocument
+from rgss.studies.planning_section import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression_section import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
 from rgss.tradeoff import Anchor
 from rgss.tradeoff.sequential import SequentialRule
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlanningChoice:
-    """How moves are planned.
-
-    Attributes:
-        counted: Whether planning time is counted in validity checks; a wall clock otherwise.
-        charge_per_check_s: Planning time that a validity check is charged with.
-        resolution_rad: Greatest joint step between two states of a motion that a search checks.
-        verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as
-            the search if None.
-        on_unverified: What is done with a path that is not valid at that resolution.
-        simplification_checks: Validity checks that may be spent on looking for shortcuts.
-        simplification_limit_s: Longest time of simplifying a path by the planning clock.
-        clearance_m: Distance that planned paths keep from everything.
-        planner: The planner where no design sets it; empty if the file has none.
-        time_limit_s: Longest planning time of one move where no design sets it; None if the file has none.
-        planners: The planners that the file declares, by their names there.
-        references: Names of planners that are compared with those of the designs.
-    """
-
-    counted: bool
-    charge_per_check_s: float
-    resolution_rad: float
-    simplification_checks: int
-    simplification_limit_s: float
-    clearance_m: float
-    planner: str = ""
-    time_limit_s: float | None = None
-    verification_resolution_rad: float | None = None
-    on_unverified: OnUnverified = OnUnverified.FAIL
-    planners: Mapping[str, PlannerSettings] = field(default_factory=dict)
-    references: tuple[str, ...] = ()
-
-    def planner_settings(self, name: str) -> PlannerSettings:
-        """The planner of a name: one that the file declares, else that of OMPL.
-
-        Args:
-            name: A name that the file declares, or one of OMPL.
-        """
-        return self.planners.get(name) or PlannerSettings(algorithm=name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -159,24 +116,11 @@ def read_study(
             document, {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}, project
         )
     )
-    for key, value in (
-        ("charge_per_check", entry.planning.charge_per_check),
-        ("resolution", entry.planning.resolution),
-        ("time_limit", entry.planning.time_limit),
-    ):
-        if value is not None and value <= 0:
-            findings.append(_not_positive(document, ("planning", key)))
-    if entry.planning.clearance < 0:
-        findings.append(document.finding("study.negative", "clearance must not be negative", ("planning", "clearance")))
-    if entry.planning.simplification_limit < 0:
-        message = "simplification_limit must not be negative"
-        findings.append(document.finding("study.negative", message, ("planning", "simplification_limit")))
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
     elif "contact" in entry.fidelity:
         findings.extend(_coarse_contact(entry, document))
-    planners = read_planners(entry.planning.planners, document, findings)
-    findings.extend(_planning_findings(entry.planning, document))
+    planning = read_planning(entry.planning, document, findings)
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
     until_decided = read_until_decided(entry.until_decided, document, findings)
@@ -187,7 +131,6 @@ def read_study(
     findings.extend(places.findings)
     if findings or trade_off is None:
         raise DocumentError(sorted(findings))
-    planning = entry.planning
     return StudyDefinition(
         id=entry.study,
         label=label,
@@ -197,20 +140,7 @@ def read_study(
         seed=entry.seed,
         replicates=entry.replicates,
         fidelity=Fidelity(entry.fidelity[-1]),
-        planning=PlanningChoice(
-            counted=planning.clock == "counted",
-            charge_per_check_s=planning.charge_per_check,
-            resolution_rad=planning.resolution,
-            simplification_checks=planning.simplification_checks,
-            simplification_limit_s=planning.simplification_limit,
-            clearance_m=planning.clearance,
-            planner=planning.planner or "",
-            time_limit_s=planning.time_limit,
-            verification_resolution_rad=planning.verification_resolution,
-            on_unverified=OnUnverified(planning.on_unverified),
-            planners=planners,
-            references=planning.references,
-        ),
+        planning=planning,
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
         values=value_anchors(trade_off, places.quantity_of),
@@ -219,27 +149,6 @@ def read_study(
         regression=regression,
         until_decided=until_decided,
     )
-
-
-def _planning_findings(planning: PlanningEntry, document: Document) -> Iterator[Finding]:
-    """Planners that are named but not there, and a resolution at which nothing would be verified."""
-    named: list[tuple[str, tuple[str | int, ...]]] = [
-        (name, ("planning", "references", index)) for index, name in enumerate(planning.references)
-    ]
-    if planning.planner is not None:
-        named.append((planning.planner, ("planning", "planner")))
-    for name, place in named:
-        if problem := planner_problem(name, planning.planners):
-            message, hint = problem
-            yield document.finding("study.planner", message, place, hint=hint)
-    verification, key = planning.verification_resolution, ("planning", "verification_resolution")
-    if verification is None:
-        return
-    if verification <= 0:
-        yield _not_positive(document, key)
-    elif verification > planning.resolution > 0:
-        message = "a path cannot be verified more coarsely than it is searched for"
-        yield document.finding("study.coarse-verification", message, key, hint="make it at most 'resolution'")
 
 
 def named_file(project: Path, name: str) -> Path | None:

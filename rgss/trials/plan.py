@@ -40,8 +40,6 @@ _ENDS: Mapping[Phase, tuple[Waypoint, Waypoint]] = {
 }
 """Where each move begins and ends."""
 
-_NO_BUDGET = 2**31 - 1
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedMove:
@@ -158,7 +156,7 @@ def plan_task(
             chosen,
             seed=_move_seed(seed, phase),
             clock=settings.clock,
-            budget_checks=_budget(settings),
+            budget_checks=settings.search_checks,
             limit_s=settings.search_limit_s,
             simplification_checks=settings.simplification_checks,
             simplification_limit_s=settings.simplification_limit_s,
@@ -249,13 +247,6 @@ def _problem(scene: Scene, start: Array, goal: Array, settings: PlanningSettings
         resolution_rad=settings.resolution_rad,
         verification_resolution_rad=settings.verification_resolution_rad,
     )
-
-
-def _budget(settings: PlanningSettings) -> int:
-    """Validity checks of a search; a search by the wall clock is bounded by its time alone."""
-    if settings.clock.kind is ClockKind.COUNTED:
-        return settings.clock.checks_within(settings.search_limit_s)
-    return _NO_BUDGET
 
 
 def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: PlanningSettings) -> PlannedMove:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from rgss.motion import OnUnverified, PlanningClock
+from rgss.motion import ClockKind, OnUnverified, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.trials.plants import ControlSettings
+
+_NO_BUDGET = 2**31 - 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +37,13 @@ class PlanningSettings:
     simplification_checks: int = 1500
     simplification_limit_s: float = 2.0
     clearance_m: float = 0.008
+
+    @property
+    def search_checks(self) -> int:
+        """Validity checks of a search; a search by the wall clock is bounded by its time alone."""
+        if self.clock.kind is ClockKind.COUNTED:
+            return self.clock.checks_within(self.search_limit_s)
+        return _NO_BUDGET
 
     @property
     def verified_every_rad(self) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
 from rgss.designs.parameters import ParameterKind
-from rgss.designs.quantity import Application, SettableQuantity
+from rgss.designs.settable.quantity import Application, SettableQuantity
 
 PLANNER_PREFIX = "planning.planner."
 """``sets: planning.planner.<parameter>`` sets a parameter of the planner that the design has."""
