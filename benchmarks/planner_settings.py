@@ -1,8 +1,8 @@
 """Find equal settings for the source's planners over random scenes that no study contains; write tables in Markdown.
 
-    python benchmarks/planner_settings.py                       range and goal bias, and what they do to each planner
-    python benchmarks/planner_settings.py --resolutions         share of paths that are not valid at 0.01 rad
-    python benchmarks/planner_settings.py --all RANGE BIAS      every planner that can be run, at one setting
+    python benchmarks/planner_settings.py                               range and goal bias of the source's planners
+    python benchmarks/planner_settings.py --resolutions RANGE BIAS      share of paths that are not valid at 0.01 rad
+    python benchmarks/planner_settings.py --planners RANGE BIAS         every planner that can be run, at one setting
 
 A search has 8 s at 0.25 ms a check, which is 32,000 checks; it is cut off at the limits of 4 and 6 s afterwards, as a
 search is a prefix of itself. The measure of a setting is the geometric mean over the planners of the mean checks of a
@@ -31,8 +31,6 @@ RANGES_RAD = (0.3, 0.6, 1.0, 1.5, 2.13)
 BIASES = (0.05, 0.2)
 RESOLUTIONS_RAD = (0.02, 0.05, 0.107)
 LIMITS_S = (4.0, 6.0, 8.0)
-CHOSEN = (1.0, 0.2)
-"""Range in rad and goal bias that the first table gives."""
 SCENES = 12
 _CLOCK = PlanningClock(charge_s=0.00025)
 
@@ -138,14 +136,14 @@ def scan_settings(cells: Sequence[Workcell], resolution_rad: float) -> None:
         _write(f"| {range_rad:g} | {bias:g} | {measure:.0f} |")
 
 
-def scan_resolutions(cells: Sequence[Workcell]) -> None:
+def scan_resolutions(cells: Sequence[Workcell], range_rad: float, bias: float) -> None:
     """How many paths are not valid between the states that a search checked, and what repairs cost."""
     _write(
         "| planner, resolution (rad) | not valid (%) | solved with repairs, 8 s (%) | mean checks |\n|---|---|---|---|"
     )
     for name in SOURCE_PLANNERS:
         for resolution_rad in (0.01, *RESOLUTIONS_RAD):
-            planner = planner_of(name, *CHOSEN)
+            planner = planner_of(name, range_rad, bias)
             failing = searches(cells, planner, settings_of(resolution_rad, OnUnverified.FAIL))
             repairing = searches(cells, planner, settings_of(resolution_rad))
             figures = (
@@ -154,21 +152,20 @@ def scan_resolutions(cells: Sequence[Workcell]) -> None:
             _write(f"| {name}, {resolution_rad:g} | {figures} |")
 
 
-def scan_planners(cells: Sequence[Workcell], resolution_rad: float, range_rad: float, bias: float) -> None:
-    """Every planner at one setting; TRRT with each of its costs and with none."""
+def scan_planners(
+    cells: Sequence[Workcell], resolution_rad: float, range_rad: float, bias: float, names: Sequence[str]
+) -> None:
+    """Planners at one setting; TRRT with each of its costs and with none."""
     limits = " | ".join(f"{limit_s:g} s (%)" for limit_s in LIMITS_S)
     _write(f"| planner | {limits} | median checks | mean checks |\n|---|---|---|---|---|---|")
-    found = []
-    for name in available_planners():
+    for name in names:
         planner = planner_of(name, range_rad, bias)
-        if name != "TRRT":
-            found.append((name, planner))
-            continue
-        found += [(f"TRRT, {one.value}", replace(planner, objective=one)) for one in list(Objective)[1:]]
-        found.append(("TRRT (no cost)", replace(planner, objective=None)))
-    results = [(name, searches(cells, planner, settings_of(resolution_rad))) for name, planner in found]
-    for name, result in sorted(results, key=lambda pair: pair[1].mean):
-        _write(row(name, result))
+        labelled = [(name, planner)]
+        if name == "TRRT":
+            costs = [(f"TRRT, {one.value}", replace(planner, objective=one)) for one in list(Objective)[1:]]
+            labelled = [*costs, ("TRRT (no cost)", replace(planner, objective=None))]
+        for label, one in labelled:
+            _write(row(label, searches(cells, one, settings_of(resolution_rad))))
 
 
 def _write(text: str) -> None:
@@ -181,15 +178,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--scenes", type=int, default=SCENES)
     parser.add_argument("--resolution", type=float, default=0.02, metavar="RAD", help="resolution of the searches")
-    parser.add_argument("--resolutions", action="store_true")
-    parser.add_argument("--all", nargs=2, type=float, metavar=("RANGE", "BIAS"))
+    parser.add_argument("--resolutions", nargs=2, type=float, metavar=("RANGE", "BIAS"))
+    parser.add_argument("--planners", nargs=2, type=float, metavar=("RANGE", "BIAS"))
+    parser.add_argument("--only", default=",".join(available_planners()), metavar="NAMES", help="with --planners")
     options = parser.parse_args()
     cells = tuple(random_cells(options.scenes))
     _write(f"{len(cells)} scenes: {', '.join(cell.scene.id for cell in cells)}\n")
     if options.resolutions:
-        scan_resolutions(cells)
-    elif options.all:
-        scan_planners(cells, options.resolution, *options.all)
+        scan_resolutions(cells, *options.resolutions)
+    elif options.planners:
+        scan_planners(cells, options.resolution, *options.planners, options.only.split(","))
     else:
         scan_settings(cells, options.resolution)
     return 0
