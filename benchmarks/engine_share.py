@@ -100,7 +100,7 @@ def time_engines(sides: Sides) -> None:
     import pybullet
     import toppra
 
-    from rgss.motion import PLANNERS
+    from rgss.motion import SOURCE_PLANNERS
     from rgss.motion.engine import load_engine
 
     base, geometric, _ = load_engine()
@@ -124,8 +124,8 @@ def time_engines(sides: Sides) -> None:
     ):
         if hasattr(pinocchio, name):
             setattr(pinocchio, name, sides.timed("Pinocchio and Coal", getattr(pinocchio, name)))
-    for entry in PLANNERS.values():
-        planner = getattr(geometric, entry.ompl_class)
+    for name in SOURCE_PLANNERS:
+        planner = getattr(geometric, name)
         for method in ("__init__", "setup", "solve"):
             setattr(planner, method, sides.timed("OMPL", getattr(planner, method)))
     for name in ("StateValidityCheckerFn", "PlannerTerminationConditionFn"):

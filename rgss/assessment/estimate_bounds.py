@@ -30,6 +30,7 @@ _PLANNED = frozenset({"planning_time_s", "planning_checks", "path_length_m"})
 IN_COMMON = frozenset(
     {
         Failure.PLANNING_LIMIT,
+        Failure.PATH_NOT_VERIFIED,
         Failure.INVALID_START,
         Failure.INVALID_GOAL,
         Failure.MOVE_BLOCKED,

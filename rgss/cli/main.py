@@ -22,6 +22,7 @@ VERBS = (
     "init",
     "check",
     "variants",
+    "planners",
     "run",
     "sweep",
     "evidence",

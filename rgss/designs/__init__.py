@@ -12,7 +12,8 @@ from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterVal
 from rgss.designs.picking import picked
 from rgss.designs.sampling import Sample, SamplingMethod
 from rgss.designs.set_findings import written_values
-from rgss.designs.settable_quantities import SETTABLE_QUANTITIES, Application, SettableQuantity
+from rgss.designs.settable import PLANNER_PREFIX, PLANNER_QUANTITIES, Application, SettableQuantity
+from rgss.designs.settable_quantities import SETTABLE_QUANTITIES
 from rgss.designs.space import DesignSpace, ExcludedCombination
 from rgss.designs.tables import variant_rows, variants_csv
 from rgss.designs.variants import DesignVariant
@@ -20,6 +21,8 @@ from rgss.designs.variants import DesignVariant
 __all__ = [
     "COMPONENT_PREFIX",
     "DESIGN_PREFIX",
+    "PLANNER_PREFIX",
+    "PLANNER_QUANTITIES",
     "SETTABLE_QUANTITIES",
     "Application",
     "Catalogue",

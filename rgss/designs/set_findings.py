@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 from rgss.designs.components import Catalogue, Component, Role
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue, read_magnitude
-from rgss.designs.settable_quantities import CATALOGUE_PREFIX, SETTABLE_QUANTITIES, SettableQuantity
+from rgss.designs.settable import SettableQuantity
+from rgss.designs.settable_quantities import CATALOGUE_PREFIX, settable_quantity
 from rgss.designs.space import DesignSpace
 from rgss.documents import Document
-from rgss.errors import QuantityError
+from rgss.errors import DefinitionError, QuantityError
 from rgss.findings import Finding
 from rgss.quantities import dimension
 
@@ -40,7 +41,7 @@ def parameter_set_findings(
         if parameter.sets.startswith(CATALOGUE_PREFIX):
             yield from _catalogue_findings(document, place, parameter, catalogue)
         else:
-            problem = _kind_problem(parameter.kind, parameter.unit, SETTABLE_QUANTITIES[parameter.sets])
+            problem = _kind_problem(parameter.kind, parameter.unit, _setting(parameter.sets))
             if problem:
                 message, hint = problem
                 yield document.finding(_RULE, f"{parameter.id} {message}", place, hint=hint)
@@ -72,7 +73,7 @@ def role_set_findings(document: Document, roles: Sequence[Role]) -> Iterator[Fin
                 message, hint = f"property {name!r} cannot choose a component", "let a parameter choose it"
                 yield document.finding(_RULE, message, place, hint=hint)
                 continue
-            setting = SETTABLE_QUANTITIES[quantity]
+            setting = _setting(quantity)
             kind = ParameterKind.COUNT if setting.kind is ParameterKind.COUNT else ParameterKind.QUANTITY
             problem = _kind_problem(kind, role.properties[name], setting)
             if problem:
@@ -93,7 +94,7 @@ def component_set_findings(document: Document, components: Sequence[Component]) 
     """
     for index, component in enumerate(components):
         for name, quantity in component.sets.items():
-            setting, value = SETTABLE_QUANTITIES[quantity], component.properties[name].value
+            setting, value = _setting(quantity), component.properties[name].value
             place: _Location = ("components", index, "properties", name, "value")
             if setting.kind is ParameterKind.COUNT and not value.is_integer():
                 message = f"{name} sets {quantity} and must be a whole number, got {value:g}"
@@ -109,7 +110,7 @@ def design_value_findings(designs: DesignSpace, document: Document) -> Iterator[
         designs: The design space.
         document: Its file.
     """
-    settings = {one.id: SETTABLE_QUANTITIES.get(one.sets) for one in designs.parameters}
+    settings = {one.id: settable_quantity(one.sets) for one in designs.parameters}
     for place, name, value in written_values(designs):
         setting = settings[name]
         if setting is not None:
@@ -181,6 +182,13 @@ def _kind_problem(kind: ParameterKind, unit: str, setting: SettableQuantity) -> 
     except QuantityError:
         return None  # An unknown unit is a finding of its own.
     return None
+
+
+def _setting(name: str) -> SettableQuantity:
+    found = settable_quantity(name)
+    if found is None:  # the model of the file accepts no other name
+        raise DefinitionError(f"unknown quantity {name!r}")
+    return found
 
 
 def _place(document: Document, role: int, name: str) -> str:

@@ -8,8 +8,6 @@ the schemas, the findings, the filters and the page docs/designs.md read this ta
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from enum import Enum
 from types import MappingProxyType
 from typing import Annotated, Any
 
@@ -18,49 +16,11 @@ from pydantic_core import PydanticCustomError
 
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterKind
+from rgss.designs.settable import PLANNER_PREFIX, PLANNER_QUANTITIES, Application, SettableQuantity
 from rgss.findings import shown
 
 CATALOGUE_PREFIX = "catalogue."
 """``sets: catalogue.<role>`` chooses the component of a role by its id."""
-
-
-class Application(Enum):
-    """Way in which the value of a quantity gets into a trial."""
-
-    REPLACE = "replaces the field"
-    REQUIRE = "must equal the field"
-    ADD_FOR_EACH_FINGER = "is added to the field once for each finger"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SettableQuantity:
-    """A quantity of a trial that a design can set.
-
-    Attributes:
-        name: Its name in files, such as ``robot.tool_speed``.
-        kind: What its values are.
-        unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
-        meaning: What it is, in a sentence.
-        field: The field of `rgss.trials.pieces.TrialSpec` that it sets, such as ``gripper.finger_mass_kg``.
-        application: How it is applied to the field.
-        default: The file and key that give its value where no design does; empty if there is none.
-        required: Whether a trial cannot be made without it.
-        positive: Whether it must be greater than zero.
-        least: The least value that is accepted, with its unit; empty for none.
-        least_reason: Why a smaller value is refused.
-    """
-
-    name: str
-    kind: ParameterKind = ParameterKind.QUANTITY
-    unit: str
-    meaning: str
-    field: str
-    application: Application = Application.REPLACE
-    default: str = ""
-    required: bool = True
-    positive: bool = True
-    least: str = ""
-    least_reason: str = ""
 
 
 _TOO_SLOW = "a slower arm or hand would need hours for the task"
@@ -184,10 +144,23 @@ SETTABLE_QUANTITIES: Mapping[str, SettableQuantity] = MappingProxyType({one.name
 """The quantities by name, in the order in which they are applied."""
 
 
+def settable_quantity(name: str) -> SettableQuantity | None:
+    """The quantity of a name, parameters of planners included; None if it is none.
+
+    Args:
+        name: Its name in files.
+    """
+    return SETTABLE_QUANTITIES.get(name) or PLANNER_QUANTITIES.get(name)
+
+
 def _read_settable(value: Any) -> str:
-    if isinstance(value, str) and (value in SETTABLE_QUANTITIES or value.startswith(CATALOGUE_PREFIX)):
+    if isinstance(value, str) and (settable_quantity(value) is not None or value.startswith(CATALOGUE_PREFIX)):
         return value
-    hint = near_hint(str(value), [*SETTABLE_QUANTITIES, f"{CATALOGUE_PREFIX}<role>"], "quantities that can be set")
+    if str(value).startswith(PLANNER_PREFIX):
+        hint = near_hint(str(value), PLANNER_QUANTITIES, "parameters of planners")
+    else:
+        known = [*SETTABLE_QUANTITIES, f"{CATALOGUE_PREFIX}<role>", f"{PLANNER_PREFIX}<parameter>"]
+        hint = near_hint(str(value), known, "quantities that can be set")
     details = {"message": f"unknown quantity {shown(str(value))}", "hint": hint}
     raise PydanticCustomError("quantity", "{message}", details)
 
@@ -199,8 +172,10 @@ SettableField = Annotated[
         {
             "anyOf": [
                 {
-                    "enum": list(SETTABLE_QUANTITIES),
-                    "enumDescriptions": [one.meaning for one in SETTABLE_QUANTITIES.values()],
+                    "enum": [*SETTABLE_QUANTITIES, *PLANNER_QUANTITIES],
+                    "enumDescriptions": [
+                        one.meaning for one in (*SETTABLE_QUANTITIES.values(), *PLANNER_QUANTITIES.values())
+                    ],
                 },
                 {"type": "string", "pattern": r"^catalogue\..+$"},
             ]

@@ -40,6 +40,7 @@ _STATUS_OF: Mapping[PlanOutcome, int] = MappingProxyType(
         PlanOutcome.SOLVED: 6,
         PlanOutcome.MOVE_BLOCKED: 9,
         PlanOutcome.MOVE_UNREACHABLE: 9,
+        PlanOutcome.NOT_VERIFIED: 9,
     }
 )
 

@@ -110,6 +110,14 @@ class ArmDynamics:
         )
         return np.array(found)
 
+    def potential_energy_j(self, q: Sequence[float] | Vector) -> float:
+        """Potential energy of arm and loads in gravity, relative to the world's origin.
+
+        Args:
+            q: Joint angles in rad, shape (6,).
+        """
+        return float(self._engine.computePotentialEnergy(self._model, self._data, np.asarray(q, dtype=float)))
+
 
 def _solid_cylinder(shape: Cylinder, mass_kg: float) -> tuple[float, float, float]:
     across = mass_kg * (3 * shape.radius_m**2 + shape.height_m**2) / 12

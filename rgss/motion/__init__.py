@@ -4,34 +4,52 @@ from rgss.motion.blending import BlendedPath, SmoothPath, blend
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.limits import MotionLimits
 from rgss.motion.paths import JointPath, path_length, segment_states
-from rgss.motion.planners import PLANNERS, Planner
-from rgss.motion.planning import plan
+from rgss.motion.planner_table import OmplPlanner, ParameterType, PlannerParameter, ompl_planners
+from rgss.motion.planners import (
+    SOURCE_PLANNERS,
+    Objective,
+    PlannerSettings,
+    available_planners,
+    refusal_of,
+    takes_objective,
+)
+from rgss.motion.planning import OnUnverified, plan
 from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory
-from rgss.motion.validity import StateValidity, ToolKinematics
+from rgss.motion.validity import StateCost, StateValidity, ToolKinematics
 
 __all__ = [
-    "PLANNERS",
+    "SOURCE_PLANNERS",
     "BlendedPath",
     "ClockKind",
     "JointPath",
     "MotionLimits",
+    "Objective",
+    "OmplPlanner",
+    "OnUnverified",
+    "ParameterType",
     "PlanResult",
-    "Planner",
+    "PlannerParameter",
+    "PlannerSettings",
     "PlanningClock",
     "PlanningProblem",
     "SmoothPath",
+    "StateCost",
     "StateValidity",
     "TimedMove",
     "TimingOutcome",
     "ToolKinematics",
     "Trajectory",
+    "available_planners",
     "blend",
+    "ompl_planners",
     "outcome_within",
     "path_length",
     "plan",
+    "refusal_of",
     "segment_states",
+    "takes_objective",
     "time_blended",
     "time_move",
 ]

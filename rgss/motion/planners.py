@@ -1,49 +1,100 @@
-"""Registry of the planners: from the name in a design to the class of OMPL."""
+"""Planners as data: an OMPL planner with its parameters and its objective."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
+from enum import Enum
+from functools import lru_cache
 from types import MappingProxyType
+
+from rgss.motion.planner_table import OmplPlanner, ompl_planners
+
+SOURCE_PLANNERS = ("RRT", "TRRT", "STRIDE")
+"""The planners of the source's design space (Table 4.3)."""
+
+ROADMAP_PLANNERS = frozenset({"PRM", "PRMstar"})
+"""Planners whose roadmap is grown milestone by milestone, as OMPL's own driver looks for a solution by a wall clock."""
+
+_COST_PLANNERS = frozenset({"TRRT", "FMT", "BFMT"})
+_TO_THE_LIMIT = "it goes on to its limit, so that a shorter limit cannot be read off its search"
+
+_REFUSED: Mapping[str, str] = MappingProxyType(
+    {
+        "LBTRRT": _TO_THE_LIMIT,
+        "LazyLBTRRT": _TO_THE_LIMIT,
+        "SST": _TO_THE_LIMIT,
+        "SPARS": "it looks for a solution in a second thread, by a wall clock",
+        "SPARStwo": "it looks for a solution in a second thread, by a wall clock",
+        "STRRTstar": "it needs a space of states with time",
+    }
+)
+
+
+class Objective(str, Enum):
+    """Cost of a path that a planner keeps low.
+
+    The cost of a state is charged like a validity check; a path length is not, for it needs no query of the scene.
+    """
+
+    PATH_LENGTH = "path_length"
+    CLEARANCE = "clearance"
+    MECHANICAL_WORK = "mechanical_work"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Planner:
-    """A sampling-based planner of OMPL.
+class PlannerSettings:
+    """A planner with its parameters.
 
     Attributes:
-        name: Name in designs, records and messages.
-        ompl_class: Name of the class in ``ompl.geometric``.
-        meaning: Name in full.
-        settings: Value by setter of the class, such as ``setGoalBias``; its own default for every other parameter.
-        typical_search_s: Typical time of a search, for the order of work until times are measured.
+        algorithm: Its class in ``ompl.geometric``.
+        parameters: Name in OMPL's parameter set and value in SI of each parameter that is set, by name; OMPL's own
+            default for every other.
+        objective: The cost that it keeps low; OMPL's own default if None.
     """
 
-    name: str
-    ompl_class: str
-    meaning: str
-    settings: Mapping[str, float] = field(default_factory=dict, hash=False)
-    typical_search_s: float = 0.1
+    algorithm: str
+    parameters: tuple[tuple[str, float], ...] = ()
+    objective: Objective | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parameters", tuple(sorted(self.parameters)))
+
+    def with_parameter(self, name: str, value: float) -> PlannerSettings:
+        """The same planner with another value of a parameter.
+
+        Args:
+            name: Its name in OMPL's parameter set.
+            value: The value in SI.
+        """
+        return replace(self, parameters=tuple({**dict(self.parameters), name: value}.items()))
+
+    @property
+    def has_no_cost(self) -> bool:
+        """Whether it is a TRRT that accepts every transition, and so a RRT by another name."""
+        return self.algorithm == "TRRT" and self.objective is None
 
 
-PLANNERS: Mapping[str, Planner] = MappingProxyType(
-    {
-        planner.name: planner
-        for planner in (
-            Planner(name="RRT", ompl_class="RRT", meaning="rapidly-exploring random tree"),
-            Planner(
-                name="TRRT",
-                ompl_class="TRRT",
-                meaning="transition-based rapidly-exploring random tree",
-                typical_search_s=0.2,
-            ),
-            Planner(
-                name="STRIDE",
-                ompl_class="STRIDE",
-                meaning="search tree with resolution-independent density estimation",
-                typical_search_s=1.0,
-            ),
-        )
-    }
-)
-"""The planners by name; a further one is a further entry."""
+@lru_cache(maxsize=1)
+def available_planners() -> Mapping[str, OmplPlanner]:
+    """The planners that can be run here, by name: those of the wheel without those that `refusal_of` names."""
+    known = {name: planner for name, planner in ompl_planners().items() if name not in _REFUSED}
+    return MappingProxyType(known)
+
+
+def refusal_of(name: str) -> str:
+    """The reason why a planner of OMPL cannot be run here; empty if it can, or is none of OMPL.
+
+    Args:
+        name: A planner's class in ``ompl.geometric``.
+    """
+    return _REFUSED.get(name, "")
+
+
+def takes_objective(name: str) -> bool:
+    """Whether a planner depends on an optimisation objective.
+
+    Args:
+        name: One of `available_planners`.
+    """
+    return available_planners()[name].optimizing or name in _COST_PLANNERS

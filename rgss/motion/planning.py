@@ -3,28 +3,43 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import Enum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.errors import MotionError
 from rgss.evidence.records import PlanOutcome
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.engine import load_engine
 from rgss.motion.paths import JointPath
-from rgss.motion.planners import PLANNERS
+from rgss.motion.planners import PlannerSettings, available_planners, refusal_of
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
 from rgss.motion.search import search
 from rgss.motion.simplification import shorten
-from rgss.motion.validity import StateValidity
+from rgss.motion.validity import StateCost, StateValidity
+from rgss.motion.verification import verified
+
+Vector = NDArray[np.float64]
 
 _SEARCH_STREAM = 1
 _SIMPLIFICATION_STREAM = 2
+_REPAIR_STREAM = 3
+
+
+class OnUnverified(str, Enum):
+    """Use of a path that is not valid at the resolution of its verification."""
+
+    FAIL = "fail"
+    REPAIR = "repair"
 
 
 def plan(
     problem: PlanningProblem,
     validity: StateValidity,
-    planner: str,
+    planner: PlannerSettings | str,
     *,
     seed: int,
     budget_checks: int,
@@ -32,9 +47,10 @@ def plan(
     clock: PlanningClock,
     limit_s: float = math.inf,
     simplification_limit_s: float = math.inf,
-    range_rad: float | None = None,
+    on_unverified: OnUnverified = OnUnverified.FAIL,
+    cost: StateCost | None = None,
 ) -> PlanResult:
-    """Plan one move and shorten the path that is found.
+    """Plan one move, verify the path that is found, and shorten it.
 
     With a counted clock the result is a function of the arguments: neither the machine, nor the process,
     nor earlier calls change it, and neither the budget nor the clock changes the path of a search that
@@ -43,20 +59,74 @@ def plan(
     Args:
         problem: The move.
         validity: Validity of a state; depends on the state alone.
-        planner: Name of one of `PLANNERS`.
+        planner: The planner with its parameters, or the name of one with OMPL's.
         seed: Seed of the search and of the simplification, at least 0.
-        budget_checks: Greatest number of validity checks of the search.
+        budget_checks: Greatest number of validity checks of search, verification and repair.
         simplification_checks: Greatest number of validity checks of looking for shortcuts; 0 leaves the path as found.
         clock: The planning clock.
         limit_s: Greatest time of the search by a wall clock; with a counted clock the budget alone counts.
         simplification_limit_s: Greatest time of the whole simplification by the planning clock, the final check of
             its result included. A path that cannot be checked by then is left as it was found.
-        range_rad: Longest step of the planner's tree; the planner's own default when None.
+        on_unverified: What is done with a path that is not valid at the resolution of its verification.
+        cost: Cost of a state, for an objective that needs it; each evaluation is charged like a check.
 
     Raises:
-        MotionError: The planner is unknown, or the seed or a budget is negative.
+        MotionError: The planner is unknown or refused, or the seed or a budget is negative.
     """
-    _check_arguments(planner, seed, budget_checks, simplification_checks, simplification_limit_s)
+    chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
+    _check_arguments(chosen, seed, budget_checks, simplification_checks, simplification_limit_s)
+    if (known := _known_without_search(problem, validity)) is not None:
+        return known
+    counted = clock.kind is ClockKind.COUNTED
+    load_engine()  # The first use in a process takes longer than many a search and must not count as one.
+    elapsed_s = clock.start()
+    found = _verified_search(
+        problem,
+        validity,
+        chosen,
+        seed=seed,
+        # Not "at least": a step that needs no check may still solve within the budget.
+        is_over=lambda checks: checks > budget_checks or (not counted and elapsed_s(checks) > limit_s),
+        on_unverified=on_unverified,
+        cost=cost,
+    )
+    time_s = elapsed_s(found.checks)
+    if found.corners is None or found.checks > budget_checks or (not counted and time_s > limit_s):
+        return spent(budget_checks, elapsed_s(budget_checks)) if counted else spent(found.checks, time_s)
+    if not found.is_valid:
+        return replace(spent(found.checks, time_s), outcome=PlanOutcome.NOT_VERIFIED)
+    corners, simplification, simplification_s = found.corners, 0, 0.0
+    if simplification_checks:
+        shortening_s = clock.start()
+        corners, simplification = shorten(
+            found.corners,
+            validity,
+            generator=np.random.default_rng(_derived_seed(seed, _SIMPLIFICATION_STREAM)),
+            budget_checks=simplification_checks,
+            resolution_rad=problem.verified_every_rad,
+            limit_checks=_limit_checks(clock, simplification_limit_s),
+            is_over=None if counted else lambda: shortening_s(0) > simplification_limit_s,
+        )
+        # By a wall clock the simplification is over at its limit: nothing that came later is used.
+        simplification_s = min(shortening_s(simplification), simplification_limit_s)
+    return PlanResult(
+        outcome=PlanOutcome.SOLVED,
+        path=JointPath(corners),
+        checks=found.checks,
+        simplification_checks=simplification,
+        search_time_s=time_s,
+        simplification_time_s=simplification_s,
+        verification_checks=found.verification_checks,
+        repairs=found.repairs,
+    )
+
+
+def _limit_checks(clock: PlanningClock, limit_s: float) -> int | None:
+    return clock.checks_within(limit_s) if clock.kind is ClockKind.COUNTED and limit_s < math.inf else None
+
+
+def _known_without_search(problem: PlanningProblem, validity: StateValidity) -> PlanResult | None:
+    """The result of a problem that is ill posed or trivial; None of one that needs a search."""
     for state, outcome in ((problem.start, PlanOutcome.INVALID_START), (problem.goal, PlanOutcome.INVALID_GOAL)):
         if not problem.in_range(state) or not validity.is_valid(state):
             return PlanResult(outcome=outcome, path=None, checks=0, simplification_checks=0, search_time_s=0.0)
@@ -69,53 +139,82 @@ def plan(
             simplification_checks=0,
             search_time_s=0.0,
         )
-    counted = clock.kind is ClockKind.COUNTED
-    load_engine()  # The first use in a process takes longer than many a search and must not count as one.
-    elapsed_s = clock.start()
-    found = search(
-        problem,
-        validity,
-        planner,
-        seed=_derived_seed(seed, _SEARCH_STREAM),
-        # Not "at least": a step that needs no check may still solve within the budget.
-        is_over=lambda checks: checks > budget_checks or (not counted and elapsed_s(checks) > limit_s),
-        range_rad=range_rad,
-    )
-    time_s = elapsed_s(found.checks)
-    if found.corners is None or found.checks > budget_checks or (not counted and time_s > limit_s):
-        return spent(budget_checks, elapsed_s(budget_checks)) if counted else spent(found.checks, time_s)
-    corners, simplification, simplification_s = found.corners, 0, 0.0
-    if simplification_checks:
-        shortening_s = clock.start()
-        limit_checks = (
-            clock.checks_within(simplification_limit_s) if counted and simplification_limit_s < math.inf else None
+    return None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Found:
+    """A search with the verification of its path; `checks` are those of both, and of repairs."""
+
+    corners: Vector | None
+    checks: int
+    is_valid: bool = True
+    verification_checks: int = 0
+    repairs: int = 0
+
+
+def _verified_search(
+    problem: PlanningProblem,
+    validity: StateValidity,
+    planner: PlannerSettings,
+    *,
+    seed: int,
+    is_over: Callable[[int], bool],
+    on_unverified: OnUnverified,
+    cost: StateCost | None,
+) -> _Found:
+    first = search(problem, validity, planner, seed=_derived_seed(seed, _SEARCH_STREAM), is_over=is_over, cost=cost)
+    if first.corners is None or problem.verified_every_rad >= problem.resolution_rad:
+        return _Found(corners=first.corners, checks=first.checks)
+
+    def replan(start: Vector, end: Vector, number: int, checks: int) -> tuple[Vector | None, int]:
+        motion = replace(
+            problem,
+            start=tuple(start.tolist()),
+            goal=tuple(end.tolist()),
+            resolution_rad=problem.verified_every_rad,
         )
-        corners, simplification = shorten(
-            found.corners,
+        before = first.checks + checks
+        repaired = search(
+            motion,
             validity,
-            generator=np.random.default_rng(_derived_seed(seed, _SIMPLIFICATION_STREAM)),
-            budget_checks=simplification_checks,
-            resolution_rad=problem.resolution_rad,
-            limit_checks=limit_checks,
-            is_over=None if counted else lambda: shortening_s(0) > simplification_limit_s,
+            planner,
+            seed=_derived_seed(seed, _REPAIR_STREAM, number),
+            is_over=lambda more: is_over(before + more),
+            cost=cost,
         )
-        # By a wall clock the simplification is over at its limit: nothing that came later is used.
-        simplification_s = min(shortening_s(simplification), simplification_limit_s)
-    return PlanResult(
-        outcome=PlanOutcome.SOLVED,
-        path=JointPath(corners),
-        checks=found.checks,
-        simplification_checks=simplification,
-        search_time_s=time_s,
-        simplification_time_s=simplification_s,
+        return repaired.corners, repaired.checks
+
+    result = verified(
+        first.corners,
+        validity,
+        resolution_rad=problem.verified_every_rad,
+        replan=replan if on_unverified is OnUnverified.REPAIR else None,
+    )
+    return _Found(
+        corners=None if result.gave_up else result.corners,
+        checks=first.checks + result.checks + result.repair_checks,
+        is_valid=result.is_valid,
+        verification_checks=result.checks,
+        repairs=result.repairs,
     )
 
 
 def _check_arguments(
-    planner: str, seed: int, budget_checks: int, simplification_checks: int, simplification_limit_s: float
+    planner: PlannerSettings, seed: int, budget_checks: int, simplification_checks: int, simplification_limit_s: float
 ) -> None:
-    if planner not in PLANNERS:
-        raise MotionError(f"unknown planner {planner!r}", hint=f"the planners are {', '.join(PLANNERS)}")
+    name = planner.algorithm
+    if name not in available_planners():
+        reason = refusal_of(name)
+        message = f"planner {name} cannot be run: {reason}" if reason else f"unknown planner {name!r}"
+        raise MotionError(message, hint=f"the planners are {', '.join(available_planners())}")
+    known = available_planners()[name].parameters
+    for parameter, value in planner.parameters:
+        if parameter not in known:
+            listed = ", ".join(known) or "none"
+            raise MotionError(f"{name} has no parameter {parameter!r}", hint=f"its parameters: {listed}")
+        if problem := known[parameter].problem_of(value):
+            raise MotionError(f"{name}: {problem}")
     if seed < 0:
         raise MotionError(f"seed must be at least 0, got {seed}", hint="give a whole number")
     if budget_checks < 0 or simplification_checks < 0:
@@ -128,6 +227,6 @@ def _check_arguments(
         )
 
 
-def _derived_seed(seed: int, stream: int) -> int:
+def _derived_seed(seed: int, *stream: int) -> int:
     """An independent seed, at least 1, for each use of a trial's seed."""
-    return int(np.random.SeedSequence([seed, stream]).generate_state(1)[0]) or 1
+    return int(np.random.SeedSequence([seed, *stream]).generate_state(1)[0]) or 1

@@ -19,10 +19,12 @@ class PlanningProblem:
         upper_rad: Upper end of each joint's planning range.
         start: Joint angles in rad at the start.
         goal: Joint angles in rad at the end.
-        resolution_rad: Greatest Euclidean distance in joint space between two checked states of a path.
+        resolution_rad: Greatest Euclidean distance in joint space between two states of a motion that a search
+            checks.
+        verification_resolution_rad: The same for the path that is found and will run; as the search if None.
 
     Raises:
-        MotionError: The numbers of joints differ, a range is empty, or the resolution is not positive.
+        MotionError: The numbers of joints differ, a range is empty, or a resolution is not positive.
     """
 
     lower_rad: tuple[float, ...]
@@ -30,6 +32,7 @@ class PlanningProblem:
     start: tuple[float, ...]
     goal: tuple[float, ...]
     resolution_rad: float
+    verification_resolution_rad: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("lower_rad", "upper_rad", "start", "goal"):
@@ -42,10 +45,17 @@ class PlanningProblem:
             )
         if not all(low < high for low, high in zip(self.lower_rad, self.upper_rad, strict=True)):
             raise MotionError("a joint's planning range is empty", hint="let its lower end be below its upper end")
-        if not 0.0 < self.resolution_rad < math.inf:
-            raise MotionError(
-                f"a path cannot be checked every {self.resolution_rad:g} rad", hint="give a distance above zero"
-            )
+        for resolution_rad in (self.resolution_rad, self.verified_every_rad):
+            if not 0.0 < resolution_rad < math.inf:
+                raise MotionError(
+                    f"a path cannot be checked every {resolution_rad:g} rad", hint="give a distance above zero"
+                )
+
+    @property
+    def verified_every_rad(self) -> float:
+        """Greatest distance between two checked states of the path that will run."""
+        given = self.verification_resolution_rad
+        return self.resolution_rad if given is None else given
 
     def in_range(self, state: tuple[float, ...]) -> bool:
         """Tell whether a state keeps the planning ranges."""
@@ -56,17 +66,21 @@ class PlanningProblem:
 class PlanResult:
     """How the planning of one move ended.
 
-    A search is *solved within* a budget when the number of checks at its solution is at most the
-    budget; otherwise the budget counts as spent to its end. A search with a budget is the beginning of
-    the same search with a larger one, so that every smaller limit can be read off one search.
+    A search is *solved within* a budget when the number of checks at its solution, those of verifying and
+    repairing its path included, is at most the budget; otherwise the budget counts as spent to its end. A search
+    with a budget is the beginning of the same search with a larger one, so that every smaller limit can be read off
+    one search.
 
     Attributes:
         outcome: How it ended.
         path: The simplified path; None unless solved.
-        checks: Validity checks of the search: those up to the solution, or the whole budget.
+        checks: Validity checks of the search, of the verification and of repairs: those up to the solution, or
+            the whole budget.
         simplification_checks: Validity checks of the simplification and of its result.
         search_time_s: Time of the search by the planning clock.
         simplification_time_s: Time of the simplification by the planning clock.
+        verification_checks: Those of `checks` that verified the path.
+        repairs: Motions of the path that were planned anew, because they were not valid.
     """
 
     outcome: PlanOutcome
@@ -75,6 +89,8 @@ class PlanResult:
     simplification_checks: int
     search_time_s: float
     simplification_time_s: float = 0.0
+    verification_checks: int = 0
+    repairs: int = 0
 
 
 def outcome_within(result: PlanResult, budget_checks: int) -> PlanOutcome:
@@ -84,7 +100,7 @@ def outcome_within(result: PlanResult, budget_checks: int) -> PlanOutcome:
         result: The result with the larger budget.
         budget_checks: The smaller budget.
     """
-    if result.outcome is PlanOutcome.SOLVED and result.checks > budget_checks:
+    if result.outcome in (PlanOutcome.SOLVED, PlanOutcome.NOT_VERIFIED) and result.checks > budget_checks:
         return PlanOutcome.BUDGET_SPENT
     return result.outcome
 

@@ -10,11 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.errors import MotionError
 from rgss.motion.engine import Engine, load_engine
 from rgss.motion.motion_validation import motion_validator
-from rgss.motion.planners import PLANNERS
+from rgss.motion.objectives import objective_of
+from rgss.motion.planner_table import ParameterType
+from rgss.motion.planners import ROADMAP_PLANNERS, Objective, PlannerSettings, available_planners
 from rgss.motion.problem import PlanningProblem
-from rgss.motion.validity import StateValidity, first_invalid_between
+from rgss.motion.roadmap import solve_by_roadmap
+from rgss.motion.validity import StateCost, StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
 
@@ -25,7 +29,8 @@ class SearchResult:
 
     Attributes:
         corners: Corners of the path found in rad, shape (n, joints); None when it was ended before.
-        checks: Validity checks made; a search that is ended exceeds its budget by what its last step takes.
+        checks: Validity checks made, and evaluations of a cost; a search that is ended exceeds its budget by what
+            its last step takes.
     """
 
     corners: Vector | None
@@ -35,26 +40,28 @@ class SearchResult:
 def search(
     problem: PlanningProblem,
     validity: StateValidity,
-    planner: str,
+    planner: PlannerSettings,
     *,
     seed: int,
     is_over: Callable[[int], bool],
-    range_rad: float | None = None,
+    cost: StateCost | None = None,
 ) -> SearchResult:
     """Run a planner until it finds a path or its termination predicate holds.
 
     Args:
         problem: The move; its start and goal are valid.
         validity: Validity of a state.
-        planner: Name of one of `PLANNERS`.
+        planner: The planner with its parameters.
         seed: Seed of the engine's random numbers, at least 1.
         is_over: Termination predicate, called with the check count before every step of the planner.
-        range_rad: Longest step of the planner's tree; the planner's own default when None.
+        cost: Cost of a state, for the planner's objective; each evaluation counts as a check.
+
+    Raises:
+        MotionError: OMPL refuses a parameter, or the objective needs a cost that is not given.
     """
     engine = load_engine()
-    joints = len(problem.start)
     # The engine's states are read element by element, which is most of what a check costs beside its verdict.
-    angles_of = itemgetter(*range(joints)) if joints > 1 else lambda state: (state[0],)
+    angles_of = itemgetter(*range(len(problem.start))) if len(problem.start) > 1 else lambda state: (state[0],)
     is_valid_at = validity.is_valid
     checks = 0
 
@@ -80,25 +87,74 @@ def search(
     validator = motion_validator(engine, information, angles_of, is_valid, first_invalid)
     information.setMotionValidator(validator)
     information.setup()
+    definition = _definition(engine, information, problem)
+    costs: dict[tuple[float, ...], float] = {}
+
+    def cost_at(state: Any) -> float:
+        nonlocal checks
+        angles = angles_of(state)
+        # A planner compares a new state with one whose cost it had before, which a tree would keep.
+        if angles not in costs:
+            checks += 1
+            costs[angles] = _cost_of(cost, angles)
+        return costs[angles]
+
+    if (objective := _objective(planner)) is not None:
+        cost_of = None if objective is Objective.PATH_LENGTH else cost_at
+        definition.setOptimizationObjective(objective_of(engine, information, cost_of))
+    algorithm = _algorithm(engine, information, planner)
+    algorithm.setProblemDefinition(definition)
+    algorithm.setup()
+    if planner.algorithm in ROADMAP_PLANNERS:
+        corners = solve_by_roadmap(engine, algorithm, information, angles_of, lambda: is_over(checks))
+    else:
+        corners = _solved(engine, algorithm, definition, angles_of, lambda: is_over(checks))
+    return SearchResult(corners=corners, checks=checks)
+
+
+def _definition(engine: Engine, information: Any, problem: PlanningProblem) -> Any:
     definition = engine.base.ProblemDefinition(information)
     definition.setStartAndGoalStates(
         _state(engine, information, problem.start), _state(engine, information, problem.goal)
     )
-    entry = PLANNERS[planner]
-    algorithm = getattr(engine.geometric, entry.ompl_class)(information)
-    for setter, value in entry.settings.items():
-        getattr(algorithm, setter)(value)
-    if range_rad is not None:
-        algorithm.setRange(range_rad)
-    algorithm.setProblemDefinition(definition)
-    algorithm.setup()
-    stop = engine.base.PlannerTerminationConditionFn(lambda: is_over(checks))
+    return definition
+
+
+def _solved(
+    engine: Engine,
+    algorithm: Any,
+    definition: Any,
+    angles_of: Callable[[Any], tuple[float, ...]],
+    is_over: Callable[[], bool],
+) -> Vector | None:
+    stop = engine.base.PlannerTerminationConditionFn(is_over)
     algorithm.solve(engine.base.PlannerTerminationCondition(stop))
     if not definition.hasExactSolution():
-        return SearchResult(corners=None, checks=checks)
-    path = definition.getSolutionPath()
-    corners = np.array([angles_of(state) for state in path.getStates()])
-    return SearchResult(corners=corners, checks=checks)
+        return None
+    return np.array([angles_of(state) for state in definition.getSolutionPath().getStates()])
+
+
+def _objective(planner: PlannerSettings) -> Objective | None:
+    """The objective of a planner; one that improves paths must be given one, or it goes on to its limit."""
+    if planner.objective is None and available_planners()[planner.algorithm].optimizing:
+        return Objective.PATH_LENGTH
+    return planner.objective
+
+
+def _cost_of(cost: StateCost | None, angles: Sequence[float]) -> float:
+    if cost is None:
+        raise MotionError("the objective of the planner needs the cost of a state", hint="give 'cost'")
+    return cost(angles)
+
+
+def _algorithm(engine: Engine, information: Any, planner: PlannerSettings) -> Any:
+    algorithm = getattr(engine.geometric, planner.algorithm)(information)
+    known = available_planners()[planner.algorithm].parameters
+    for name, value in planner.parameters:
+        text = repr(float(value)) if known[name].type is ParameterType.REAL else str(int(value))
+        if not algorithm.params().setParam(name, text):
+            raise MotionError(f"{planner.algorithm} does not take {name} = {text}", hint="give another value")
+    return algorithm
 
 
 def _space(engine: Engine, problem: PlanningProblem) -> Any:

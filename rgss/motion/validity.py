@@ -45,6 +45,10 @@ def first_invalid_between(validity: StateValidity) -> Callable[[NDArray[np.float
     return find
 
 
+StateCost = Callable[[Sequence[float]], float]
+"""Cost of joint angles in rad, at least 0; an evaluation is charged like a validity check."""
+
+
 class ToolKinematics(Protocol):
     """Where the tool centre is and how it moves."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from rgss.designs import (
+    PLANNER_PREFIX,
     SETTABLE_QUANTITIES,
     DesignSpace,
     ParameterValue,
@@ -12,15 +13,20 @@ from rgss.designs import (
     written_values,
 )
 from rgss.documents import Document
-from rgss.findings import Finding, shown
+from rgss.errors import QuantityError
+from rgss.findings import Finding
+from rgss.motion import available_planners
 from rgss.scenes import GripperFile, Robot
-from rgss.studies.study import PlanningChoice
+from rgss.studies.planner_section import planner_problem, require_value
+from rgss.studies.planning_section import PlanningChoice
+from rgss.studies.trial_values import values_of
 
 GRIPPER = "gripper"
 """The role of the components that have a gripper file."""
 
 TIME_LIMIT = "planning.time_limit"
-_FINGERS, _PLANNER, _TOOL_SPEED = "gripper.fingers", "planning.planner", "robot.tool_speed"
+PLANNER = "planning.planner"
+_FINGERS, _TOOL_SPEED = "gripper.fingers", "robot.tool_speed"
 
 
 def design_findings(
@@ -40,7 +46,8 @@ def design_findings(
         planning: How the study plans, which gives values too.
     """
     yield from _missing_findings(designs, document, grippers, default_values(robot, planning))
-    yield from _planner_findings(designs, document)
+    yield from _planner_findings(designs, document, planning)
+    yield from _planner_parameter_findings(designs, document, planning)
     yield from _component_findings(designs, grippers)
 
 
@@ -51,7 +58,7 @@ def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, Param
         robot: The robot.
         planning: How the study plans.
     """
-    given = {_TOOL_SPEED: robot.tool_speed_m_s, _PLANNER: planning.planner or None, TIME_LIMIT: planning.time_limit_s}
+    given = {_TOOL_SPEED: robot.tool_speed_m_s, PLANNER: planning.planner or None, TIME_LIMIT: planning.time_limit_s}
     return {name: value for name, value in given.items() if value is not None}
 
 
@@ -85,14 +92,37 @@ def _missing_findings(
         yield document.finding("design.unset-quantity", message, ("parameters",), hint=hint)
 
 
-def _planner_findings(designs: DesignSpace, document: Document) -> Iterator[Finding]:
-    from rgss.motion import PLANNERS
-
-    planners = {parameter.id for parameter in designs.parameters if parameter.sets == _PLANNER}
+def _planner_findings(designs: DesignSpace, document: Document, planning: PlanningChoice) -> Iterator[Finding]:
+    planners = {parameter.id for parameter in designs.parameters if parameter.sets == PLANNER}
     for location, name, value in written_values(designs):
-        if name in planners and value not in PLANNERS:
-            message, hint = f"there is no planner {shown(value)}", f"planners: {', '.join(PLANNERS)}"
+        if name in planners and (problem := planner_problem(str(value), planning.planners)):
+            message, hint = problem
             yield document.finding("design.planner", message, location, hint=hint)
+
+
+def _planner_parameter_findings(
+    designs: DesignSpace, document: Document, planning: PlanningChoice
+) -> Iterator[Finding]:
+    """Parameters of planners that designs set on a planner which does not have them, or out of its range."""
+    if not any(name.startswith(PLANNER_PREFIX) for name in setters_of(designs)):
+        return
+    found: dict[tuple[str, str, float], int] = {}
+    for variant in designs.expand():
+        values = values_of(variant, {PLANNER: planning.planner})
+        for name, value in values.items():
+            if name.startswith(PLANNER_PREFIX) and isinstance(value, (int, float)):
+                found.setdefault((str(values[PLANNER]), name, value), variant.id)
+    for (planner, name, value), number in found.items():
+        algorithm = planning.planner_settings(planner).algorithm
+        if algorithm not in available_planners():
+            continue  # a finding of its own
+        try:
+            require_value(available_planners()[algorithm], name.removeprefix(PLANNER_PREFIX), value)
+        except QuantityError as error:
+            ids = {parameter.id for parameter in designs.parameters if parameter.sets == name}
+            places = (place for place, own, written in written_values(designs) if own in ids and written == value)
+            message = f"variant {number}: {error.message}"
+            yield document.finding("design.planner-parameter", message, next(places, ("parameters",)), hint=error.hint)
 
 
 def _component_findings(designs: DesignSpace, grippers: Mapping[str, GripperFile]) -> Iterator[Finding]:

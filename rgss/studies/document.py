@@ -12,12 +12,10 @@ from rgss.documents import (
     DocumentModel,
     Hertz,
     Identifier,
-    Metres,
-    Radians,
-    Seconds,
     Text,
 )
 from rgss.findings import shown
+from rgss.studies.planning_section import PlanningEntry
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
@@ -69,19 +67,6 @@ class MovesEntry(DocumentModel):
     move_to_place_approach: MoveName = "planned"
     move_to_place: MoveName = "planned"
     move_to_grasp_approach: MoveName = "planned"
-
-
-class PlanningEntry(DocumentModel):
-    """How moves are planned."""
-
-    clock: Literal["counted", "wall"] = "counted"
-    charge_per_check: Seconds
-    resolution: Radians
-    simplification_checks: Annotated[int, Field(ge=0, le=1_000_000)]
-    simplification_limit: Seconds = 2.0
-    clearance: Metres
-    planner: Text | None = None
-    time_limit: Seconds | None = None
 
 
 class PhysicsEntry(DocumentModel):

@@ -12,7 +12,7 @@ from rgss.evidence import Fidelity
 from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Gripper
-from rgss.studies.design_settings import GRIPPER, TIME_LIMIT, default_values
+from rgss.studies.design_settings import GRIPPER, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.project import Project
 from rgss.studies.trial_values import values_of, with_values
 from rgss.trials import PlanningSettings, TrialSettings
@@ -51,6 +51,8 @@ def trial_settings(project: Project) -> TrialSettings:
             ),
             search_limit_s=_longest_limit(project),
             resolution_rad=planning.resolution_rad,
+            verification_resolution_rad=planning.verification_resolution_rad,
+            on_unverified=planning.on_unverified,
             simplification_checks=planning.simplification_checks,
             simplification_limit_s=planning.simplification_limit_s,
             clearance_m=planning.clearance_m,
@@ -98,4 +100,8 @@ def _spec(
         tool_speed_m_s=math.nan,
         settings=settings,
     )
-    return with_values(spec, values_of(variant, {**defaults, **file.settings}))
+    values = values_of(variant, {**defaults, **file.settings})
+    planner = values.get(PLANNER)
+    if isinstance(planner, str):
+        spec = replace(spec, planner_settings=project.study.planning.planner_settings(planner))
+    return with_values(spec, values)

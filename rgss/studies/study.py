@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePath
 
 from rgss.documents import Document, FilePlace, load_document, place_of
@@ -15,6 +15,7 @@ from rgss.measures import MeasureSet
 from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.studies.document import StudyDocument
+from rgss.studies.planning_section import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression_section import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
@@ -22,33 +23,6 @@ from rgss.studies.until_section import read_until_decided
 from rgss.tradeoff import Anchor
 from rgss.tradeoff.sequential import SequentialRule
 from rgss.trials import MoveKind
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlanningChoice:
-    """How moves are planned.
-
-    Attributes:
-        counted: Whether planning time is counted in validity checks; a wall clock otherwise.
-        charge_per_check_s: Planning time that a validity check is charged with.
-        resolution_rad: Greatest joint step between two checked states.
-        simplification_checks: Validity checks that may be spent on looking for shortcuts.
-        simplification_limit_s: Longest time of simplifying a path by the planning clock.
-        clearance_m: Distance that planned paths keep from everything.
-        planner: The planner where no design sets it; empty if the file has none.
-        time_limit_s: Longest planning time of one move where no design sets it; None if the file has none.
-        moves: Kind of each of the moves of `PLANNED_PHASES`.
-    """
-
-    counted: bool
-    charge_per_check_s: float
-    resolution_rad: float
-    simplification_checks: int
-    simplification_limit_s: float
-    clearance_m: float
-    planner: str = ""
-    time_limit_s: float | None = None
-    moves: tuple[MoveKind, ...] = (MoveKind.PLANNED,) * len(PLANNED_PHASES)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,22 +117,11 @@ def read_study(
             document, {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}, project
         )
     )
-    for key, value in (
-        ("charge_per_check", entry.planning.charge_per_check),
-        ("resolution", entry.planning.resolution),
-        ("time_limit", entry.planning.time_limit),
-    ):
-        if value is not None and value <= 0:
-            findings.append(_not_positive(document, ("planning", key)))
-    if entry.planning.clearance < 0:
-        findings.append(document.finding("study.negative", "clearance must not be negative", ("planning", "clearance")))
-    if entry.planning.simplification_limit < 0:
-        message = "simplification_limit must not be negative"
-        findings.append(document.finding("study.negative", message, ("planning", "simplification_limit")))
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
     elif "contact" in entry.fidelity:
         findings.extend(_coarse_contact(entry, document))
+    planning = read_planning(entry.planning, document, findings)
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
     until_decided = read_until_decided(entry.until_decided, document, findings)
@@ -169,7 +132,6 @@ def read_study(
     findings.extend(places.findings)
     if findings or trade_off is None:
         raise DocumentError(sorted(findings))
-    planning = entry.planning
     return StudyDefinition(
         id=entry.study,
         label=label,
@@ -179,16 +141,8 @@ def read_study(
         seed=entry.seed,
         replicates=entry.replicates,
         fidelity=Fidelity(entry.fidelity[-1]),
-        planning=PlanningChoice(
-            counted=planning.clock == "counted",
-            charge_per_check_s=planning.charge_per_check,
-            resolution_rad=planning.resolution,
-            simplification_checks=planning.simplification_checks,
-            simplification_limit_s=planning.simplification_limit,
-            clearance_m=planning.clearance,
-            planner=planning.planner or "",
-            time_limit_s=planning.time_limit,
-            moves=tuple(MoveKind(getattr(entry.moves, phase.value)) for phase in PLANNED_PHASES),
+        planning=replace(
+            planning, moves=tuple(MoveKind(getattr(entry.moves, phase.value)) for phase in PLANNED_PHASES)
         ),
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,

@@ -7,6 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from rgss.designs import (
+    PLANNER_PREFIX,
+    PLANNER_QUANTITIES,
     SETTABLE_QUANTITIES,
     Application,
     DesignVariant,
@@ -42,7 +44,7 @@ def with_values(spec: TrialSpec, values: Mapping[str, ParameterValue]) -> TrialS
     Raises:
         DefinitionError: A required quantity has no value, or one of another kind.
     """
-    for quantity in SETTABLE_QUANTITIES.values():
+    for quantity in (*SETTABLE_QUANTITIES.values(), *PLANNER_QUANTITIES.values()):
         value = values.get(quantity.name)
         if value is None:
             if quantity.required:
@@ -59,6 +61,9 @@ def with_values(spec: TrialSpec, values: Mapping[str, ParameterValue]) -> TrialS
 
 
 def _applied(spec: TrialSpec, quantity: SettableQuantity, value: ParameterValue) -> TrialSpec:
+    if quantity.application is Application.PLANNER_PARAMETER:
+        name = quantity.name.removeprefix(PLANNER_PREFIX)
+        return replace(spec, planner_settings=spec.planned_by.with_parameter(name, float(value)))
     path = quantity.field.split(".")
     present = field_of(spec, quantity.field)
     if quantity.application is Application.REQUIRE:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.sweep.inline_workers import InlineWorkers
     from rgss.sweep.input_changes import values_by_name
     from rgss.sweep.persistent_pool import PersistentWorkerPool
+    from rgss.sweep.planner_comparison import ComparedPlanner, compared_planners, limits_of
     from rgss.sweep.planning_history import planning_runs
     from rgss.sweep.preview import Cause, DryRun, DueTrials, Reason, dry_run
     from rgss.sweep.replaying import find_trial, replay
@@ -24,6 +25,7 @@ else:
 __all__ = [
     "Agreement",
     "Cause",
+    "ComparedPlanner",
     "DryRun",
     "DueTrials",
     "FinishedTrial",
@@ -38,11 +40,13 @@ __all__ = [
     "WorkerLimits",
     "Workers",
     "beyond_tolerance",
+    "compared_planners",
     "compute",
     "deviation",
     "dry_run",
     "find_trial",
     "key_of",
+    "limits_of",
     "origin_of",
     "planning_runs",
     "replay",

@@ -6,7 +6,6 @@ The guesses decide the order of the work and the remaining time that is shown, n
 from __future__ import annotations
 
 from rgss.evidence import PieceKind
-from rgss.motion import PLANNERS
 from rgss.trials.pieces import Task, TrialTask
 
 TaskClass = tuple[str, str, float]
@@ -16,6 +15,8 @@ _TIMING_S = 0.05
 _MOTION_M = 0.3
 _BENCH_S = 0.4
 _WEIGHT_OF_GUESS = 1.0
+_SEARCH_S = {"RRT": 0.1, "TRRT": 0.2, "STRIDE": 1.0}
+_OTHER_SEARCH_S = 0.2
 
 
 class Durations:
@@ -62,7 +63,7 @@ class Durations:
 
 def _guess_s(tasks: TaskClass) -> float:
     what, planner, speed_m_s = tasks
-    search_s = PLANNERS[planner].typical_search_s if planner in PLANNERS else 0.0
+    search_s = _SEARCH_S.get(planner, _OTHER_SEARCH_S) if planner else 0.0
     motion_s = _MOTION_M / speed_m_s if speed_m_s > 0.0 else 0.0
     return {
         PieceKind.PLAN.value: search_s,

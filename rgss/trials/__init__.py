@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
     from rgss.trials.move_kinds import MoveKind
+    from rgss.trials.plan import PlannedMove, TaskPlan
+    from rgss.trials.planner_searches import searches_of
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.settings import PlanningSettings, TrialSettings
     from rgss.trials.tracing import run_traced_trial
@@ -29,15 +31,18 @@ __all__ = [
     "MoveKind",
     "Obstacle",
     "PhaseValue",
+    "PlannedMove",
     "PlanningSettings",
     "SceneProblem",
     "SceneProblemKind",
     "Simulation",
     "SimulationState",
+    "TaskPlan",
     "TrialSettings",
     "TrialSpec",
     "closing_impact",
     "reach_problems",
     "run_traced_trial",
     "scene_problems",
+    "searches_of",
 ]

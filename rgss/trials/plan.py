@@ -12,11 +12,21 @@ import numpy as np
 
 from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
 from rgss.kinematics import InverseKinematics, choose_branches, straight_line
-from rgss.motion import ClockKind, PlanningClock, PlanningProblem, PlanResult, path_length, plan, segment_states
+from rgss.motion import (
+    ClockKind,
+    PlannerSettings,
+    PlanningClock,
+    PlanningProblem,
+    PlanResult,
+    path_length,
+    plan,
+    segment_states,
+)
 from rgss.scenes import Scene, Waypoint, waypoint_poses
 from rgss.trials.direct_moves import direct_move
 from rgss.trials.goal_reasons import GoalReason, reason_against
 from rgss.trials.move_kinds import MoveKind
+from rgss.trials.planning_costs import state_cost
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
 from rgss.trials.trial_spec import TrialSpec
@@ -32,8 +42,6 @@ _ENDS: Mapping[Phase, tuple[Waypoint, Waypoint]] = {
 }
 """Where each move begins and ends."""
 
-_NO_BUDGET = 2**31 - 1
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedMove:
@@ -42,13 +50,15 @@ class PlannedMove:
     Attributes:
         phase: The move.
         outcome: How it ended.
-        checks: Validity checks of the search.
+        checks: Validity checks of the search, of the verification of its path and of repairs.
         simplification_checks: Validity checks of shortening the path.
         search_time_s: Time of the search by the planning clock; what a limit is held against.
         time_s: Planning time t_sp by the planning clock: search and simplification.
         path_rad: The path's configurations (n, 6); None if there is none.
         path_length_m: Length of the tool's path; None if there is none.
-        detail: What stands in the way, if the problem itself is ill posed.
+        detail: What stands in the way, if the problem itself is ill posed or the path is not valid.
+        verification_checks: Those of `checks` that verified the path.
+        repairs: Motions of the path that were planned anew, because they were not valid.
     """
 
     phase: Phase
@@ -60,6 +70,8 @@ class PlannedMove:
     path_rad: Array | None
     path_length_m: float | None
     detail: str = ""
+    verification_checks: int = 0
+    repairs: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -103,10 +115,19 @@ class TaskPlan:
             path_rad=None,
             path_length_m=None,
             detail="",
+            verification_checks=0,
+            repairs=0,
         )
 
 
-def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSettings) -> TaskPlan:
+def plan_task(
+    cell: Workcell,
+    planner: PlannerSettings | str,
+    *,
+    seed: int,
+    settings: PlanningSettings,
+    past_failures: bool = False,
+) -> TaskPlan:
     """Plan every move of the task.
 
     All planners are given the same configurations at the waypoints, and each move has its own
@@ -114,12 +135,14 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
 
     Args:
         cell: Scene, arm and collision models.
-        planner: Name of one of `rgss.motion.PLANNERS`.
+        planner: The planner with its parameters, or the name of one with OMPL's.
         seed: The trial's seed.
-        settings: Clock, limit, resolution.
+        settings: Clock, limit, resolutions.
+        past_failures: Whether the moves after one that finds no path are planned too, as planners are compared.
     """
     scene, models = cell.scene, cell.planning
     stops, lift, reasons = _configurations(cell)
+    chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
     moves: dict[Phase, PlannedMove] = {}
     for phase, kind in zip(PLANNED_PHASES, settings.moves, strict=True):
         start, goal = (stops.get(waypoint) for waypoint in _ENDS[phase])
@@ -137,16 +160,18 @@ def plan_task(cell: Workcell, planner: str, *, seed: int, settings: PlanningSett
         result = plan(
             _problem(scene, start, goal, settings),
             models[phase],
-            planner,
+            chosen,
             seed=_move_seed(seed, phase),
             clock=settings.clock,
-            budget_checks=_budget(settings),
+            budget_checks=settings.search_checks,
             limit_s=settings.search_limit_s,
             simplification_checks=settings.simplification_checks,
             simplification_limit_s=settings.simplification_limit_s,
+            on_unverified=settings.on_unverified,
+            cost=state_cost(cell, phase, chosen.objective),
         )
         moves[phase] = _planned(phase, result, cell, settings)
-        if result.outcome is not PlanOutcome.SOLVED:
+        if result.outcome is not PlanOutcome.SOLVED and not past_failures:
             break
     return TaskPlan(moves=moves, lift_rad=lift, clock=settings.clock)
 
@@ -160,7 +185,7 @@ def plan_of(spec: TrialSpec) -> TaskPlan:
     Raises:
         MotionError: The planner is not there.
     """
-    return plan_task(cell_of(spec), spec.planner, seed=spec.seed, settings=spec.settings.planning)
+    return plan_task(cell_of(spec), spec.planned_by, seed=spec.seed, settings=spec.settings.planning)
 
 
 @lru_cache(maxsize=4)
@@ -227,14 +252,8 @@ def _problem(scene: Scene, start: Array, goal: Array, settings: PlanningSettings
         start=tuple(start.tolist()),
         goal=tuple(goal.tolist()),
         resolution_rad=settings.resolution_rad,
+        verification_resolution_rad=settings.verification_resolution_rad,
     )
-
-
-def _budget(settings: PlanningSettings) -> int:
-    """Validity checks of a search; a search by the wall clock is bounded by its time alone."""
-    if settings.clock.kind is ClockKind.COUNTED:
-        return settings.clock.checks_within(settings.search_limit_s)
-    return _NO_BUDGET
 
 
 def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: PlanningSettings) -> PlannedMove:
@@ -247,7 +266,17 @@ def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: Plannin
         search_time_s=result.search_time_s,
         time_s=result.search_time_s + result.simplification_time_s,
         path_rad=path,
-        path_length_m=None if path is None else _tool_path_length(cell, path, settings.resolution_rad),
+        path_length_m=None if path is None else _tool_path_length(cell, path, settings.verified_every_rad),
+        detail=_unverified_detail(result, settings) if result.outcome is PlanOutcome.NOT_VERIFIED else "",
+        verification_checks=result.verification_checks,
+        repairs=result.repairs,
+    )
+
+
+def _unverified_detail(result: PlanResult, settings: PlanningSettings) -> str:
+    return (
+        f"the path that was found after {result.checks} validity checks touches something between states "
+        f"{settings.resolution_rad:g} rad apart"
     )
 
 

@@ -23,6 +23,7 @@ from rgss.trials.trial_spec import TrialSpec
 
 _PLANNING_FAILURES = {
     PlanOutcome.BUDGET_SPENT: Failure.PLANNING_LIMIT,
+    PlanOutcome.NOT_VERIFIED: Failure.PATH_NOT_VERIFIED,
     PlanOutcome.INVALID_START: Failure.INVALID_START,
     PlanOutcome.INVALID_GOAL: Failure.INVALID_GOAL,
     PlanOutcome.MOVE_BLOCKED: Failure.MOVE_BLOCKED,

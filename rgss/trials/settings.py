@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from rgss.evidence import PLANNED_PHASES, Phase
-from rgss.motion import PlanningClock
+from rgss.motion import ClockKind, OnUnverified, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.trials.move_kinds import MoveKind
 from rgss.trials.plants import ControlSettings
+
+_NO_BUDGET = 2**31 - 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -19,7 +21,10 @@ class PlanningSettings:
         clock: What a planner's time is counted by.
         search_limit_s: How long a shared search goes on: at least the greatest planning limit
             of any design, which are all read off it.
-        resolution_rad: Greatest joint step between two checked states of a path.
+        resolution_rad: Greatest joint step between two states of a motion that a search checks.
+        verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as
+            the search if None.
+        on_unverified: What is done with a path of the search that is not valid at that resolution.
         simplification_checks: Validity checks that may be spent on looking for shortcuts.
         simplification_limit_s: Longest time of simplifying a path by the planning clock, the final check of
             its result included. A move's planning time is at most the planning limit and this one together.
@@ -30,6 +35,8 @@ class PlanningSettings:
     clock: PlanningClock
     search_limit_s: float
     resolution_rad: float = 0.01
+    verification_resolution_rad: float | None = None
+    on_unverified: OnUnverified = OnUnverified.FAIL
     simplification_checks: int = 1500
     simplification_limit_s: float = 2.0
     clearance_m: float = 0.008
@@ -40,6 +47,19 @@ class PlanningSettings:
         """The moves that a planner searches for."""
         kinds = zip(PLANNED_PHASES, self.moves, strict=True)
         return frozenset(phase for phase, kind in kinds if kind is MoveKind.PLANNED)
+
+    @property
+    def search_checks(self) -> int:
+        """Validity checks of a search; a search by the wall clock is bounded by its time alone."""
+        if self.clock.kind is ClockKind.COUNTED:
+            return self.clock.checks_within(self.search_limit_s)
+        return _NO_BUDGET
+
+    @property
+    def verified_every_rad(self) -> float:
+        """Greatest joint step between two checked states of the path that will run."""
+        given = self.verification_resolution_rad
+        return self.resolution_rad if given is None else given
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

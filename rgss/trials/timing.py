@@ -70,7 +70,7 @@ def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings
             )
             continue
         result = time_move(
-            JointPath(path), cell.running[phase], cell.arm, limits, resolution_rad=settings.resolution_rad
+            JointPath(path), cell.running[phase], cell.arm, limits, resolution_rad=settings.verified_every_rad
         )
         if result.trajectory is None:
             failures[phase] = _FAILURES[result.outcome]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rgss.evidence import Fidelity
+from rgss.motion import PlannerSettings
 from rgss.scenes import Gripper, Scene
 from rgss.trials.settings import TrialSettings
 
@@ -19,10 +20,11 @@ class TrialSpec:
         fidelity: How much physics it has.
         scene: Where it happens.
         gripper: The gripper of the design.
-        planner: Name of the planner of the design.
+        planner: Name of the planner of the design, in the study or in OMPL.
         planning_limit_s: Longest planning time for one move.
         tool_speed_m_s: Greatest tool speed.
         settings: How it is planned and simulated.
+        planner_settings: The planner with its parameters; the one of OMPL with that name if None.
     """
 
     variant: int
@@ -34,3 +36,9 @@ class TrialSpec:
     planning_limit_s: float
     tool_speed_m_s: float
     settings: TrialSettings
+    planner_settings: PlannerSettings | None = None
+
+    @property
+    def planned_by(self) -> PlannerSettings:
+        """The planner with its parameters."""
+        return self.planner_settings or PlannerSettings(algorithm=self.planner)

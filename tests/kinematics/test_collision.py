@@ -309,3 +309,22 @@ def test_the_first_invalid_of_many_is_the_first_that_is_invalid(scene, gripper, 
         lengths.append(len(states) if first is None else first)
     assert max(lengths) > 2
     assert min(lengths) == 0
+
+
+def test_the_clearance_is_the_greatest_that_a_model_can_keep(scene, gripper, empty, configurations):
+    """Bisected by models with a clearance of their own, which make no query of a distance."""
+    model = CollisionModel(scene, gripper, empty)
+    free = [q for q in configurations(200) if model.is_valid(q)][:12]
+    assert len(free) == 12
+    for q in free:
+        clearance_m = model.clearance_m(q)
+        assert 0.0 < clearance_m < 5.0
+        for change_m, valid in ((-1e-5, True), (1e-5, False)):
+            kept = CollisionModel(scene, gripper, empty, clearance_m=clearance_m + change_m)
+            assert kept.is_valid(q) == valid
+
+
+def test_links_of_the_arm_do_not_count_as_clearance(scene, gripper, empty, configurations):
+    model = CollisionModel(scene, gripper, empty)
+    assert any(model.clearance_m(q) > model.distance(q) + 0.01 for q in configurations(100))
+    assert all(model.clearance_m(q) >= model.distance(q) for q in configurations(100))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.kinematics import ArmDynamics, Load, gripper_loads, workpiece_load
+from rgss.kinematics import Arm, ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.scenes import Gripper, Pose, load_gripper, load_scene
 from rgss.scenes.assembly import assembled_urdf, finger_joint
 
@@ -206,3 +206,24 @@ def test_loads_of_a_gripper_are_its_parts(hand):
 def test_a_robot_that_is_ill_defined_is_refused(ur10):
     with pytest.raises(DefinitionError, match="has no link hand to carry the gripper"):
         dynamics(replace(ur10, flange="hand"))
+
+
+def test_the_gradient_of_the_potential_energy_is_the_torque_at_rest(ur10, hand, states):
+    arm = ArmDynamics(ur10, gripper_loads(hand, 0.03), gravity_m_s2=GRAVITY_M_S2)
+    step = 1e-5
+    for q, _, _ in states(10):
+        gradient = [
+            (arm.potential_energy_j(q + step * axis) - arm.potential_energy_j(q - step * axis)) / (2 * step)
+            for axis in np.eye(6)
+        ]
+        assert gradient == pytest.approx(arm.torques(q, REST, REST), abs=1e-4)
+
+
+def test_a_load_adds_its_weight_times_the_height_of_the_flange(ur10):
+    mass_kg = 3.0
+    load = Load(mass_kg=mass_kg, moments_kg_m2=(0.0, 0.0, 0.0), pose=Pose())
+    bare, loaded = (ArmDynamics(ur10, loads, gravity_m_s2=GRAVITY_M_S2) for loads in ((), (load,)))
+    arm = Arm(ur10, Pose())
+    for q in np.random.default_rng(4).uniform(-2, 2, (5, 6)):
+        added = loaded.potential_energy_j(q) - bare.potential_energy_j(q)
+        assert added == pytest.approx(mass_kg * GRAVITY_M_S2 * arm.tool_position(q[None])[0, 2], abs=1e-9)

@@ -17,7 +17,7 @@ assert not late, late
 PLANNED = """
 import numpy
 {before}
-from rgss.motion import PLANNERS, PlanningClock, PlanningProblem, plan
+from rgss.motion import SOURCE_PLANNERS, PlanningClock, PlanningProblem, plan
 {after}
 class Open:
     def is_valid(self, q):
@@ -25,7 +25,7 @@ class Open:
 problem = PlanningProblem(
     lower_rad=(-3.0,) * 6, upper_rad=(3.0,) * 6, start=(0.0,) * 6, goal=(1.0,) * 6, resolution_rad=0.05
 )
-for planner in PLANNERS:
+for planner in SOURCE_PLANNERS:
     result = plan(
         problem, Open(), planner, seed=1, budget_checks=5000, simplification_checks=100, clock=PlanningClock()
     )

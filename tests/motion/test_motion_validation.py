@@ -7,7 +7,7 @@ from operator import itemgetter
 import numpy as np
 import pytest
 
-from rgss.motion import PLANNERS
+from rgss.motion import SOURCE_PLANNERS
 from rgss.motion.engine import load_engine
 from rgss.motion.motion_validation import motion_validator
 from rgss.motion.validity import first_invalid_between
@@ -75,7 +75,7 @@ def test_it_finds_what_the_engine_finds_check_for_check(arena):
     assert 20 < sum(verdicts) < len(verdicts) - 20
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_every_planner_searches_as_with_the_engines_own(planner, seed):
     # STRIDE also asks how far a motion is valid, which nothing but the engine itself can ask.

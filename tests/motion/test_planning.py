@@ -15,8 +15,15 @@ import pytest
 
 from rgss.errors import MotionError
 from rgss.evidence.records.outcomes import PlanOutcome
-from rgss.motion import PLANNERS, ClockKind, Planner, PlanningClock, outcome_within, plan
-from rgss.motion.engine import load_engine
+from rgss.motion import (
+    SOURCE_PLANNERS,
+    ClockKind,
+    PlannerSettings,
+    PlanningClock,
+    available_planners,
+    outcome_within,
+    plan,
+)
 from rgss.motion.paths import path_states
 
 pytestmark = pytest.mark.engine
@@ -38,7 +45,7 @@ def fields(result):
     return result.outcome, result.checks, result.simplification_checks, result.search_time_s, path
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 @pytest.mark.parametrize("seed", range(4))
 def test_a_path_leads_from_start_to_goal_and_is_valid_throughout(planned, through_the_doorway, wall, planner, seed):
     result = planned(planner, seed=seed, simplification_checks=300)
@@ -50,7 +57,7 @@ def test_a_path_leads_from_start_to_goal_and_is_valid_throughout(planned, throug
     assert np.all(np.abs(points) <= 2.0)
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 def test_without_simplification_the_path_is_valid_too(planned, through_the_doorway, wall, planner):
     for seed in range(5):
         result = planned(planner, seed=seed)
@@ -58,7 +65,7 @@ def test_without_simplification_the_path_is_valid_too(planned, through_the_doorw
         assert result.simplification_checks == 0
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 def test_every_check_is_counted(planned, wall, planner):
     result = planned(planner, seed=3, simplification_checks=200)
     # Start and goal are looked at once more before the search, uncounted.
@@ -66,7 +73,7 @@ def test_every_check_is_counted(planned, wall, planner):
     assert result.search_time_s == pytest.approx(result.checks * 0.001)
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 def test_a_smaller_budget_is_read_off_a_larger_search(planned, planner):
     boundaries = 0
     for seed in range(15):
@@ -85,7 +92,7 @@ def test_a_smaller_budget_is_read_off_a_larger_search(planned, planner):
     assert boundaries == 15
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 def test_neither_budget_nor_clock_changes_what_is_found(planned, planner):
     one = planned(planner, seed=2, simplification_checks=300)
     other = planned(planner, seed=2, simplification_checks=300, budget_checks=50_000, clock=PlanningClock(charge_s=0.5))
@@ -97,7 +104,7 @@ def test_seeds_give_different_searches(planned):
     assert len({planned(seed=seed).checks for seed in range(10)}) > 5
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 def test_the_simplification_does_not_depend_on_the_search(planned, planner):
     raw = planned(planner, seed=4)
     for budget in (100, 400):
@@ -106,7 +113,7 @@ def test_the_simplification_does_not_depend_on_the_search(planned, planner):
         assert result.path.length_rad <= raw.path.length_rad
 
 
-JOBS = [(planner, seed, budget) for planner in PLANNERS for seed in range(5) for budget in (300, 2000)]
+JOBS = [(planner, seed, budget) for planner in SOURCE_PLANNERS for seed in range(5) for budget in (300, 2000)]
 
 
 def _digests(planned, jobs):
@@ -130,9 +137,9 @@ ELSEWHERE = """
 import hashlib, json, sys
 sys.path.insert(0, sys.argv[1])
 import conftest
-from rgss.motion import PLANNERS, PlanningClock, PlanningProblem, plan
+from rgss.motion import SOURCE_PLANNERS, PlanningClock, PlanningProblem, plan
 problem = PlanningProblem(**json.loads(sys.argv[2]))
-for planner in reversed(PLANNERS):
+for planner in reversed(SOURCE_PLANNERS):
     result = plan(problem, conftest.Wall(), planner, seed=7, budget_checks=20000, simplification_checks=300,
                   clock=PlanningClock(charge_s=0.001))
     print(planner, result.checks, result.simplification_checks, hashlib.sha256(result.path.points_rad).hexdigest())
@@ -143,7 +150,7 @@ def test_another_process_finds_the_same(planned, through_the_doorway):
     for warm_up in range(3):
         planned("TRRT", seed=warm_up)
     here = set()
-    for planner in PLANNERS:
+    for planner in SOURCE_PLANNERS:
         result = planned(planner, seed=7, simplification_checks=300)
         digest = hashlib.sha256(result.path.points_rad).hexdigest()
         here.add(f"{planner} {result.checks} {result.simplification_checks} {digest}")
@@ -171,7 +178,7 @@ def test_a_start_or_goal_that_is_invalid(planned, through_the_doorway):
     assert beyond.outcome is PlanOutcome.INVALID_GOAL
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 def test_a_goal_that_cannot_be_reached_spends_the_budget(planned, through_the_doorway, planner):
     class Closed:
         def is_valid(self, q):
@@ -181,7 +188,7 @@ def test_a_goal_that_cannot_be_reached_spends_the_budget(planned, through_the_do
     assert fields(result) == (PlanOutcome.BUDGET_SPENT, 3000, 0, pytest.approx(3.0), None)
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 def test_a_move_to_where_the_arm_is(planned, through_the_doorway, planner):
     result = planned(planner, problem=replace(through_the_doorway, goal=through_the_doorway.start))
     assert result.outcome is PlanOutcome.SOLVED
@@ -189,7 +196,7 @@ def test_a_move_to_where_the_arm_is(planned, through_the_doorway, planner):
 
 
 def test_a_shorter_range_makes_shorter_steps(planned):
-    steps = np.diff(planned(range_rad=0.3).path.points_rad, axis=0)
+    steps = np.diff(planned(PlannerSettings(algorithm="RRT", parameters=(("range", 0.3),))).path.points_rad, axis=0)
     assert np.max(np.linalg.norm(steps, axis=1)) <= 0.3 + 1e-9
 
 
@@ -225,32 +232,11 @@ def test_an_error_of_the_validity_check_comes_through(planned):
         planned(validity=Impassable())
 
 
-def test_every_planner_is_a_class_of_the_engine_under_its_name():
-    for name, planner in PLANNERS.items():
-        assert planner.name == name
-        assert planner.meaning
-        assert hasattr(load_engine().geometric, planner.ompl_class)
-
-
-@pytest.mark.parametrize("range_rad", [0.1, 3.0])
-def test_a_new_planner_is_one_entry(planned, monkeypatch, range_rad):
-    new = Planner(name="Both", ompl_class="RRTConnect", meaning="two trees", settings={"setRange": range_rad})
-    used = {**PLANNERS, "Both": new}
-    for module in ("planning", "search"):
-        monkeypatch.setattr(f"rgss.motion.{module}.PLANNERS", used)
-
-    found = planned("Both", seed=3)
-
-    assert found.outcome is PlanOutcome.SOLVED
-    longest = np.linalg.norm(np.diff(found.path.points_rad, axis=0), axis=1).max()
-    assert (longest <= 0.1 + 1e-9) == (range_rad == 0.1)
-
-
 def test_a_planner_that_there_is_not(planned):
     with pytest.raises(MotionError) as caught:
         planned("RRTStar")
     assert caught.value.message == "unknown planner 'RRTStar'"
-    assert caught.value.hint == f"the planners are {', '.join(PLANNERS)}"
+    assert caught.value.hint == f"the planners are {', '.join(available_planners())}"
 
 
 def test_a_seed_that_is_none(planned):
@@ -268,7 +254,7 @@ def test_a_budget_below_zero(planned, name):
     assert caught.value.hint == "give a whole number"
 
 
-@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("planner", SOURCE_PLANNERS)
 @pytest.mark.parametrize("limit_s", [0.0, 0.03, 0.5, 0.9, 2.0, 60.0])
 def test_the_simplification_keeps_its_limit_by_the_counted_clock(planned, wall, planner, limit_s):
     for seed in range(6):

@@ -25,8 +25,6 @@ NOT_DIVIDED_YET = {
     "rgss/tradeoff/portfolio/portfolio.py": 379,
     "rgss/tradeoff/robustness/effects.py": 312,
     "rgss/tradeoff/sequential/sequential.py": 365,
-    "rgss/motion/planning.py:plan": 66,
-    "rgss/studies/study.py:read_study": 69,
 }
 """Files, and functions behind a colon, with their lengths."""
 

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from rgss.motion import PLANNERS
+from rgss.motion import SOURCE_PLANNERS, available_planners
 
 SPACE, CATALOGUE = "designs/grasping_system.yaml", "designs/catalogue.yaml"
 
@@ -43,12 +43,25 @@ def test_values(edit, problems, place_of, old, new, at, expected):
 
 @pytest.mark.verifies("SYS-031")
 def test_a_planner_that_only_the_catalogue_knows(edit, problems, place_of):
-    edit(SPACE, "sets: {d8: TRRT}", "sets: {d8: PRM}")
-    edit(CATALOGUE, "matches: {d8: TRRT}", "matches: {d8: PRM}")
+    edit(SPACE, "sets: {d8: TRRT}", "sets: {d8: RRTconect}")
+    edit(CATALOGUE, "matches: {d8: TRRT}", "matches: {d8: RRTconect}")
 
-    assert problems() == [
-        f"{place_of(SPACE, 'PRM')}: error: there is no planner 'PRM' (planners: {', '.join(PLANNERS)}) [design.planner]"
-    ]
+    (problem,) = problems()
+    assert problem == (
+        f"{place_of(SPACE, 'RRTconect')}: error: there is no planner 'RRTconect' "
+        f"(did you mean 'RRTConnect'? planners: {', '.join(available_planners())}) [design.planner]"
+    )
+
+
+def test_a_planner_of_ompl_that_cannot_be_run(edit, problems, place_of):
+    edit(SPACE, "sets: {d8: TRRT}", "sets: {d8: SPARS}")
+    edit(CATALOGUE, "matches: {d8: TRRT}", "matches: {d8: SPARS}")
+
+    (problem,) = problems()
+    assert problem.startswith(
+        f"{place_of(SPACE, 'SPARS')}: error: planner SPARS cannot be run: "
+        "it looks for a solution in a second thread, by a wall clock (planners: "
+    )
 
 
 def test_a_quantity_that_nothing_sets(edit, problems, place_of):
@@ -87,7 +100,7 @@ def test_a_parameter_of_another_unit(edit, problems, place_of):
 
 def test_a_planner_that_is_a_number(edit, problems, place_of):
     edit(SPACE, "    kind: name\n    role: planner\n", '    unit: "1"\n')
-    for number, planner in enumerate(PLANNERS):
+    for number, planner in enumerate(SOURCE_PLANNERS):
         edit(SPACE, f"d8: {planner}", f"d8: {number}")
         edit(CATALOGUE, f"d8: {planner}", f"d8: {number}")
 

@@ -230,6 +230,37 @@ def test_an_ill_posed_problem_says_what_stands_in_the_way(spec, outcome, failure
     assert record.planning[index].outcome is outcome
 
 
+@pytest.mark.parametrize(
+    ("limit_s", "outcome", "failure", "detail"),
+    [
+        (4.0, PlanOutcome.NOT_VERIFIED, Failure.PATH_NOT_VERIFIED, "it touches something"),
+        (2.0, PlanOutcome.BUDGET_SPENT, Failure.PLANNING_LIMIT, "found no path in 2 s (2000 validity checks)"),
+    ],
+)
+def test_a_path_that_is_not_verified_is_no_planning_limit_unless_it_came_too_late(
+    spec, limit_s, outcome, failure, detail
+):
+    phase = PLANNED_PHASES[1]
+    touching = move(
+        phase,
+        3000,
+        outcome=PlanOutcome.NOT_VERIFIED,
+        path_rad=None,
+        path_length_m=None,
+        time_s=3.0,
+        detail="it touches something",
+    )
+    record = assemble_record(
+        replace(spec, planning_limit_s=limit_s), plan_of(1000, **{phase.value: touching}), {}, EXECUTION[:3]
+    )
+
+    assert (record.failure, record.failed_phase) == (failure, phase)
+    assert record.failure_detail.endswith(detail)
+    assert record.planning[1].outcome is outcome
+    assert record.planning[1].time_s == min(limit_s, 3.0)
+    assert record_from_json(record_to_json(record)) == record
+
+
 @pytest.mark.parametrize("phase", [*PLANNED_PHASES, Phase.LIFT])
 @pytest.mark.parametrize(
     "failure", [Failure.TRAJECTORY_IN_COLLISION, Failure.TRAJECTORY_INFEASIBLE, Failure.UNREACHABLE_WAYPOINT]

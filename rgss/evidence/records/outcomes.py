@@ -46,12 +46,14 @@ class PlanOutcome(str, Enum):
     MOVE_BLOCKED = "move_blocked"
     MOVE_UNREACHABLE = "move_unreachable"
     NOT_RUN = "not_run"
+    NOT_VERIFIED = "not_verified"
 
 
 class Failure(str, Enum):
     """Failure that ended a trial before its last phase was complete."""
 
     PLANNING_LIMIT = "planning_limit"
+    PATH_NOT_VERIFIED = "path_not_verified"
     INVALID_START = "invalid_start"
     INVALID_GOAL = "invalid_goal"
     MOVE_BLOCKED = "move_blocked"

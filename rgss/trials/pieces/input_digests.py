@@ -1,10 +1,9 @@
 """The digests of exactly the inputs of each piece of a trial.
 
-A trial is cut where its inputs are. The *plan* needs the scene, the gripper's shape, the planner and
-the seed; the *timing* needs the plan, the tool speed and how fast the joints may move; the *execution*
-needs the timing, the joints' torques and the gripper's masses, forces and friction; the *bench* needs
-the gripper and the object alone; only the *record* needs the planning limit. Variants that share a
-piece's digest share the piece.
+A trial is cut where its inputs are. The *plan* needs the scene, the gripper's shape, the planner with its parameters
+and the seed; the *timing* needs the plan, the tool speed and how fast the joints may move; the *execution* needs the
+timing, the joints' torques and the gripper's masses, forces and friction; the *bench* needs the gripper and the
+object alone; only the *record* needs the planning limit. Variants that share a piece's digest share the piece.
 """
 
 from __future__ import annotations
@@ -15,6 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 from rgss.documents import digest
+from rgss.motion import Objective
 from rgss.scenes import Robot, Scene, Shape
 from rgss.trials.code import ENTRIES, versions_of
 from rgss.trials.payload_bench import BenchSpec, bench_of
@@ -67,7 +67,8 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     plan = _joined(
         _geometry_digest(spec.scene),
         _digest_of(spec.gripper.geometry),
-        spec.planner,
+        _digest_of(spec.planned_by),
+        _potential_digest(spec),
         spec.seed,
         _digest_of(spec.settings.planning),
         used["plan"],
@@ -120,6 +121,12 @@ def physics_inputs(scene: Scene) -> dict[str, Any]:
         ],
         "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
     }
+
+
+def _potential_digest(spec: TrialSpec) -> float:
+    """Gravity where the planner keeps the work against it low; nothing else of planning depends on it."""
+    needs_gravity = spec.planned_by.objective is Objective.MECHANICAL_WORK
+    return spec.scene.gravity_m_s2 if needs_gravity else 0.0
 
 
 @lru_cache(maxsize=_KEPT)

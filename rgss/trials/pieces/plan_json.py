@@ -26,6 +26,8 @@ class _Move:
     path_rad: FloatArray | None
     path_length_m: float | None
     detail: str
+    verification_checks: int
+    repairs: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +54,8 @@ def plan_to_json(plan: TaskPlan) -> str:
             path_rad=None if move.path_rad is None else FloatArray.of(move.path_rad),
             path_length_m=move.path_length_m,
             detail=move.detail,
+            verification_checks=move.verification_checks,
+            repairs=move.repairs,
         )
         for move in plan.moves.values()
     )
@@ -80,6 +84,8 @@ def plan_from_json(text: str) -> TaskPlan:
             path_rad=_path(move.path_rad),
             path_length_m=move.path_length_m,
             detail=move.detail,
+            verification_checks=move.verification_checks,
+            repairs=move.repairs,
         )
         for move in read.moves
     }

@@ -18,7 +18,7 @@ from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.decision.what_if import measured_in, suppose
 from rgss.decision.what_if.numbers import assumed_numbers, model_numbers
-from rgss.motion import PLANNERS
+from rgss.motion import SOURCE_PLANNERS
 from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
 from rgss.tradeoff import Aim, Comparison, ElicitedInterval, Lexicographic
 from rgss.tradeoff.problem.evidence_table import tabulated
@@ -201,7 +201,8 @@ def test_effects_on_every_measure(found, measured):
     assert leading_factors(effects["P_max"]) == pytest.approx({"fingers": 1.0})
     planner = next(one for one in effects["t_p"].analysis.effects if one.factors == ("planner",))
     means = [
-        np.mean([e.estimates["t_p"].value for e in measured if e.variant.parameters["d8"] == name]) for name in PLANNERS
+        np.mean([e.estimates["t_p"].value for e in measured if e.variant.parameters["d8"] == name])
+        for name in SOURCE_PLANNERS
     ]
     assert planner.levels == pytest.approx(np.array(means) - effects["t_p"].analysis.mean)
     assert (planner.low <= planner.levels).all()

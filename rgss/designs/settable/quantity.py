@@ -1,0 +1,48 @@
+"""A quantity of a trial that a design can set, and how it is applied."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.designs.parameters import ParameterKind
+
+
+class Application(Enum):
+    """How the value of a quantity gets into a trial."""
+
+    REPLACE = "replaces the field"
+    REQUIRE = "must equal the field"
+    ADD_FOR_EACH_FINGER = "is added to the field once for each finger"
+    PLANNER_PARAMETER = "is a parameter of the field, which is the planner"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SettableQuantity:
+    """A quantity of a trial that a design can set.
+
+    Attributes:
+        name: Its name in files, such as ``robot.tool_speed``.
+        kind: What its values are.
+        unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
+        meaning: What it is, in a sentence.
+        field: The field of `rgss.trials.pieces.TrialSpec` that it sets, such as ``gripper.finger_mass_kg``.
+        application: How it is applied to the field.
+        default: The file and key that give its value where no design does; empty if there is none.
+        required: Whether a trial cannot be made without it.
+        positive: Whether it must be greater than zero.
+        least: The least value that is accepted, with its unit; empty for none.
+        least_reason: Why a smaller value is refused.
+    """
+
+    name: str
+    kind: ParameterKind = ParameterKind.QUANTITY
+    unit: str
+    meaning: str
+    field: str
+    application: Application = Application.REPLACE
+    default: str = ""
+    required: bool = True
+    positive: bool = True
+    least: str = ""
+    least_reason: str = ""

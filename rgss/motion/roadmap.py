@@ -1,0 +1,81 @@
+"""Probabilistic roadmaps, grown one milestone at a time."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.motion.engine import Engine
+
+Vector = NDArray[np.float64]
+
+
+def solve_by_roadmap(
+    engine: Engine,
+    algorithm: Any,
+    information: Any,
+    angles_of: Callable[[Any], tuple[float, ...]],
+    is_over: Callable[[], bool],
+) -> Vector | None:
+    """Grow a roadmap until start and goal are connected; the shortest path through it.
+
+    OMPL's own ``PRM::solve`` looks for a solution in a second thread by a wall clock, so that its result differs from
+    run to run. Here the roadmap is searched after each milestone that was added, and nothing is left to the clock.
+
+    Args:
+        engine: The planning engine.
+        algorithm: A PRM of it that is set up with its problem.
+        information: Its space information.
+        angles_of: Reads the joint angles (rad) of a state.
+        is_over: Termination predicate.
+
+    Returns:
+        Corners of the path in rad, shape (n, joints); None where it was ended before.
+    """
+    condition = engine.base.PlannerTerminationCondition
+    predicate = engine.base.PlannerTerminationConditionFn
+    at_once = predicate(lambda: True)
+    # Adds start and goal as the first two milestones, and grows nothing.
+    algorithm.solve(condition(at_once))
+    while True:
+        corners = _shortest_path(engine, algorithm, information, angles_of)
+        if corners is not None or is_over():
+            return corners
+        before = algorithm.milestoneCount()
+        until = predicate(lambda before=before: is_over() or algorithm.milestoneCount() > before)
+        algorithm.growRoadmap(condition(until))
+
+
+def _shortest_path(
+    engine: Engine, algorithm: Any, information: Any, angles_of: Callable[[Any], tuple[float, ...]]
+) -> Vector | None:
+    """The shortest path from the start to the goal by Dijkstra's algorithm; None if they are not connected."""
+    data = engine.base.PlannerData(information)
+    algorithm.getPlannerData(data)
+    if data.numStartVertices() == 0 or data.numGoalVertices() == 0:
+        return None
+    start, goal = data.getStartIndex(0), data.getGoalIndex(0)
+    states = [np.array(angles_of(data.getVertex(index).getState())) for index in range(data.numVertices())]
+    distances, before = {start: 0.0}, {start: start}
+    queue = [(0.0, start)]
+    while queue:
+        distance, here = heapq.heappop(queue)
+        if here == goal:
+            path = [goal]
+            while path[-1] != start:
+                path.append(before[path[-1]])
+            return np.array([states[index] for index in reversed(path)])
+        if distance > distances[here]:
+            continue
+        neighbours = engine.util.vectorUint()
+        data.getEdges(here, neighbours)
+        for other in neighbours:
+            further = distance + float(np.linalg.norm(states[other] - states[here]))
+            if further < distances.get(other, np.inf):
+                distances[other], before[other] = further, here
+                heapq.heappush(queue, (further, other))
+    return None

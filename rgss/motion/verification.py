@@ -1,0 +1,82 @@
+"""Verification of a path between the states at which its search checked it."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.motion.paths import coarse_to_fine, segment_states
+from rgss.motion.validity import StateValidity, first_invalid_between
+
+Vector = NDArray[np.float64]
+
+Replan = Callable[[Vector, Vector, int, int], tuple[Vector | None, int]]
+"""Plans a motion anew: its ends, its number, the checks so far; its corners, if any, and the checks that it took."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Verification:
+    """Result of the verification of a path.
+
+    Attributes:
+        corners: Corners of the path in rad, shape (n, joints), with the motions that were planned anew.
+        is_valid: Whether every state is valid; False also where a motion could not be planned anew.
+        gave_up: Whether a motion could not be planned anew within the budget.
+        checks: Validity checks of the verification.
+        repair_checks: Validity checks of planning motions anew.
+        repairs: Motions that were planned anew.
+    """
+
+    corners: Vector
+    is_valid: bool
+    gave_up: bool = False
+    checks: int
+    repair_checks: int = 0
+    repairs: int = 0
+
+
+def verified(
+    corners: Vector, validity: StateValidity, *, resolution_rad: float, replan: Replan | None = None
+) -> Verification:
+    """Check the motions of a path at a resolution, and plan those anew that are not valid.
+
+    Motions are checked in order, each by halving. A motion that touches something between its ends is replaced by
+    a path between the same ends which is searched for at the same resolution, and so needs no check of its own.
+
+    Args:
+        corners: Corners of the path in rad, shape (n, joints); every corner is valid.
+        validity: Tells valid states from invalid ones.
+        resolution_rad: Greatest Euclidean distance in joint space between two checked states.
+        replan: Plans a motion anew; None ends the verification at the first that is not valid.
+    """
+    find = first_invalid_between(validity)
+    kept, checks, repair_checks, repairs = [corners[:1]], 0, 0, 0
+    for number, (start, end) in enumerate(itertools.pairwise(corners)):
+        states = segment_states(start, end, resolution_rad)[:-1]
+        index = find(states[list(coarse_to_fine(len(states)))]) if len(states) else None
+        checks += len(states) if index is None else index + 1
+        if index is None:
+            kept.append(end[None])
+            continue
+        if replan is None:
+            return Verification(corners=corners, is_valid=False, checks=checks)
+        around, took = replan(start, end, number, checks + repair_checks)
+        repair_checks += took
+        if around is None:
+            return Verification(
+                corners=corners,
+                is_valid=False,
+                gave_up=True,
+                checks=checks,
+                repair_checks=repair_checks,
+                repairs=repairs,
+            )
+        repairs += 1
+        kept.append(around[1:])
+    return Verification(
+        corners=np.vstack(kept), is_valid=True, checks=checks, repair_checks=repair_checks, repairs=repairs
+    )
