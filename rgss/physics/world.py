@@ -14,12 +14,13 @@ from types import TracebackType
 from typing import Any
 
 from rgss.errors import SimulationError
+from rgss.physics.bodies import add_body
 from rgss.physics.contact_reader import ContactReader
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.hand_view import HandView
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import RIBS, Box, Gripper, Pose, Scene, Shape, assembled_urdf, finger_joint, pad_ribs
+from rgss.scenes import RIBS, Gripper, Pose, Scene, assembled_urdf, finger_joint, pad_ribs
 
 _ARM_POSITION_GAIN = 0.2
 _GEAR_FORCE_N = 1.0e4
@@ -35,18 +36,27 @@ class World:
     at their velocity with their force limit.
     """
 
-    def __init__(self, scene: Scene, gripper: Gripper, settings: PhysicsSettings) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        gripper: Gripper,
+        settings: PhysicsSettings,
+        *,
+        joint_offsets_rad: Sequence[float] = (),
+    ) -> None:
         """Build the world.
 
         Args:
             scene: Fixed bodies, workpiece and robot.
             gripper: The gripper on the robot's flange.
             settings: Step length and solver.
+            joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
 
         Raises:
             SimulationError: The engine cannot build it.
         """
         self._engine = pybullet()
+        self._joint_offsets_rad = tuple(joint_offsets_rad)
         self._client = open_client()
         self.scene = scene
         self.gripper = gripper
@@ -83,7 +93,7 @@ class World:
 
     def reset_arm(self, configuration_rad: Sequence[float]) -> None:
         """Put the arm at rest at a configuration, fingers open, without stepping."""
-        for joint, angle in zip(self._arm_joints, configuration_rad, strict=True):
+        for joint, angle in zip(self._arm_joints, self._true(configuration_rad), strict=True):
             self._engine.resetJointState(self._robot, joint, angle, 0.0, physicsClientId=self._client)
         for joint in self._finger_joints:
             self._engine.resetJointState(self._robot, joint, 0.0, 0.0, physicsClientId=self._client)
@@ -91,7 +101,9 @@ class World:
         self.hold_open()
 
     def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
-        """Set the arm's targets for the next step."""
+        """Set the arm's targets for the next step, as its encoders report them."""
+        if self._joint_offsets_rad:
+            position_rad = self._true(position_rad)
         # What is called at every step is given its arguments by position, which the engine reads in half the time.
         self._engine.setJointMotorControlArray(
             self._robot,
@@ -179,12 +191,15 @@ class World:
         self._rediscover(self._workpiece, -1)
 
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
-        """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
+        """Reported joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
 
         A torque is the joint's limit itself where that did not suffice.
         """
         states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
         positions, velocities, _, torques = zip(*states, strict=True)
+        if self._joint_offsets_rad:
+            pairs = zip(positions, self._joint_offsets_rad, strict=True)
+            positions = tuple([angle - offset for angle, offset in pairs])
         return positions, velocities, torques
 
     def finger_travel_m(self) -> tuple[float, ...]:
@@ -193,8 +208,8 @@ class World:
         return tuple([state[0] for state in states])
 
     def workpiece_pose(self) -> Pose:
-        """Transform of the workpiece to the world."""
-        position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
+        """Transform of the workpiece's shape to the world."""
+        position, orientation = self._workpiece_at()
         return Pose(position_m=position, quaternion_xyzw=orientation)
 
     def tool_pose(self) -> Pose:
@@ -203,7 +218,7 @@ class World:
 
     def hand_view(self) -> HandView:
         """A glance at the object, the tool and the fingers as they really stand."""
-        position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
+        position, orientation = self._workpiece_at()
         state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
         return HandView(position, orientation, state[4], state[5], self._grasp_centre_m, self.finger_travel_m())
 
@@ -237,6 +252,19 @@ class World:
         # One finger at a time, so that the friction of the others keeps the object where it is.
         self._rediscover(self._robot, self._to_renew.pop())
 
+    def _true(self, reported_rad: Sequence[float]) -> Sequence[float]:
+        """Angles at which the joints are when the encoders report others."""
+        offsets = self._joint_offsets_rad or (0.0,) * len(reported_rad)
+        return [angle + offset for angle, offset in zip(reported_rad, offsets, strict=True)]
+
+    def _workpiece_at(self) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
+        """Position and orientation of the workpiece's shape; the engine knows its centre of mass."""
+        found, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
+        height_m = self.scene.workpiece.centre_of_mass_m
+        if height_m:
+            found = (Pose(position_m=found, quaternion_xyzw=turned) @ Pose(position_m=(0.0, 0.0, -height_m))).position_m
+        return found, turned
+
     def _rediscover(self, body: int, link: int) -> None:
         # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
         self._engine.setCollisionFilterGroupMask(body, link, 1, -1, physicsClientId=self._client)
@@ -257,43 +285,10 @@ class World:
             physicsClientId=client,
         )
 
-    def _shape(self, shape: Shape) -> int:
-        engine, client = self._engine, self._client
-        sizes = shape.size_m if isinstance(shape, Box) else (shape.radius_m, shape.height_m)
-        if not all(0.0 < size < math.inf for size in sizes):
-            # The engine takes some of these without a word and prints about the others.
-            raise SimulationError(f"a body cannot have the sizes {sizes}", hint="give lengths greater than zero")
-        if isinstance(shape, Box):
-            half = [size / 2 for size in shape.size_m]
-            return int(engine.createCollisionShape(engine.GEOM_BOX, halfExtents=half, physicsClientId=client))
-        return int(
-            engine.createCollisionShape(
-                engine.GEOM_CYLINDER, radius=shape.radius_m, height=shape.height_m, physicsClientId=client
-            )
-        )
-
-    def _add_body(self, shape: Shape, pose: Pose, mass_kg: float) -> int:
-        body = int(
-            self._engine.createMultiBody(
-                mass_kg,
-                self._shape(shape),
-                -1,
-                pose.position_m,
-                pose.quaternion_xyzw,
-                # What stands still is no articulated body without links: the same results, to the bit, for less
-                # time. What moves is one, since the engine has a rougher law of friction between two that are not.
-                useMaximalCoordinates=int(mass_kg == 0.0),
-                physicsClientId=self._client,
-            )
-        )
-        if body < 0:
-            raise SimulationError("the physics engine refused a body", hint="check its sizes")
-        return body
-
     def _add_scene(self) -> dict[int, str]:
         names = {}
         for body in self.scene.bodies:
-            number = self._add_body(body.shape, body.pose, 0.0)
+            number = add_body(self._engine, self._client, body.shape, body.pose, 0.0)
             self._engine.changeDynamics(number, -1, lateralFriction=body.friction, physicsClientId=self._client)
             names[number] = body.id
         return names
@@ -305,7 +300,10 @@ class World:
             raise SimulationError(
                 f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
             )
-        body = self._add_body(workpiece.shape, workpiece.pose, workpiece.mass_kg)
+        body = add_body(
+            *(self._engine, self._client, workpiece.shape, workpiece.pose, workpiece.mass_kg),
+            centre_of_mass_m=workpiece.centre_of_mass_m,
+        )
         self._engine.changeDynamics(
             body,
             -1,
@@ -360,6 +358,7 @@ class World:
             finger_links=self._finger_joints,
             link_names=link_names,
             scene_names=self._scene_names,
+            centre_of_mass_m=self.scene.workpiece.centre_of_mass_m,
         )
         for link in range(-1, len(info)):
             engine.changeDynamics(

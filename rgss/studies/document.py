@@ -18,6 +18,7 @@ from rgss.documents import (
     Text,
 )
 from rgss.findings import shown
+from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
@@ -107,6 +108,10 @@ class StudyDocument(DocumentModel):
     until_decided: UntilDecidedEntry | None = None
     planning: PlanningEntry
     physics: PhysicsEntry
+    nominal: bool = False
+    uncertainty: dict[QuantityName, DistributionEntry] = Field(default_factory=dict)
+    correlations: tuple[CorrelationEntry, ...] = ()
+    workload: tuple[CaseEntry, ...] = ()
     trade_off: TradeOffEntry
     regression: RegressionEntry | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
@@ -14,7 +14,15 @@ from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
 from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
 from rgss.requirements import RequirementSet, load_requirements
-from rgss.studies.document import StudyDocument
+from rgss.scenes.uncertainty import (
+    NOTHING_UNCERTAIN,
+    ONE_WORKLOAD,
+    Uncertainty,
+    Workload,
+    read_uncertainty,
+    read_workload,
+)
+from rgss.studies.document import PlanningEntry, StudyDocument
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression_section import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
@@ -86,6 +94,9 @@ class StudyDefinition:
         screening: The trials that come first, and which designs go on from them; None if all do.
         regression: Which metrics are guarded against a baseline; None if none are.
         until_decided: When replication until decided goes on, and when it stops.
+        uncertainty: What differs from trial to trial, in place of what the scene says of the same quantities.
+        workload: The objects that the trials carry.
+        is_nominal: Whether neither is applied, nor the scene's uncertainty.
     """
 
     id: str
@@ -104,6 +115,9 @@ class StudyDefinition:
     screening: Screening | None = None
     regression: RegressionGuard | None = None
     until_decided: SequentialRule = field(default_factory=SequentialRule)
+    uncertainty: Uncertainty = NOTHING_UNCERTAIN
+    workload: Workload = ONE_WORKLOAD
+    is_nominal: bool = False
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -140,18 +154,7 @@ def read_study(
             document, {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}, project
         )
     )
-    for key, value in (
-        ("charge_per_check", entry.planning.charge_per_check),
-        ("resolution", entry.planning.resolution),
-        ("time_limit", entry.planning.time_limit),
-    ):
-        if value is not None and value <= 0:
-            findings.append(_not_positive(document, ("planning", key)))
-    if entry.planning.clearance < 0:
-        findings.append(document.finding("study.negative", "clearance must not be negative", ("planning", "clearance")))
-    if entry.planning.simplification_limit < 0:
-        message = "simplification_limit must not be negative"
-        findings.append(document.finding("study.negative", message, ("planning", "simplification_limit")))
+    findings.extend(_planning_findings(entry.planning, document))
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
     elif "contact" in entry.fidelity:
@@ -159,6 +162,8 @@ def read_study(
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
     until_decided = read_until_decided(entry.until_decided, document, findings)
+    uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings)
+    workload = read_workload(entry.workload, document, findings)
     places = TradeOffPlaces(
         document, measures, lambda: _requirements(project) if requirements is None else requirements
     )
@@ -166,7 +171,6 @@ def read_study(
     findings.extend(places.findings)
     if findings or trade_off is None:
         raise DocumentError(sorted(findings))
-    planning = entry.planning
     return StudyDefinition(
         id=entry.study,
         label=label,
@@ -176,16 +180,7 @@ def read_study(
         seed=entry.seed,
         replicates=entry.replicates,
         fidelity=Fidelity(entry.fidelity[-1]),
-        planning=PlanningChoice(
-            counted=planning.clock == "counted",
-            charge_per_check_s=planning.charge_per_check,
-            resolution_rad=planning.resolution,
-            simplification_checks=planning.simplification_checks,
-            simplification_limit_s=planning.simplification_limit,
-            clearance_m=planning.clearance,
-            planner=planning.planner or "",
-            time_limit_s=planning.time_limit,
-        ),
+        planning=_planning_choice(entry.planning),
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
         values=value_anchors(trade_off, places.quantity_of),
@@ -193,6 +188,9 @@ def read_study(
         screening=screening,
         regression=regression,
         until_decided=until_decided,
+        uncertainty=uncertainty,
+        workload=workload,
+        is_nominal=entry.nominal,
     )
 
 
@@ -204,6 +202,29 @@ def named_file(project: Path, name: str) -> Path | None:
         name: The name, as a user wrote it.
     """
     return (project / name).resolve() if place_of(project / name, project) is FilePlace.INSIDE else None
+
+
+def _planning_choice(planning: PlanningEntry) -> PlanningChoice:
+    return PlanningChoice(
+        counted=planning.clock == "counted",
+        charge_per_check_s=planning.charge_per_check,
+        resolution_rad=planning.resolution,
+        simplification_checks=planning.simplification_checks,
+        simplification_limit_s=planning.simplification_limit,
+        clearance_m=planning.clearance,
+        planner=planning.planner or "",
+        time_limit_s=planning.time_limit,
+    )
+
+
+def _planning_findings(planning: PlanningEntry, document: Document) -> Iterator[Finding]:
+    for key in ("charge_per_check", "resolution", "time_limit"):
+        value = getattr(planning, key)
+        if value is not None and value <= 0:
+            yield _not_positive(document, ("planning", key))
+    for key in ("clearance", "simplification_limit"):
+        if getattr(planning, key) < 0:
+            yield document.finding("study.negative", f"{key} must not be negative", ("planning", key))
 
 
 def _file_findings(document: Document, named: Mapping[str, str], project: Path) -> list[Finding]:

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
 
 if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures
@@ -26,6 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_study(parser)
     add_replicates(parser)
     add_fidelity(parser)
+    add_nominal(parser)
     parser.add_argument("--variant", type=int, metavar="ID", help="only this variant, with every measure")
     parser.add_argument("--verdicts", action="store_true", help="only the verdicts, and why one is stale")
     parser.add_argument(
