@@ -96,7 +96,7 @@ def test_the_named_inputs_have_the_distributions_and_not_the_draws(folder, appen
     ("text", "anchor", "expected"),
     [
         (
-            "\ncorrelations:\n  - {quantities: [perception.x, perception.z], matrix: [[1, 0.3], [0.3, 1]], rationale: r}\n",
+            "\ncorrelations:\n  - {quantities: [perception.x, perception.z], matrix: [[1, 0], [0, 1]], rationale: r}\n",
             "[perception.x, perception.z]",
             "perception.z has no distribution (give it one under 'uncertainty', here or in the scene)",
         ),

@@ -17,6 +17,7 @@ from rgss.scenes.uncertainty import (
     Uncertainty,
     UncertainValue,
     Uniform,
+    draw_column,
 )
 
 TEXT = """
@@ -197,3 +198,10 @@ def test_every_quantity_is_documented_in_the_registry():
     for name, quantity in QUANTITIES.items():
         assert quantity.name == name
         assert quantity.meaning.endswith(".")
+
+
+def test_a_column_of_draws_has_its_unit_at_its_end_if_the_registry_knows_it():
+    assert draw_column("perception.yaw") == "drawn_perception_yaw_rad"
+    assert draw_column("robot.joint_offset.6") == "drawn_robot_joint_offset_6_rad"
+    assert draw_column("gripper.finger.force") == "drawn_gripper_finger_force_1"
+    assert draw_column("of.another.version") == "drawn_of_another_version"
