@@ -51,7 +51,8 @@ def test_a_drawn_trial_is_stored_exported_and_replayed(rgss, uncertain, tmp_path
 
     table = tmp_path / "trials.csv"
     rgss("evidence", "export", table, "--project", uncertain)
-    rows = list(csv.DictReader(table.open(encoding="utf-8", newline="")))
+    with table.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
     assert {row["workload"] for row in rows} == {"cup", "full"}
     assert len({row["drawn_perception_x_m"] for row in rows}) == 2
     assert {row["drawn_gripper_finger_force_1"] for row in rows} == {"0.9"}
