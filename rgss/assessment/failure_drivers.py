@@ -10,7 +10,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.evidence import Failure, TrialRecord
+from rgss.evidence import Failure, Phase, TrialRecord
 
 Array = NDArray[np.float64]
 
@@ -20,6 +20,8 @@ SIGNIFICANT = 0.05
 _PERMUTATIONS = 19_999
 _BATCH = 500
 _FEWEST = 3
+_CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
+_CARRY = "carry"
 
 
 class Aspect(str, Enum):
@@ -55,12 +57,15 @@ class FailureDrivers:
 
     Attributes:
         failure: The kind.
+        stage: Where it ended them: ``carry`` for the moves with the object, else the phase; what drops an object in
+            the hand is another thing than what drops it at its place.
         trials: How many trials ended so.
         seeds: With how many seeds they did.
         drivers: Each quantity at its stronger aspect, the least adjusted p first, then the AUC farthest from 0.5.
     """
 
     failure: Failure
+    stage: str
     trials: int
     seeds: int
     drivers: tuple[Driver, ...]
@@ -79,7 +84,7 @@ class DriversOfFailures:
         trials: How many trials there are.
         seeds: How many seeds they have.
         failures: The kinds that a draw could drive, the most frequent first.
-        too_few: Kinds that occurred with fewer than three seeds, or with all but so few.
+        too_few: Kinds that occurred, at each stage, with fewer than three seeds or with all but so few.
     """
 
     trials: int
@@ -99,13 +104,13 @@ def drivers_of_failures(records: Sequence[TrialRecord]) -> DriversOfFailures:
         records: The trials.
     """
     table = _Table(records)
-    found: dict[Failure, list[tuple[str, Aspect, float, float]]] = {}
+    found: dict[_Kind, list[tuple[str, Aspect, float, float]]] = {}
     too_few = []
-    kinds = [kind for kind in Failure if any(one.failure is kind for one in records)]
-    for kind in kinds:
+    kinds = {kind for one in records if (kind := _kind(one)) is not None}
+    for kind in sorted(kinds, key=lambda each: (each[0].value, each[1])):
         counts = table.failures(kind)
         if not _FEWEST <= int((counts > 0).sum()) <= len(counts) - _FEWEST or not table.columns:
-            too_few.append(kind)
+            too_few.append(kind[0])
             continue
         found[kind] = list(table.compared(counts))
     adjusted = _holm([p for rows in found.values() for *_, p in rows])
@@ -118,13 +123,33 @@ def drivers_of_failures(records: Sequence[TrialRecord]) -> DriversOfFailures:
         ]
         failures.append(
             FailureDrivers(
-                failure=kind, trials=int(counts.sum()), seeds=int((counts > 0).sum()), drivers=_strongest(drivers)
+                failure=kind[0],
+                stage=kind[1],
+                trials=int(counts.sum()),
+                seeds=int((counts > 0).sum()),
+                drivers=_strongest(drivers),
             )
         )
     failures.sort(key=lambda one: -one.trials)
+    compared = {kind for kind, _ in found}
     return DriversOfFailures(
-        trials=len(records), seeds=len(table.seeds), failures=tuple(failures), too_few=tuple(too_few)
+        trials=len(records),
+        seeds=len(table.seeds),
+        failures=tuple(failures),
+        too_few=tuple(each for each in dict.fromkeys(too_few) if each not in compared),
     )
+
+
+_Kind = tuple[Failure, str]
+
+
+def _kind(record: TrialRecord) -> _Kind | None:
+    """Failure and stage of a trial; None of one that succeeded."""
+    if record.failure is None:
+        return None
+    phase = record.failed_phase
+    stage = _CARRY if phase in _CARRIED else "" if phase is None else phase.value
+    return record.failure, stage
 
 
 class _Table:
@@ -137,9 +162,9 @@ class _Table:
         self._trials = self._counted(lambda _: True)
         self.columns = _columns({record.seed: record for record in records}, self.seeds)
 
-    def failures(self, kind: Failure) -> Array:
+    def failures(self, kind: _Kind) -> Array:
         """How many trials of each seed ended so."""
-        return self._counted(lambda record: record.failure is kind)
+        return self._counted(lambda record: _kind(record) == kind)
 
     def compared(self, failed: Array) -> Iterator[tuple[str, Aspect, float, float]]:
         """Each column's name, aspect, AUC and p."""

@@ -31,7 +31,7 @@ def driver_lines(found: DriversOfFailures) -> Iterator[str]:
         return
     yield ""
     rows = [
-        [_words(one.failure.value), driver_name(each), f"{each.auc:.2f}", _p(each.p), _p(each.adjusted_p)]
+        [_place(one), driver_name(each), f"{each.auc:.2f}", _p(each.p), _p(each.adjusted_p)]
         for one in found.failures
         for each in one.drivers[:_SHOWN]
     ]
@@ -44,7 +44,7 @@ def driver_sentence(one: FailureDrivers) -> str:
     Args:
         one: The kind with its drivers.
     """
-    where = f"{_words(one.failure.value)} ({one.trials} trials, {one.seeds} seeds)"
+    where = f"{_place(one)} ({one.trials} trials, {one.seeds} seeds)"
     if not one.significant:
         return f"{where}: no draw stands out; more seeds would show weaker effects."
     named = [f"{driver_name(each)} (AUC {each.auc:.2f}, p {_compared(each.adjusted_p)})" for each in one.significant]
@@ -77,6 +77,7 @@ def drivers_to_json(found: DriversOfFailures) -> dict[str, Any]:
         "failures": [
             {
                 "failure": one.failure.value,
+                "stage": one.stage,
                 "trials": one.trials,
                 "seeds": one.seeds,
                 "sentence": driver_sentence(one),
@@ -95,6 +96,11 @@ def drivers_to_json(found: DriversOfFailures) -> dict[str, Any]:
         ],
         "too_few": [failure.value for failure in found.too_few],
     }
+
+
+def _place(one: FailureDrivers) -> str:
+    """The failure and where it ended the trials, such as ``object dropped at carry``."""
+    return _words(one.failure.value) + (f" at {_words(one.stage)}" if one.stage else "")
 
 
 def _words(name: str) -> str:

@@ -7,18 +7,18 @@ import pytest
 from scipy import stats
 
 from rgss.assessment import Aspect, drivers_of_failures
-from rgss.evidence import Failure, Fidelity, TrialRecord
+from rgss.evidence import Failure, Fidelity, Phase, TrialRecord
 from rgss.reports import driver_lines, drivers_to_json
 
 
-def record(seed, draws, failure=None, *, variant=1, workload=""):
+def record(seed, draws, failure=None, *, variant=1, workload="", phase=None):
     return TrialRecord(
         variant=variant,
         seed=seed,
         fidelity=Fidelity.CONTACT,
         success=failure is None,
         failure=failure,
-        failed_phase=None,
+        failed_phase=phase,
         failure_detail="",
         phases=(),
         planning=(),
@@ -136,3 +136,18 @@ def test_the_document_has_what_the_lines_say():
     assert "low workpiece.friction (AUC 0.00, p" in dropped["sentence"]
     assert dropped["sentence"] in list(driver_lines(found))
     assert {one["quantity"] for one in dropped["drivers"]} == {"perception.x", "workpiece.friction"}
+
+
+def test_an_object_that_is_dropped_on_its_way_is_told_from_one_that_is_dropped_at_its_place():
+    draws = drawn(60)
+
+    def ends(draw):
+        if draw["workpiece.friction"] < -0.8:
+            return {"failure": Failure.OBJECT_DROPPED, "phase": Phase.LIFT}
+        return {"failure": Failure.OBJECT_DROPPED, "phase": Phase.PLACE} if draw["perception.x"] > 0.8 else {}
+
+    found = drivers_of_failures([record(seed, draw, **ends(draw)) for seed, draw in enumerate(draws)])
+
+    named = {(one.stage, one.significant[0].quantity) for one in found.failures}
+    assert named == {("carry", "workpiece.friction"), ("place", "perception.x")}
+    assert any(line.startswith("object dropped at carry (") for line in driver_lines(found))
