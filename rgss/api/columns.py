@@ -59,6 +59,13 @@ _TRIALS = FrameDescription(
         Column(name="failure", meaning="what ended it; missing on success"),
         Column(name="failed_phase", meaning="the state in which it ended; missing on success"),
         Column(name="failure_detail", meaning="the numbers that show the failure; missing on success"),
+        Column(name="workload", meaning="case of the workload; missing where the study has none"),
+        Column(
+            name="drawn_QUANTITY",
+            meaning="draw of an uncertain quantity; name and unit make the name, as in drawn_perception_x_m",
+            unit="the quantity's, in SI",
+            kind=Kind.NUMBER,
+        ),
         *trial_metric_columns(),
     ),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rgss.api.column import Column, Kind
@@ -10,6 +10,7 @@ from rgss.api.columns import FRAMES
 from rgss.api.metric_columns import phase_metric_columns, trial_metric_columns
 from rgss.assessment import VariantMeasures, requirements_with_criteria
 from rgss.evidence import Metric, PhaseRecord, PlanningRecord, TrialRecord
+from rgss.scenes.uncertainty import QUANTITIES, draw_column
 from rgss.studies import Project
 
 if TYPE_CHECKING:
@@ -164,6 +165,8 @@ def _trial_row(key: str, record: TrialRecord) -> Row:
         "failure": None if record.failure is None else record.failure.value,
         "failed_phase": None if record.failed_phase is None else record.failed_phase.value,
         "failure_detail": record.failure_detail or None,
+        "workload": record.workload or None,
+        **{draw_column(name): value for name, value in record.draws.items()},
         **metric_cells(trial_metric_columns(), record.metrics),
     }
 
@@ -188,11 +191,23 @@ def _phase_row(record: TrialRecord, phase: PhaseRecord, planning: PlanningRecord
     return row
 
 
+def _drawn_columns(there: Collection[str]) -> Iterator[Column]:
+    """The columns of the draws that rows have, in the order of the registry."""
+    for quantity in QUANTITIES.values():
+        for name in quantity.draw_names:
+            if draw_column(name) in there:
+                meaning = quantity.meaning.rstrip(".")
+                yield Column(name=draw_column(name), meaning=meaning, unit=quantity.unit, kind=Kind.NUMBER)
+
+
 def _with_entries(columns: Iterable[Column], rows: Sequence[Mapping[str, Any]]) -> tuple[Column, ...]:
     """The columns with each row of numbers as its entries; of a length that differs, as many as are there."""
     there = {name for row in rows for name in row}
     found: list[Column] = []
     for column in columns:
+        if column.name == "drawn_QUANTITY":
+            found += _drawn_columns(there)
+            continue
         count = 0
         while column.items == 0 and f"item_{count + 1}_{column.name}" in there:
             count += 1

@@ -7,6 +7,13 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.assessment.estimate_bounds import EstimateBounds, bounds_by_measure
     from rgss.assessment.evidence_status import evidence_state, project_marks
+    from rgss.assessment.failure_drivers import (
+        Aspect,
+        Driver,
+        DriversOfFailures,
+        FailureDrivers,
+        drivers_of_failures,
+    )
     from rgss.assessment.measuring import (
         VariantMeasures,
         measure_variants,
@@ -20,10 +27,15 @@ else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
+    "Aspect",
+    "Driver",
+    "DriversOfFailures",
     "EstimateBounds",
+    "FailureDrivers",
     "VariantMeasures",
     "VerdictRecord",
     "bounds_by_measure",
+    "drivers_of_failures",
     "evidence_state",
     "measure_variants",
     "project_marks",

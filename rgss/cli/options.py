@@ -26,8 +26,15 @@ def add_fidelity(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--fidelity", choices=FIDELITIES, help="how much physics a trial has (default: the study's)")
 
 
+def add_nominal(parser: argparse.ArgumentParser) -> None:
+    """Add the switch that takes everything as the files say."""
+    parser.add_argument(
+        "--nominal", action="store_true", help="without uncertainty and workload: everything as the files say"
+    )
+
+
 def chosen_project(options: argparse.Namespace) -> Project:
-    """The project with the study, the replicates and the fidelity that the options name.
+    """The project with the study, the replicates and the fidelity that the options name, nominal if they say so.
 
     Raises:
         DocumentError: Files of the project are wrong.
@@ -44,5 +51,7 @@ def chosen_project(options: argparse.Namespace) -> Project:
                 f"--replicates must be from 1 to {MOST_REPLICATES}", hint="leave it away for the study's number"
             )
         project = project.with_replicates(replicates)
+    if getattr(options, "nominal", False):
+        project = project.nominal()
     fidelity = getattr(options, "fidelity", None)
     return project if fidelity is None else project.with_fidelity(fidelity)

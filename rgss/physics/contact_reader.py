@@ -23,6 +23,7 @@ class ContactReader:
         finger_links: Sequence[int],
         link_names: Mapping[int, str],
         scene_names: Mapping[int, str],
+        centre_of_mass_m: float = 0.0,
     ) -> None:
         """Say what the engine's numbers stand for.
 
@@ -34,7 +35,10 @@ class ContactReader:
             finger_links: The link of each finger.
             link_names: Names of the robot's links.
             scene_names: Names of the scene's bodies.
+            centre_of_mass_m: Height of the workpiece's centre of mass, which the engine knows, above the centre of
+                its shape, from which positions are told.
         """
+        self._centre_of_mass_m = centre_of_mass_m
         self._engine = engine
         self._client = client
         self._robot = robot
@@ -116,6 +120,8 @@ class ContactReader:
         found = []
         transform = self._workpiece_pose_before(step_s).inverse()
         tx, ty, tz = transform.position_m
+        if self._centre_of_mass_m:
+            tz += self._centre_of_mass_m
         for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
             bodies = (point[1], point[2])
             if self._workpiece not in bodies or self._robot not in bodies or point[9] <= 0.0:

@@ -31,18 +31,27 @@ class World(ClientOwner):
     at their velocity with their force limit.
     """
 
-    def __init__(self, scene: Scene, gripper: Gripper, settings: PhysicsSettings) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        gripper: Gripper,
+        settings: PhysicsSettings,
+        *,
+        joint_offsets_rad: Sequence[float] = (),
+    ) -> None:
         """Build the world.
 
         Args:
             scene: Fixed bodies, workpiece and robot.
             gripper: The gripper on the robot's flange.
             settings: Step length and solver.
+            joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
 
         Raises:
             SimulationError: The engine cannot build it.
         """
         super().__init__()
+        self._joint_offsets_rad = tuple(joint_offsets_rad)
         self.scene = scene
         self.gripper = gripper
         self.settings = settings
@@ -67,7 +76,7 @@ class World(ClientOwner):
 
     def reset_arm(self, configuration_rad: Sequence[float]) -> None:
         """Put the arm at rest at a configuration, fingers open, without stepping."""
-        for joint, angle in zip(self._arm_joints, configuration_rad, strict=True):
+        for joint, angle in zip(self._arm_joints, self._true(configuration_rad), strict=True):
             self._engine.resetJointState(self._robot, joint, angle, 0.0, physicsClientId=self._client)
         for joint in self._finger_joints:
             self._engine.resetJointState(self._robot, joint, 0.0, 0.0, physicsClientId=self._client)
@@ -75,7 +84,9 @@ class World(ClientOwner):
         self.hold_open()
 
     def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
-        """Set the arm's targets for the next step."""
+        """Set the arm's targets for the next step, as its encoders report them."""
+        if self._joint_offsets_rad:
+            position_rad = self._true(position_rad)
         # What is called at every step is given its arguments by position, which the engine reads in half the time.
         self._engine.setJointMotorControlArray(
             self._robot,
@@ -163,12 +174,15 @@ class World(ClientOwner):
         self._rediscover(self._workpiece, -1)
 
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
-        """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
+        """Reported joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
 
         A torque is the joint's limit itself where that did not suffice.
         """
         states = self._engine.getJointStates(self._robot, self._arm_joints, self._client)
         positions, velocities, _, torques = zip(*states, strict=True)
+        if self._joint_offsets_rad:
+            pairs = zip(positions, self._joint_offsets_rad, strict=True)
+            positions = tuple([angle - offset for angle, offset in pairs])
         return positions, velocities, torques
 
     def finger_travel_m(self) -> tuple[float, ...]:
@@ -177,8 +191,8 @@ class World(ClientOwner):
         return tuple([state[0] for state in states])
 
     def workpiece_pose(self) -> Pose:
-        """Transform of the workpiece to the world."""
-        position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
+        """Transform of the workpiece's shape to the world."""
+        position, orientation = self._workpiece_at()
         return Pose(position_m=position, quaternion_xyzw=orientation)
 
     def tool_pose(self) -> Pose:
@@ -187,7 +201,7 @@ class World(ClientOwner):
 
     def hand_view(self) -> HandView:
         """A glance at the object, the tool and the fingers as they really stand."""
-        position, orientation = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
+        position, orientation = self._workpiece_at()
         state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
         return HandView(position, orientation, state[4], state[5], self._grasp_centre_m, self.finger_travel_m())
 
@@ -221,6 +235,19 @@ class World(ClientOwner):
         # One finger at a time, so that the friction of the others keeps the object where it is.
         self._rediscover(self._robot, self._to_renew.pop())
 
+    def _true(self, reported_rad: Sequence[float]) -> Sequence[float]:
+        """Angles at which the joints are when the encoders report others."""
+        offsets = self._joint_offsets_rad or (0.0,) * len(reported_rad)
+        return [angle + offset for angle, offset in zip(reported_rad, offsets, strict=True)]
+
+    def _workpiece_at(self) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
+        """Position and orientation of the workpiece's shape; the engine knows its centre of mass."""
+        found, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
+        height_m = self.scene.workpiece.centre_of_mass_m
+        if height_m:
+            found = (Pose(position_m=found, quaternion_xyzw=turned) @ Pose(position_m=(0.0, 0.0, -height_m))).position_m
+        return found, turned
+
     def _rediscover(self, body: int, link: int) -> None:
         # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
         self._engine.setCollisionFilterGroupMask(body, link, 1, -1, physicsClientId=self._client)
@@ -242,5 +269,6 @@ class World(ClientOwner):
             finger_links=self._finger_joints,
             link_names=index.link_names,
             scene_names=self._scene_names,
+            centre_of_mass_m=self.scene.workpiece.centre_of_mass_m,
         )
         builder.set_robot_dynamics(self._robot, index)

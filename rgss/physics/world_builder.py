@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.errors import SimulationError
+from rgss.physics.bodies import add_body
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import RIBS, Box, Gripper, Pose, Scene, Shape, assembled_urdf, finger_joint, pad_ribs
+from rgss.scenes import RIBS, Gripper, Scene, assembled_urdf, finger_joint, pad_ribs
 
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
@@ -73,44 +74,11 @@ class WorldBuilder:
             physicsClientId=client,
         )
 
-    def _shape(self, shape: Shape) -> int:
-        engine, client = self.engine, self.client
-        sizes = shape.size_m if isinstance(shape, Box) else (shape.radius_m, shape.height_m)
-        if not all(0.0 < size < math.inf for size in sizes):
-            # The engine takes some of these without a word and prints about the others.
-            raise SimulationError(f"a body cannot have the sizes {sizes}", hint="give lengths greater than zero")
-        if isinstance(shape, Box):
-            half = [size / 2 for size in shape.size_m]
-            return int(engine.createCollisionShape(engine.GEOM_BOX, halfExtents=half, physicsClientId=client))
-        return int(
-            engine.createCollisionShape(
-                engine.GEOM_CYLINDER, radius=shape.radius_m, height=shape.height_m, physicsClientId=client
-            )
-        )
-
-    def _add_body(self, shape: Shape, pose: Pose, mass_kg: float) -> int:
-        body = int(
-            self.engine.createMultiBody(
-                mass_kg,
-                self._shape(shape),
-                -1,
-                pose.position_m,
-                pose.quaternion_xyzw,
-                # What stands still is no articulated body without links: the same results, to the bit, for less
-                # time. What moves is one, since the engine has a rougher law of friction between two that are not.
-                useMaximalCoordinates=int(mass_kg == 0.0),
-                physicsClientId=self.client,
-            )
-        )
-        if body < 0:
-            raise SimulationError("the physics engine refused a body", hint="check its sizes")
-        return body
-
     def add_scene(self) -> dict[int, str]:
         """Add the fixed bodies; the result names each by its number."""
         names = {}
         for body in self.scene.bodies:
-            number = self._add_body(body.shape, body.pose, 0.0)
+            number = add_body(self.engine, self.client, body.shape, body.pose, 0.0)
             self.engine.changeDynamics(number, -1, lateralFriction=body.friction, physicsClientId=self.client)
             names[number] = body.id
         return names
@@ -123,7 +91,10 @@ class WorldBuilder:
             raise SimulationError(
                 f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
             )
-        body = self._add_body(workpiece.shape, workpiece.pose, workpiece.mass_kg)
+        body = add_body(
+            *(self.engine, self.client, workpiece.shape, workpiece.pose, workpiece.mass_kg),
+            centre_of_mass_m=workpiece.centre_of_mass_m,
+        )
         self.engine.changeDynamics(
             body,
             -1,

@@ -23,6 +23,7 @@ from rgss.documents import (
     Text,
 )
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, LARGEST_DRAG_M, LARGEST_DROP_M
+from rgss.scenes.uncertainty import CorrelationEntry, DistributionEntry, QuantityName
 
 Colour = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}$")]
 Point = tuple[Metres, Metres, Metres]
@@ -113,6 +114,8 @@ class SceneDocument(DocumentModel):
     workpiece: WorkpieceEntry
     place_region: PlaceRegionEntry
     task: TaskEntry
+    uncertainty: dict[QuantityName, DistributionEntry] = Field(default_factory=dict)
+    correlations: tuple[CorrelationEntry, ...] = ()
     assumptions: tuple[AssumptionEntry, ...] = ()
 
 

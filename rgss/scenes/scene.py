@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
 from rgss.scenes.shapes import Cylinder, Shape
+from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, Uncertainty
 
 LARGEST_DROP_M = 0.01
 LARGEST_DRAG_M = 0.001
 ColourRgba = tuple[float, float, float, float]
+_UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 FORCE_WINDOW_S = 0.01
 """Default window of the force that damages a workpiece: the period of a sensor that reports at 100 Hz."""
@@ -53,6 +55,7 @@ class Workpiece:
         landing_limit_m_s: Velocity change on landing above which it counts as damaged: the critical velocity change
             of ASTM D3332. A blow that is shorter than what it hits can yield damages by its velocity change, and
             not by its force, which at the same speed grows with the mass.
+        centre_of_mass_m: Height of its centre of mass above the centre of its shape.
         pose: Transform of its shape's frame to the world at the start.
         colour: Colour in pictures.
     """
@@ -64,6 +67,7 @@ class Workpiece:
     force_limit_n: float
     force_window_s: float = FORCE_WINDOW_S
     landing_limit_m_s: float = LANDING_LIMIT_M_S
+    centre_of_mass_m: float = 0.0
     pose: Pose
     colour: ColourRgba
 
@@ -128,6 +132,7 @@ class Scene:
         workpiece: What is picked and placed.
         place: Where it is to stand.
         task: The waypoints.
+        uncertainty: What differs from trial to trial, as the scene's file says.
     """
 
     id: str
@@ -139,11 +144,15 @@ class Scene:
     workpiece: Workpiece
     place: PlaceRegion
     task: Task
+    uncertainty: Uncertainty = NOTHING_UNCERTAIN
 
     @property
     def grasp(self) -> Pose:
-        """Transform of the grasp-centre frame to the world at the grasp: tool down on the workpiece's centre."""
-        return _tool_down(self.workpiece.pose.position_m, self.task.grasp_yaw_rad)
+        """Transform of the grasp-centre frame to the world at the grasp: on the workpiece's centre, down its axis."""
+        stands = self.workpiece.pose
+        if stands.quaternion_xyzw == _UPRIGHT:
+            return _tool_down(stands.position_m, self.task.grasp_yaw_rad)
+        return stands @ _tool_down((0.0, 0.0, 0.0), self.task.grasp_yaw_rad)
 
     @property
     def place_pose(self) -> Pose:

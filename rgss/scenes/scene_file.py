@@ -16,6 +16,7 @@ from rgss.scenes.robot import Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import ColourRgba, PlaceRegion, Scene, SceneBody, Task, Workpiece
 from rgss.scenes.shapes import Box, Cylinder, Shape
+from rgss.scenes.uncertainty import read_uncertainty
 
 
 def load_scene(path: Path, *, label: str | None = None, project: Path | None = None) -> Scene:
@@ -38,6 +39,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         *not_positive(document, _positive_values(entry)),
         *negative(document, _values_from_zero(entry)),
     ]
+    uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings, declared=())
     robot = _robot(path, entry, document, findings, path.parent if project is None else project)
     if findings or robot is None:
         raise DocumentError(sorted(findings))
@@ -79,6 +81,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
             grasp_yaw_rad=entry.task.grasp_yaw,
             place_yaw_rad=entry.task.place_yaw,
         ),
+        uncertainty=uncertainty,
     )
 
 

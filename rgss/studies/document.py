@@ -15,6 +15,7 @@ from rgss.documents import (
     Text,
 )
 from rgss.findings import shown
+from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
 from rgss.studies.planning_section import PlanningEntry
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
@@ -106,6 +107,10 @@ class StudyDocument(DocumentModel):
     planning: PlanningEntry
     moves: MovesEntry = MovesEntry()
     physics: PhysicsEntry
+    nominal: bool = False
+    uncertainty: dict[QuantityName, DistributionEntry] = Field(default_factory=dict)
+    correlations: tuple[CorrelationEntry, ...] = ()
+    workload: tuple[CaseEntry, ...] = ()
     trade_off: TradeOffEntry
     regression: RegressionEntry | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()

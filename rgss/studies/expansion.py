@@ -12,6 +12,7 @@ from rgss.evidence import Fidelity
 from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Gripper
+from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
 from rgss.studies.design_settings import GRIPPER, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.project import Project
 from rgss.studies.trial_values import values_of, with_values
@@ -86,7 +87,8 @@ def _spec(
         variant=variant.id,
         seed=project.study.seed,
         fidelity=Fidelity(project.study.fidelity),
-        scene=project.scene,
+        # What of its uncertainty counts is in the trial's own.
+        scene=replace(project.scene, uncertainty=NOTHING_UNCERTAIN),
         gripper=Gripper(
             geometry=file.geometry,
             base_mass_kg=math.nan,
@@ -99,6 +101,8 @@ def _spec(
         planning_limit_s=math.nan,
         tool_speed_m_s=math.nan,
         settings=settings,
+        uncertainty=project.uncertainty,
+        workload=project.workload,
     )
     values = values_of(variant, {**defaults, **file.settings})
     planner = values.get(PLANNER)

@@ -11,17 +11,19 @@ from rgss.designs import DesignSpace, load_catalogue, load_design_space
 from rgss.documents import FilePlace, place_of, read_document
 from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import Fidelity
-from rgss.findings import Finding, Severity, shown
-from rgss.measures import MeasureKind as Kind
+from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet, load_measures
 from rgss.quantities import same_dimension
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes import GripperFile, Scene, load_gripper_file, load_scene
+from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, ONE_WORKLOAD, Uncertainty, Workload
 from rgss.studies.design_settings import GRIPPER, design_findings
 from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import source_findings
+from rgss.studies.measure_traces import measure_traces
 from rgss.studies.study import StudyDefinition, named_file, read_study
-from rgss.trace import MeasureKind, MeasureTrace, check_trace
+from rgss.studies.uncertainty_findings import uncertainty_findings
+from rgss.trace import MeasureTrace, check_trace
 
 FOLDERS = ("requirements", "designs", "scenes", "studies")
 DEFAULT_STUDY = "studies/pick_place.yaml"
@@ -76,6 +78,22 @@ class Project:
         if fidelity not in known:
             raise DefinitionError(f"there is no fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
         return replace(self, study=replace(self.study, fidelity=Fidelity(fidelity), screening=None))
+
+    @property
+    def uncertainty(self) -> Uncertainty:
+        """What differs from trial to trial: what the study says, else the scene; nothing in a nominal study."""
+        if self.study.is_nominal:
+            return NOTHING_UNCERTAIN
+        return self.scene.uncertainty.overridden_by(self.study.uncertainty)
+
+    @property
+    def workload(self) -> Workload:
+        """The objects that trials carry; the scene's alone in a nominal study."""
+        return ONE_WORKLOAD if self.study.is_nominal else self.study.workload
+
+    def nominal(self) -> Project:
+        """The same project without uncertainty and workload: everything as the files say."""
+        return replace(self, study=replace(self.study, is_nominal=True))
 
     def with_replicates(self, replicates: int) -> Project:
         """The same project with another number of replicates."""
@@ -184,6 +202,8 @@ class _Reader:
         if designs is not None:
             document = read_document(folder / named["design_space"], label=named["design_space"])
             if scene is not None and study is not None:
+                document_of_study = read_document(path, label=label)
+                self._findings += uncertainty_findings(scene, study, document_of_study, grippers)
                 self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
             if measures is not None:
                 document = read_document(folder / MEASURES, label=MEASURES)
@@ -205,7 +225,7 @@ class _Reader:
             scene=scene,
             grippers=grippers,
             study=study,
-            measure_traces=self._measure_traces(measures),
+            measure_traces=measure_traces(measures, read_document(folder / MEASURES, label=MEASURES)),
         )
         undecidable = _undecidable(project)
         if undecidable:
@@ -275,26 +295,3 @@ class _Reader:
                 if shape is not None:
                     shapes[name] = shape
         return shapes
-
-    def _measure_traces(self, measures: MeasureSet) -> tuple[MeasureTrace, ...]:
-        document = read_document(self._folder / MEASURES, label=MEASURES)
-        traces = []
-        for index, measure in enumerate(measures.measures):
-            place = document.finding("", "", ("measures", index, "id"), severity=Severity.INFO)
-            traces.append(
-                MeasureTrace(
-                    id=measure.id,
-                    kind=MeasureKind(measure.kind.value),
-                    unit=measure.unit,
-                    traces=measure.traces,
-                    contributes_to=measure.contributes_to,
-                    observed=measure.from_trials
-                    and not any(
-                        measures.measure(other).kind is Kind.PERFORMANCE for other in measures.dependencies(measure.id)
-                    ),
-                    file=place.file,
-                    line=place.line,
-                    column=place.column,
-                )
-            )
-        return tuple(traces)

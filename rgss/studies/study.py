@@ -14,6 +14,14 @@ from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
 from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
 from rgss.requirements import RequirementSet, load_requirements
+from rgss.scenes.uncertainty import (
+    NOTHING_UNCERTAIN,
+    ONE_WORKLOAD,
+    Uncertainty,
+    Workload,
+    read_uncertainty,
+    read_workload,
+)
 from rgss.studies.document import StudyDocument
 from rgss.studies.planning_section import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
@@ -63,6 +71,9 @@ class StudyDefinition:
         screening: The trials that come first, and which designs go on from them; None if all do.
         regression: Which metrics are guarded against a baseline; None if none are.
         until_decided: When replication until decided goes on, and when it stops.
+        uncertainty: What differs from trial to trial, in place of what the scene says of the same quantities.
+        workload: The objects that the trials carry.
+        is_nominal: Whether neither is applied, nor the scene's uncertainty.
     """
 
     id: str
@@ -81,6 +92,9 @@ class StudyDefinition:
     screening: Screening | None = None
     regression: RegressionGuard | None = None
     until_decided: SequentialRule = field(default_factory=SequentialRule)
+    uncertainty: Uncertainty = NOTHING_UNCERTAIN
+    workload: Workload = ONE_WORKLOAD
+    is_nominal: bool = False
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -125,6 +139,8 @@ def read_study(
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
     until_decided = read_until_decided(entry.until_decided, document, findings)
+    uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings)
+    workload = read_workload(entry.workload, document, findings)
     places = TradeOffPlaces(
         document, measures, lambda: _requirements(project) if requirements is None else requirements
     )
@@ -151,6 +167,9 @@ def read_study(
         screening=screening,
         regression=regression,
         until_decided=until_decided,
+        uncertainty=uncertainty,
+        workload=workload,
+        is_nominal=entry.nominal,
     )
 
 

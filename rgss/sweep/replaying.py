@@ -99,6 +99,8 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
 def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] | None = None) -> Replay:
     """Run a stored trial again with the project, the code and the engines as they are now.
 
+    A trial of which nothing was drawn is run as the files say, whatever the project varies now.
+
     Args:
         project: The project with its study.
         stored: The trial.
@@ -110,6 +112,8 @@ def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] |
     """
     record = stored.record
     variant = project.designs.variant(record.variant)
+    if not (record.draws or record.workload):
+        project = project.nominal()
     (spec,) = trial_specs(project.with_fidelity(record.fidelity.value), variants=[variant], seeds=[record.seed])
     again = compute(run_trial, spec)
     then, now = dict(stored.provenance.versions), versions()

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.trials.conditions import DrawnValue, drawn_values
     from rgss.trials.filming import Film
     from rgss.trials.goal_reasons import Obstacle
     from rgss.trials.impact import ClosingImpact, closing_impact
@@ -26,6 +27,7 @@ __all__ = [
     "Aggregation",
     "ClosingImpact",
     "Direction",
+    "DrawnValue",
     "Film",
     "MetricDescriptor",
     "MoveKind",
@@ -41,6 +43,7 @@ __all__ = [
     "TrialSettings",
     "TrialSpec",
     "closing_impact",
+    "drawn_values",
     "reach_problems",
     "run_traced_trial",
     "scene_problems",

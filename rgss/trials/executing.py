@@ -7,8 +7,9 @@ from dataclasses import replace
 
 from rgss.evidence import Fidelity, Phase
 from rgss.physics import TorqueArm, World
+from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.execution import Execution
-from rgss.trials.monitors import StepObserver
+from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants import DynamicPlant, KinematicPlant
 from rgss.trials.program import run_program
@@ -39,20 +40,24 @@ def execute(
     Raises:
         SimulationError: The physics engine cannot build the world.
     """
-    physics, scene = spec.settings.physics, spec.scene
+    conditions = conditions_of(spec)
+    physics, scene = spec.settings.physics, conditions.true_scene
     references = {}
     for phase in Phase:
         if phase in timing.trajectories:
             references[phase] = reference_of(
                 timing.trajectories[phase], cell.arm, step_s=physics.step_s, gravity_m_s2=scene.gravity_m_s2
             )
-    control, gripper = spec.settings.control, spec.gripper
+    control, gripper = spec.settings.control, conditions.true_gripper
     if spec.fidelity is Fidelity.KINEMATIC:
         model = KinematicPlant(cell.arm, scene.robot.joints, gripper, scene.workpiece, control, step_s=physics.step_s)
         return _with_quality(run_program(model, references, checkpoint=checkpoint), timing)
     if spec.fidelity is Fidelity.DYNAMIC:
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
-            plant = DynamicPlant(machine, cell.arm, scene, gripper, physics, control, checkpoint=checkpoint)
+            believed = conditions.scene.workpiece
+            plant = DynamicPlant(
+                machine, cell.arm, scene, gripper, physics, control, believed=believed, checkpoint=checkpoint
+            )
             return _with_quality(run_program(plant, references), timing)
     # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.
     firm = physics.passing(
@@ -60,9 +65,36 @@ def execute(
         speed_m_s=gripper.finger_velocity_m_s,
         lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
     )
-    with World(scene, gripper, firm) as world:
-        execution = Execution(world, references, control, cell.arm, observer=observer, checkpoint=checkpoint)
+    with World(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
+        execution = Execution(
+            world,
+            references,
+            control,
+            cell.arm,
+            estimate=_grip_estimate(spec, conditions),
+            observer=observer,
+            checkpoint=checkpoint,
+        )
         return _with_quality(execution.run(), timing)
+
+
+def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | None:
+    """What the robot knows of its grip; None where that is the truth."""
+    if conditions.is_grip_known:
+        return None
+    believed = conditions.scene.workpiece
+    errors = ForceSensorErrors(
+        noise_n=conditions.sensor_noise_n, offset_n=conditions.sensor_offset_n, delay_s=conditions.sensor_delay_s
+    )
+    return GripEstimate(
+        errors,
+        mass_kg=believed.mass_kg,
+        friction=conditions.design_gripper.friction * believed.friction,
+        fingers=spec.gripper.geometry.fingers,
+        window_s=spec.settings.control.force_window_s,
+        rate_hz=spec.settings.physics.rate_hz,
+        seed=spec.seed,
+    )
 
 
 def execution_of(

@@ -13,6 +13,7 @@ from rgss.trials.grip_control import GripControl
 from rgss.trials.monitors import (
     DragMonitor,
     ForceSensor,
+    GripEstimate,
     InHandMotionTracker,
     LandingMonitor,
     PhaseMonitor,
@@ -42,6 +43,7 @@ class Execution:
         control: ControlSettings,
         kinematics: ToolKinematics,
         *,
+        estimate: GripEstimate | None = None,
         observer: StepObserver | None = None,
         checkpoint: Callable[[], None] | None = None,
     ) -> None:
@@ -52,6 +54,7 @@ class Execution:
             references: Targets of the moves; the program ends before the first move that has none.
             control: Thresholds.
             kinematics: The arm's, with the tool at the grasp centre.
+            estimate: What the robot knows of its grip; None where that is the truth.
             observer: Callback after each step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
         """
@@ -66,7 +69,7 @@ class Execution:
         self._held_at: Pose | None = None
         self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
-        self._grip = GripControl(world, control)
+        self._grip = GripControl(world, control, estimate)
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
@@ -82,7 +85,7 @@ class Execution:
         """Follow a timed motion, with what is held."""
         world = self._world
         carried_at = self._held_at if phase in CARRYING else None
-        self._grip.tightenings = 0
+        self._grip.begin_phase()
         placed = PlacedObjectMonitor(world) if phase is Phase.MOVE_TO_GRASP_APPROACH else None
         watch = self._watch(carried_at, self._resting_on(phase), reference.tool_m, placed)
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
@@ -109,7 +112,8 @@ class Execution:
             if carried_at is not None:
                 is_held = min(contacts.finger_forces_n) > 0.0
                 self._grip.since_tightening_s += self._step_s
-                if watch.grip_margin is not None and watch.grip_margin < least_margin:
+                margin = self._grip.margin(watch.grip_margin, contacts.finger_forces_n, load)
+                if margin is not None and margin < least_margin:
                     self._grip.keep()
             if watch.failure is not None:
                 break
@@ -154,8 +158,7 @@ class Execution:
         scene = world.scene
         watch = self._watch(None, scene.support)
         fingers = gripper.geometry.fingers
-        friction = gripper.friction * scene.workpiece.friction
-        needed_n = scene.workpiece.mass_kg * scene.gravity_m_s2 / (friction * fingers)
+        needed_n = self._grip.mass_kg * scene.gravity_m_s2 / (self._grip.friction * fingers)
         travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
         self._grip.close()
         self._grip.tightenings = 0
@@ -171,7 +174,7 @@ class Execution:
             steps += 1
             if steps % look_every == 0:
                 hand.look(steps)
-            forces = contacts.finger_forces_n
+            forces = self._grip.readings(contacts.finger_forces_n)
             firm_s = firm_s + self._step_s if _is_firm(forces, needed_n) else 0.0
             touching_s = touching_s + self._step_s if min(forces) > 0.0 else 0.0
             if firm_s == 0.0 and touching_s > control.firm_grasp_s:

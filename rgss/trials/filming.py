@@ -10,6 +10,7 @@ from types import TracebackType
 from rgss.evidence.records import PhaseSpan, TrialTrace
 from rgss.physics import Camera, Picture, Posture, View
 from rgss.scenes import Pose
+from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces import TrialSpec
 
 _INSET_SHARE = 0.35
@@ -63,11 +64,12 @@ class Film:
         self._trace = trace
         self._rate_hz = rate_hz
         self._inset: Camera | None = None
+        scene = conditions_of(spec).true_scene
         with ExitStack() as cameras:  # closes the first camera should the second fail
-            self._camera = cameras.enter_context(Camera(spec.scene, spec.gripper, view, width=width, height=height))
+            self._camera = cameras.enter_context(Camera(scene, spec.gripper, view, width=width, height=height))
             if inset is not None:
                 size = {"width": round(_INSET_SHARE * width), "height": round(_INSET_SHARE * height)}
-                self._inset = cameras.enter_context(Camera(spec.scene, spec.gripper, inset, **size))
+                self._inset = cameras.enter_context(Camera(scene, spec.gripper, inset, **size))
             self._cameras = cameras.pop_all()
 
     def __enter__(self) -> Film:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rgss.physics import World
+from rgss.trials.monitors import GripEstimate
 from rgss.trials.plants import ControlSettings
 
 
@@ -13,20 +14,51 @@ class GripControl:
         force_n: Commanded force of each finger.
         tightenings: How often it was increased in this phase.
         since_tightening_s: Carrying time since the last increase; the caller adds each step.
+        mass_kg: Mass of the object as the robot knows it.
+        friction: Coefficient of a finger on the object as the robot knows it.
     """
 
-    def __init__(self, world: World, control: ControlSettings) -> None:
+    def __init__(self, world: World, control: ControlSettings, estimate: GripEstimate | None = None) -> None:
         """Begin with the share that holds an object at rest.
 
         Args:
             world: The world whose fingers are driven.
             control: The shares, and the least time between two increases.
+            estimate: What the robot knows of its grip; None where that is the truth.
         """
         self._world = world
         self._control = control
         self.force_n = control.holding_share * world.gripper.finger_force_n
         self.tightenings = 0
         self.since_tightening_s = 0.0
+        workpiece = world.scene.workpiece
+        self._estimate = estimate
+        self.mass_kg = workpiece.mass_kg if estimate is None else estimate.mass_kg
+        self.friction = world.gripper.friction * workpiece.friction if estimate is None else estimate.friction
+
+    def begin_phase(self) -> None:
+        """Begin to count, and to average, anew."""
+        self.tightenings = 0
+        if self._estimate is not None:
+            self._estimate.begin_phase()
+
+    def readings(self, forces_n: tuple[float, ...]) -> tuple[float, ...]:
+        """The fingers' normal forces as the robot reads them in this step.
+
+        Args:
+            forces_n: The true ones.
+        """
+        return forces_n if self._estimate is None else self._estimate.read(forces_n)
+
+    def margin(self, true_margin: float | None, forces_n: tuple[float, ...], load_m_s2: float) -> float | None:
+        """The grip margin as the robot knows it after a step; None before it can be known.
+
+        Args:
+            true_margin: The true one.
+            forces_n: The fingers' true normal forces.
+            load_m_s2: Tool acceleration minus gravity, in magnitude.
+        """
+        return true_margin if self._estimate is None else self._estimate.after_step(forces_n, load_m_s2)
 
     def close(self) -> None:
         """Close the fingers with the commanded force."""

@@ -16,6 +16,7 @@ from rgss.evidence import (
     PlanOutcome,
     TrialRecord,
 )
+from rgss.trials.conditions import conditions_of
 from rgss.trials.metrics import METRICS, Aggregation, Direction, MetricDescriptor
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plan import PlannedMove, TaskPlan
@@ -52,6 +53,7 @@ def assemble_record(
         execution: The phases that physics ran, in order.
         bench_payload_kg: What the gripper holds on the payload bench; None where that is not known.
     """
+    conditions = conditions_of(spec)
     results = {result.phase: result for result in execution}
     phases: list[PhaseRecord] = []
     planning: list[PlanningRecord] = []
@@ -98,6 +100,8 @@ def assemble_record(
         phases=tuple(phases),
         planning=tuple(planning),
         metrics=_metrics(phases, planning, success=failure is None, bench_payload_kg=bench_payload_kg),
+        workload=conditions.case,
+        draws=dict(conditions.draws),
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rgss.evidence import Failure, Phase
 from rgss.motion import JointPath, MotionLimits, TimingOutcome, Trajectory, time_move
+from rgss.trials.conditions import conditions_of
 from rgss.trials.path_quality import PathQuality, path_quality
 from rgss.trials.plan import TaskPlan
 from rgss.trials.reference import Array
@@ -91,7 +92,8 @@ def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:
         spec: The trial.
         plan: Its plan.
     """
-    return time_task(cell_of(spec), plan, tool_speed_m_s=spec.tool_speed_m_s, settings=spec.settings.planning)
+    speed_m_s = conditions_of(spec).tool_speed_m_s
+    return time_task(cell_of(spec), plan, tool_speed_m_s=speed_m_s, settings=spec.settings.planning)
 
 
 def _too_slow(trajectory: Trajectory, limits: MotionLimits) -> str:

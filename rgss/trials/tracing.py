@@ -11,6 +11,7 @@ from rgss.evidence import Phase, TrialRecord
 from rgss.evidence.records import PhaseSpan, TrialTrace
 from rgss.kinematics import Arm
 from rgss.physics import Contacts, World
+from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces import TrialSpec, run_trial
 
 TRACE_RATE_HZ = 240.0
@@ -92,6 +93,8 @@ class TraceRecorder:
             return None
         spec, count = self._spec, spans[-1].last + 1
         positions = np.array([position for position, _ in self._joints[:count]])
+        if offsets := conditions_of(spec).joint_offsets_rad:  # what is seen is where the arm is, not what it reports
+            positions = positions + np.array(offsets)
         velocities = np.array([velocity for _, velocity in self._joints[:count]])
         arm = Arm(spec.scene.robot, spec.gripper.geometry.grasp_centre)
         jacobians = np.array([arm.tool_jacobian(position)[:3] for position in positions])
@@ -105,7 +108,7 @@ class TraceRecorder:
             workpiece_quaternion_xyzw=workpiece[:, 3:],
             tool_position_m=arm.tool_position(positions),
             tool_speed_m_s=np.linalg.norm(np.einsum("nij,nj->ni", jacobians, velocities), axis=1),
-            tool_speed_limit_m_s=spec.tool_speed_m_s,
+            tool_speed_limit_m_s=conditions_of(spec).tool_speed_m_s,
             finger_forces_n=np.array(self._forces_n[:count]),
             commanded_force_n=np.array(self._commanded_n[:count]),
             grip_margin=np.array(self._margins[:count]),

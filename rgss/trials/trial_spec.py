@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from rgss.evidence import Fidelity
 from rgss.motion import PlannerSettings
 from rgss.scenes import Gripper, Scene
+from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, ONE_WORKLOAD, Uncertainty, Workload
 from rgss.trials.settings import TrialSettings
 
 
@@ -18,13 +19,15 @@ class TrialSpec:
         variant: Id of the design variant.
         seed: The trial's seed.
         fidelity: How much physics it has.
-        scene: Where it happens.
+        scene: Where it happens, as the files say.
         gripper: The gripper of the design.
         planner: Name of the planner of the design, in the study or in OMPL.
         planning_limit_s: Longest planning time for one move.
         tool_speed_m_s: Greatest tool speed.
         settings: How it is planned and simulated.
         planner_settings: The planner with its parameters; the one of OMPL with that name if None.
+        uncertainty: What differs from the files; the seed draws it.
+        workload: The objects that are carried; the seed chooses one.
     """
 
     variant: int
@@ -37,6 +40,8 @@ class TrialSpec:
     tool_speed_m_s: float
     settings: TrialSettings
     planner_settings: PlannerSettings | None = None
+    uncertainty: Uncertainty = NOTHING_UNCERTAIN
+    workload: Workload = ONE_WORKLOAD
 
     @property
     def planned_by(self) -> PlannerSettings:

@@ -9,6 +9,7 @@ from functools import lru_cache
 from rgss.evidence import Phase
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import GripperGeometry, Scene
+from rgss.trials.conditions import conditions_of
 from rgss.trials.trial_spec import TrialSpec
 
 _SHARE_KEPT = 0.25
@@ -57,12 +58,12 @@ def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float) -> 
 
 
 def cell_of(spec: TrialSpec) -> Workcell:
-    """The workcell of a trial.
+    """The workcell of a trial as the robot perceives it.
 
     Args:
         spec: The trial.
     """
-    return workcell_of(spec.scene, spec.gripper.geometry, spec.settings.planning.clearance_m)
+    return workcell_of(conditions_of(spec).perceived_scene, spec.gripper.geometry, spec.settings.planning.clearance_m)
 
 
 def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, CollisionContext]:

@@ -52,7 +52,7 @@ def described(name):
 
 
 def pattern(title):
-    return re.sub(r"PARAMETER|FACTOR|MEASURE", r".+", re.sub(r"(?<=_)N(?=_|$)", r"\\d+", re.escape(title)))
+    return re.sub(r"PARAMETER|FACTOR|MEASURE|QUANTITY", r".+", re.sub(r"(?<=_)N(?=_|$)", r"\\d+", re.escape(title)))
 
 
 @pytest.mark.parametrize("name", [name for name in FRAMES if name not in ("course", "fleet")])

@@ -96,6 +96,8 @@ def random_records() -> st.SearchStrategy[TrialRecord]:
         phases=st.lists(phases, max_size=2).map(tuple),
         planning=st.lists(planning, max_size=2).map(tuple),
         metrics=metrics,
+        workload=st.text(max_size=5),
+        draws=st.dictionaries(st.text(), number, max_size=3),
     )
 
 

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Container, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
 
 if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures
@@ -18,6 +18,7 @@ EXAMPLE = "rgss measure --json > measures.json"
 MORE_EXAMPLES = (
     ("rgss measure", "the measures of effectiveness and the verdicts of every variant"),
     ("rgss measure --variant 2", "every measure and verdict of one"),
+    ("rgss measure --drivers", "which draws go with which failures"),
 )
 
 
@@ -26,7 +27,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_study(parser)
     add_replicates(parser)
     add_fidelity(parser)
+    add_nominal(parser)
     parser.add_argument("--variant", type=int, metavar="ID", help="only this variant, with every measure")
+    parser.add_argument(
+        "--drivers", action="store_true", help="only which uncertain quantity drives which kind of failure"
+    )
     parser.add_argument("--verdicts", action="store_true", help="only the verdicts, and why one is stale")
     parser.add_argument(
         "--record",
@@ -60,7 +65,9 @@ def run(options: argparse.Namespace) -> int:
                     hint=f"'--fidelity {screened.screening.fidelity.value}' shows what is known of it",  # type: ignore[union-attr]
                 )
         measured = tuple(entry for entry in measured if entry.variant.id == options.variant)
-    if options.json:
+    if options.drivers:
+        _print_drivers(measured, as_json=options.json)
+    elif options.json:
         print_json(list(_verdict_rows(measured) if options.verdicts else _measure_rows(measured)))
     elif options.verdicts:
         _print_verdicts(measured)
@@ -68,9 +75,21 @@ def run(options: argparse.Namespace) -> int:
         _print_variant(project, measured[0])
     else:
         _print_all(project, measured)
-    if screened is not None and options.variant is None and not options.json:
+    if screened is not None and options.variant is None and not (options.json or options.drivers):
         print("\n" + "\n".join(screening_lines(screened)))
     return 0
+
+
+def _print_drivers(measured: Sequence[VariantMeasures], *, as_json: bool) -> None:
+    from rgss.assessment import drivers_of_failures
+    from rgss.cli.output import print_json, print_lines
+    from rgss.reports import driver_lines, drivers_to_json
+
+    found = drivers_of_failures([record for entry in measured for record in entry.records])
+    if as_json:
+        print_json(drivers_to_json(found))
+    else:
+        print_lines(driver_lines(found))
 
 
 def _measure_rows(measured: Sequence[VariantMeasures]) -> Iterator[dict[str, Any]]:

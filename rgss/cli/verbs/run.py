@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_fidelity, chosen_project
+from rgss.cli.options import add_fidelity, add_nominal, chosen_project
 from rgss.cli.pictures import add_pictures, made_pictures, ordered_pictures, traced_trial
+
+if TYPE_CHECKING:
+    from rgss.trials import DrawnValue
 
 HELP = "run one trial and show it phase by phase"
 EXAMPLE = "rgss run 2 --seed 3"
 MORE_EXAMPLES = (
     ("rgss run 2 --gif trial.gif", "and film it"),
     ("rgss run 2 --fidelity kinematic", "motion alone, quickly"),
+    ("rgss run 2 --nominal", "with everything as the files say"),
 )
 
 
@@ -21,12 +26,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("variant", type=int, metavar="ID", help="the variant's id")
     parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
     add_fidelity(parser)
+    add_nominal(parser)
     parser.add_argument("--seed", type=int, metavar="N", help="the trial's seed (default: the study's first)")
     add_pictures(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the trial; 1 if it does not succeed."""
+    from rgss.cli.drawn import drawn_as_json
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.engines import require_engines
@@ -34,6 +41,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.evidence import record_digest
     from rgss.studies import trial_specs
     from rgss.sweep import compute
+    from rgss.trials import drawn_values
     from rgss.trials.pieces import run_trial
 
     require_engines("'rgss run'")
@@ -46,10 +54,11 @@ def run(options: argparse.Namespace) -> int:
     (spec,) = trial_specs(project, variants=[variant], seeds=[seed])
     record, trace = (compute(run_trial, spec), None) if order is None else traced_trial(spec)
     digest = record_digest(record)
+    drawn = drawn_values(spec)
     if options.json:
-        print_json(_as_json(record, digest))
+        print_json({**_as_json(record, digest), **drawn_as_json(record.workload, drawn)})
     else:
-        _show(record, digest)
+        _show(record, digest, drawn)
     if order is not None:
         lines = made_pictures(order, spec, record, trace)
         if not options.json:
@@ -89,7 +98,8 @@ def _as_json(record: Any, digest: str) -> dict[str, Any]:
     }
 
 
-def _show(record: Any, digest: str) -> None:
+def _show(record: Any, digest: str, drawn: Sequence[DrawnValue]) -> None:
+    from rgss.cli.drawn import print_drawn
     from rgss.cli.output import number, print_table
 
     planning = {entry.subtask: entry for entry in record.planning}
@@ -110,6 +120,7 @@ def _show(record: Any, digest: str) -> None:
             ]
         )
     print(f"Variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity")
+    print_drawn(record.workload, drawn)
     titles = ["", "phase", "outcome", "time [s]", "checks", "planning [s]", "path [m]", "grip margin", "slip [mm]"]
     print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))
     metrics = record.metrics

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
 
 if TYPE_CHECKING:
     from rgss.decision import ScreeningResult
@@ -30,6 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_study(parser)
     add_replicates(parser)
     add_fidelity(parser)
+    add_nominal(parser)
     parser.add_argument(
         "--what-if",
         action="append",

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Any, NoReturn, TypeVar
 
 from rgss.documents import canonical_json
@@ -20,6 +21,9 @@ _LONGEST_INTEGER = 1000
 
 Value = TypeVar("Value")
 
+_WHERE_VARIED: Mapping[str, object] = MappingProxyType({"workload": "", "draws": {}})
+"""What the text of a record has only where something was drawn, with what stands for it elsewhere."""
+
 
 def record_to_json(record: TrialRecord) -> str:
     """Write a record as canonical JSON.
@@ -30,8 +34,12 @@ def record_to_json(record: TrialRecord) -> str:
     Raises:
         EvidenceError: The record has such a value.
     """
+    data = _plain(record)
+    for name, default in _WHERE_VARIED.items():
+        if data[name] == default:
+            del data[name]
     try:
-        text = canonical_json(_plain(record))
+        text = canonical_json(data)
     except DefinitionError as error:
         raise EvidenceError(f"the record cannot be written: {error.message}", hint=error.hint) from error
     record_from_json(text)
@@ -44,7 +52,13 @@ def record_from_json(text: str) -> TrialRecord:
     Raises:
         EvidenceError: The text is no such record; its message names the part that is wrong.
     """
-    return read_json(text, TrialRecord, "record")
+    data = _loaded(text, "record", float)
+    if isinstance(data, dict):
+        for name, default in _WHERE_VARIED.items():
+            if name in data and data[name] == default:
+                raise EvidenceError(f"record.{name} is empty, and then is left out")
+        data = {**_WHERE_VARIED, **data}
+    return read_plain(data, TrialRecord, "record")
 
 
 def read_json(text: str, kind: type[Value], name: str) -> Value:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rgss.evidence.records.outcomes import Failure, Fidelity, Phase, PhaseOutcome, PlanOutcome
 
@@ -64,6 +64,8 @@ class TrialRecord:
         phases: The eight states in order.
         planning: The five planned moves in order.
         metrics: What was observed over the whole trial, by name with unit.
+        workload: The case of the workload; empty where there is none.
+        draws: What was drawn for it of each uncertain quantity, in SI; empty where everything is as the files say.
     """
 
     variant: int
@@ -76,3 +78,5 @@ class TrialRecord:
     phases: tuple[PhaseRecord, ...]
     planning: tuple[PlanningRecord, ...]
     metrics: Mapping[str, Metric]
+    workload: str = ""
+    draws: Mapping[str, float] = field(default_factory=dict)

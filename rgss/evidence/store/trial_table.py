@@ -4,6 +4,7 @@ The columns, in their order; NAME is that of a metric, with its unit at its end:
 
 - ``key``, ``content_digest``: digests of what went in and of what came out.
 - ``variant``, ``seed``, ``fidelity``, ``success``, ``failure``, ``failed_phase``, ``failure_detail``.
+- ``workload``, ``drawn_QUANTITY``: case of the workload, and draws of uncertain quantities; only where there are any.
 - ``NAME``: a metric of the trial (but that of success, which the column of that name says). One
   that is a row has a column for each entry: ``item_1_NAME``, ``item_2_NAME`` and so on; a row of
   planning or of paths has the five planned moves in their order.
@@ -25,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from rgss.errors import EvidenceError
 from rgss.evidence.records import Metric, StoredTrial
 from rgss.findings import shown
+from rgss.scenes.uncertainty import draw_column
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,7 +37,7 @@ MOST_COLUMNS = 2000
 _SAID = "success"
 """The metric that says the same as the column of this name."""
 
-_HEAD, _METRICS, _PHASES, _PLANNING, _ORIGIN = range(5)
+_HEAD, _DRAWN, _METRICS, _PHASES, _PLANNING, _ORIGIN = range(6)
 
 _PLANNING_COLUMNS = {
     "outcome": str,
@@ -94,6 +96,10 @@ def trial_frame(trials: Iterable[StoredTrial]) -> pd.DataFrame:
 def _cells(trial: StoredTrial) -> Iterator[_Cell]:
     record, provenance = trial.record, trial.provenance
     yield from _head(trial)
+    if record.workload:
+        yield "workload", _text(record.workload), (_DRAWN, 0, "", 0), str
+    for name, drawn in record.draws.items():
+        yield _text(draw_column(name)), _number(drawn, name), (_DRAWN, 1, name, 0), float
     for name, value in record.metrics.items():
         if name != _SAID:
             yield from _metric(_METRICS, 0, "", name, value)

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from rgss.trials.monitors.drag_monitor import DragMonitor
     from rgss.trials.monitors.force_sensor import ForceSensor
     from rgss.trials.monitors.grasp_record import grasp_metrics
+    from rgss.trials.monitors.grip_estimate import ForceSensorErrors, GripEstimate
     from rgss.trials.monitors.in_hand_motion import InHandMotionTracker
     from rgss.trials.monitors.observer import StepObserver
     from rgss.trials.monitors.phase_monitor import PhaseMonitor
@@ -19,6 +20,8 @@ else:
 __all__ = [
     "DragMonitor",
     "ForceSensor",
+    "ForceSensorErrors",
+    "GripEstimate",
     "InHandMotionTracker",
     "LandingMonitor",
     "PhaseMonitor",

@@ -98,7 +98,7 @@ def grasp_metrics(
     weight_n = workpiece.mass_kg * world.scene.gravity_m_s2
     found = analyse_grasp(
         points,
-        centre_of_mass_m=(0.0, 0.0, 0.0),
+        centre_of_mass_m=(0.0, 0.0, workpiece.centre_of_mass_m),
         finger_force_limit_n=gripper.finger_force_n,
         grasp_axis=(0.0, 0.0, 1.0),
         characteristic_length_m=workpiece.shape.radius_m,

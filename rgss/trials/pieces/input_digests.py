@@ -17,6 +17,7 @@ from rgss.documents import digest
 from rgss.motion import Objective
 from rgss.scenes import Robot, Scene, Shape
 from rgss.trials.code import ENTRIES, versions_of
+from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.payload_bench import BenchSpec, bench_of
 from rgss.trials.pieces.plain_values import to_plain
 from rgss.trials.trial_spec import TrialSpec
@@ -40,7 +41,7 @@ class TrialDigests:
             settings, fidelity.
         bench: The gripper, the object, the acceleration and the physics settings; empty where the
             trial's fidelity knows no bench.
-        trial: The execution, the bench and the planning limit; the variant's number is no input.
+        trial: The execution, the bench, the planning limit and the draws; the variant's number is no input.
     """
 
     plan: str
@@ -64,8 +65,9 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
             takes those that it depends on.
     """
     used = _version_digests(tuple(sorted(versions.items())))
+    conditions = conditions_of(spec)
     plan = _joined(
-        _geometry_digest(spec.scene),
+        _geometry_digest(conditions.perceived_scene),
         _digest_of(spec.gripper.geometry),
         _digest_of(spec.planned_by),
         _potential_digest(spec),
@@ -73,11 +75,12 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         _digest_of(spec.settings.planning),
         used["plan"],
     )
-    timing = _joined(plan, spec.tool_speed_m_s, _rates_digest(spec.scene.robot), used["timing"])
+    timing = _joined(plan, conditions.tool_speed_m_s, _rates_digest(spec.scene.robot), used["timing"])
     execution = _joined(
         timing,
-        _digest_of(spec.gripper),
-        _matter_digest(spec.scene),
+        _digest_of(conditions.true_gripper),
+        _matter_digest(conditions.true_scene),
+        _truth_digest(conditions),
         _digest_of(spec.settings.physics),
         _digest_of(spec.settings.control),
         spec.fidelity.value,
@@ -85,7 +88,8 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     )
     bench = bench_of(spec)
     lifted = "" if bench is None else _bench_digest(bench, used["bench"])
-    trial = digest([execution, lifted, spec.planning_limit_s, used["record"]])
+    drawn = [conditions.case, dict(conditions.draws)]
+    trial = digest([execution, lifted, spec.planning_limit_s, used["record"], drawn])
     return TrialDigests(plan=plan, timing=timing, execution=execution, bench=lifted, trial=trial)
 
 
@@ -155,6 +159,20 @@ def _bench_digest(spec: BenchSpec, versions: str) -> str:
 @lru_cache(maxsize=_KEPT)
 def _matter_digest(scene: Scene) -> str:
     return digest(physics_inputs(scene))
+
+
+def _truth_digest(conditions: Conditions) -> str:
+    """Digest of what the machine meets, and the robot neither plans with nor believes, and of what it believes."""
+    true, believed = conditions.true_scene.workpiece, conditions.scene.workpiece
+    return digest(
+        {
+            "pose": to_plain(true.pose),
+            "centre_of_mass_m": true.centre_of_mass_m,
+            "believed": [believed.mass_kg, believed.friction, conditions.design_gripper.friction],
+            "sensor": [conditions.sensor_noise_n, conditions.sensor_offset_n, conditions.sensor_delay_s],
+            "joint_offsets_rad": list(conditions.joint_offsets_rad),
+        }
+    )
 
 
 @lru_cache(maxsize=_KEPT)

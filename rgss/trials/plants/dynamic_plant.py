@@ -15,7 +15,7 @@ import numpy as np
 from rgss.evidence import Failure, Metric, Phase
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene
+from rgss.scenes import Gripper, Scene, Workpiece
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
@@ -55,6 +55,7 @@ class DynamicPlant:
         control: ControlSettings,
         *,
         controller: ComputedTorque | None = None,
+        believed: Workpiece | None = None,
         checkpoint: Callable[[], None] | None = None,
     ) -> None:
         """Prepare the plant.
@@ -67,6 +68,7 @@ class DynamicPlant:
             settings: Step length.
             control: Thresholds of the task program.
             controller: Gains.
+            believed: The object as the controller's model has it; that of the scene by default.
             checkpoint: Called before each step; it may wait, or end the task by raising.
         """
         self._machine = machine
@@ -80,7 +82,7 @@ class DynamicPlant:
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
         empty, loaded = gripper_loads(gripper, opening_m), gripper_loads(gripper, scene.workpiece.shape.radius_m)
-        held = workpiece_load(scene.workpiece, gripper.geometry.grasp_centre)
+        held = workpiece_load(scene.workpiece if believed is None else believed, gripper.geometry.grasp_centre)
         self._empty = ArmDynamics(scene.robot, empty, gravity_m_s2=scene.gravity_m_s2)
         self._loaded = ArmDynamics(scene.robot, (*loaded, held), gravity_m_s2=scene.gravity_m_s2)
         self._model = self._empty

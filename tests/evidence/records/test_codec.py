@@ -30,6 +30,15 @@ def test_every_record_survives_the_round_trip_bit_for_bit(records, data):
     assert record_digest(again) == record_digest(record) == hashlib.sha256(text.encode()).hexdigest()
 
 
+def test_what_was_drawn_is_in_the_text_only_where_something_was(record):
+    plain, drawn = record(), record(workload="full", draws={"perception.x": 0.004})
+
+    assert not {"workload", "draws"} & json.loads(record_to_json(plain)).keys()
+    assert json.loads(record_to_json(drawn))["draws"] == {"perception.x": 0.004}
+    assert record_from_json(record_to_json(drawn)) == drawn
+    assert record_digest(drawn) != record_digest(plain)
+
+
 def test_the_text_is_canonical(record):
     text = record_to_json(record())
     assert text == json.dumps(json.loads(text), sort_keys=True, separators=(",", ":"))
@@ -100,6 +109,9 @@ def _damaged(text, change):
         ),
         (lambda data: data["planning"][0].update(checks=None), "record.planning[0].checks is not int: None"),
         (lambda data: data["planning"][0].update({"x" * 100: 1}), f"record.planning[0] has an unknown '{'x' * 59}…'"),
+        (lambda data: data.update(draws={}), "record.draws is empty, and then is left out"),
+        (lambda data: data.update(workload=""), "record.workload is empty, and then is left out"),
+        (lambda data: data.update(draws={"perception.x": "1"}), "record.draws.perception.x is not float: '1'"),
         (lambda data: data.update(failure_detail=["x" * 100]), f"record.failure_detail is not str: ['{'x' * 57}…"),
     ],
 )

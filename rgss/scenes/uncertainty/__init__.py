@@ -1,0 +1,63 @@
+"""Uncertainty: what differs from trial to trial, by which distribution, and the draws of a seed."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.scenes.uncertainty.declaration import NOTHING_UNCERTAIN, Correlation, Uncertainty, UncertainValue
+    from rgss.scenes.uncertainty.distributions import (
+        Constant,
+        Discrete,
+        Distribution,
+        LogNormal,
+        Normal,
+        TruncatedNormal,
+        Uniform,
+    )
+    from rgss.scenes.uncertainty.document import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
+    from rgss.scenes.uncertainty.drawing import draws_of, white_noise
+    from rgss.scenes.uncertainty.quantities import (
+        QUANTITIES,
+        Application,
+        EntersAt,
+        UncertainQuantity,
+        draw_column,
+        quantity_of,
+    )
+    from rgss.scenes.uncertainty.reading import read_uncertainty
+    from rgss.scenes.uncertainty.workload import ONE_WORKLOAD, Case, Workload
+    from rgss.scenes.uncertainty.workload_reading import read_workload
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "NOTHING_UNCERTAIN",
+    "ONE_WORKLOAD",
+    "QUANTITIES",
+    "Application",
+    "Case",
+    "CaseEntry",
+    "Constant",
+    "Correlation",
+    "CorrelationEntry",
+    "Discrete",
+    "Distribution",
+    "DistributionEntry",
+    "EntersAt",
+    "LogNormal",
+    "Normal",
+    "QuantityName",
+    "TruncatedNormal",
+    "UncertainQuantity",
+    "UncertainValue",
+    "Uncertainty",
+    "Uniform",
+    "Workload",
+    "draw_column",
+    "draws_of",
+    "quantity_of",
+    "read_uncertainty",
+    "read_workload",
+    "white_noise",
+]

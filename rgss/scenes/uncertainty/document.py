@@ -1,0 +1,120 @@
+"""The YAML form of uncertainty and workload."""
+
+from __future__ import annotations
+
+import difflib
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from rgss.documents import Dimensionless, DocumentModel, Identifier, Kilograms, Metres, QuantityText, Text
+from rgss.findings import shown
+from rgss.scenes.uncertainty.quantities import QUANTITIES
+
+MOST_REPLICATES_OF_CASE = 1000
+
+
+def _as_text(value: Any) -> Any:
+    """A pure number may stand without quotes; its unit decides later whether it may."""
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+def _read_name(value: Any) -> str:
+    if isinstance(value, str) and value in QUANTITIES:
+        return value
+    near = difflib.get_close_matches(str(value), QUANTITIES, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"quantities: {', '.join(QUANTITIES)}"
+    details = {"message": f"unknown uncertain quantity {shown(str(value))}", "hint": hint}
+    raise PydanticCustomError("quantity", "{message}", details)
+
+
+ValueText = Annotated[
+    QuantityText,
+    BeforeValidator(_as_text),
+    WithJsonSchema(
+        {
+            "type": ["string", "number"],
+            "minLength": 1,
+            "maxLength": 60,
+            "description": "A value in the quantity's unit; factors and coefficients have none.",
+        }
+    ),
+]
+"""A value whose unit the uncertain quantity decides, such as ``"3 mm"`` or ``"5 %"``."""
+
+QuantityName = Annotated[
+    str,
+    PlainValidator(_read_name),
+    WithJsonSchema({"enum": list(QUANTITIES), "enumDescriptions": [one.meaning for one in QUANTITIES.values()]}),
+]
+"""The name of a quantity that may be uncertain."""
+
+
+class NormalEntry(DocumentModel):
+    """A normal distribution."""
+
+    mean: ValueText
+    sd: ValueText
+
+
+class TruncatedNormalEntry(DocumentModel):
+    """A normal distribution between two ends."""
+
+    mean: ValueText
+    sd: ValueText
+    low: ValueText
+    high: ValueText
+
+
+class UniformEntry(DocumentModel):
+    """A uniform distribution."""
+
+    low: ValueText
+    high: ValueText
+
+
+class LogNormalEntry(DocumentModel):
+    """A log-normal distribution."""
+
+    median: ValueText
+    geometric_sd: Dimensionless
+
+
+class DiscreteEntry(DocumentModel):
+    """A few values with their weights."""
+
+    values: Annotated[tuple[ValueText, ...], Field(min_length=1)]
+    weights: tuple[Dimensionless, ...] = ()
+
+
+class DistributionEntry(DocumentModel):
+    """The distribution of an uncertain quantity: exactly one, and why it was taken."""
+
+    normal: NormalEntry | None = None
+    truncated_normal: TruncatedNormalEntry | None = None
+    uniform: UniformEntry | None = None
+    lognormal: LogNormalEntry | None = None
+    discrete: DiscreteEntry | None = None
+    constant: ValueText | None = None
+    rationale: Text
+
+
+class CorrelationEntry(DocumentModel):
+    """Uncertain quantities that go together."""
+
+    quantities: Annotated[tuple[QuantityName, ...], Field(min_length=2)]
+    matrix: Annotated[tuple[tuple[Dimensionless, ...], ...], Field(min_length=2)]
+    rationale: Text
+
+
+class CaseEntry(DocumentModel):
+    """One kind of object of a workload; what it does not give is the scene's."""
+
+    case: Identifier
+    replicates: Annotated[int, Field(ge=1, le=MOST_REPLICATES_OF_CASE)] = 1
+    mass: Kilograms | None = None
+    radius: Metres | None = None
+    height: Metres | None = None
+    friction: Dimensionless | None = None
+    rationale: Text

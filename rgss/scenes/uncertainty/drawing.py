@@ -1,0 +1,94 @@
+"""Draws of a seed: each a function of the seed and the quantity's name alone.
+
+A counter-based generator (Philox 4x64-10, Salmon et al. 2011) is keyed by a digest of seed and name, and its first
+number goes through the inverse distribution function. So a draw depends neither on the order of draws nor on what else
+is uncertain, and is the same for every design: common random numbers. Quantities of a correlated group depend on each
+other, and on no more.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from functools import lru_cache
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.scenes.uncertainty.declaration import Correlation, Uncertainty
+from rgss.scenes.uncertainty.quantities import QUANTITIES
+
+_DIGITS = 9
+_SEEDS_KEPT = 4096
+
+
+@lru_cache(maxsize=_SEEDS_KEPT)
+def draws_of(uncertainty: Uncertainty, seed: int) -> Mapping[str, float]:
+    """The draws of a trial by name, in the order of the registry.
+
+    A draw is rounded to nine significant digits: kernels of other processors differ in the last of sixteen, and a
+    draw is an input that must be the same wherever it is made.
+
+    Args:
+        uncertainty: What is uncertain.
+        seed: The trial's seed.
+    """
+    values = {one.quantity: one.distribution for one in uncertainty.values}
+    shares = {
+        name: uniform_of(seed, name)
+        for quantity, entry in QUANTITIES.items()
+        if quantity in values
+        for name in entry.draw_names
+    }
+    for group in uncertainty.correlations:
+        if {*group.quantities} <= values.keys():
+            shares.update(_correlated(group, shares))
+    return MappingProxyType(
+        {
+            name: float(f"{values[quantity].quantile(shares[name]):.{_DIGITS}g}")
+            for quantity, entry in QUANTITIES.items()
+            if quantity in values
+            for name in entry.draw_names
+        }
+    )
+
+
+def uniform_of(seed: int, name: str) -> float:
+    """A number that is uniform between 0 and 1, both excluded, of a seed and a name.
+
+    Args:
+        seed: The trial's seed.
+        name: The name of a draw.
+    """
+    # Odd multiples of 2**-54: neither end can be drawn.
+    return float((int(_generator(seed, name).random_raw()) >> 11) * 2 + 1) * 2.0**-54
+
+
+def white_noise(seed: int, name: str, count: int) -> NDArray[np.float64]:
+    """Standard normal numbers (count,) of a seed and a name; fewer of them are the first of more.
+
+    Args:
+        seed: The trial's seed.
+        name: The name of what is noisy.
+        count: How many.
+    """
+    return np.random.Generator(_generator(seed, name)).standard_normal(count)
+
+
+def _generator(seed: int, name: str) -> np.random.Philox:
+    key = hashlib.sha256(f"{seed}:{name}".encode()).digest()[:16]
+    return np.random.Philox(key=int.from_bytes(key, "big"))
+
+
+def _correlated(group: Correlation, shares: Mapping[str, float]) -> dict[str, float]:
+    """The shares of a group by a Gaussian copula; each joint of quantities with several draws by itself."""
+    from scipy.special import ndtr, ndtri
+
+    names = [QUANTITIES[quantity].draw_names for quantity in group.quantities]
+    factor = np.linalg.cholesky(np.array(group.matrix))
+    found = {}
+    for row in zip(*names, strict=True):
+        scores = factor @ ndtri([shares[name] for name in row])
+        found.update({name: float(share) for name, share in zip(row, ndtr(scores), strict=True)})
+    return found

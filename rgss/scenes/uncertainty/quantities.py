@@ -1,0 +1,210 @@
+"""Registry of the quantities that may be uncertain.
+
+A new quantity is one entry here: the reader, the schemas, the draws, the frames and the page docs/uncertainty.md read
+this table. An entry names the field of `rgss.trials.conditions.Conditions` that it changes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from types import MappingProxyType
+
+
+class Application(Enum):
+    """Effect of a draw on the field of a trial's conditions."""
+
+    REPLACE = "replaces it"
+    ADD = "is added to it"
+    SCALE = "multiplies it"
+
+
+class EntersAt(str, Enum):
+    """First piece of a trial that a draw enters; it reaches those after it through that piece."""
+
+    PLAN = "plan"
+    TIMING = "timing"
+    EXECUTION = "execution"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UncertainQuantity:
+    """A quantity that may be uncertain.
+
+    Attributes:
+        name: Its name in files, such as ``perception.x``.
+        unit: The SI unit of its draws; ``"1"`` for factors and coefficients.
+        meaning: What it is, in a sentence.
+        field: The field of the conditions that it changes.
+        application: What a draw does to the field.
+        enters: The first piece of a trial that depends on it.
+        least: The least value that a draw may have.
+        is_least_allowed: Whether the least value itself may be drawn.
+        count: How many independent draws it has, one for each joint; 1 for most.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    field: str
+    application: Application
+    enters: EntersAt
+    least: float = -math.inf
+    is_least_allowed: bool = True
+    count: int = 1
+
+    @property
+    def draw_names(self) -> tuple[str, ...]:
+        """Names of its draws: its own, or its own with the number of each joint from 1."""
+        if self.count == 1:
+            return (self.name,)
+        return tuple(f"{self.name}.{index}" for index in range(1, self.count + 1))
+
+    def is_possible(self, value: float) -> bool:
+        """Whether a value may be drawn."""
+        return value > self.least or (self.is_least_allowed and value == self.least)
+
+
+_JOINTS = 6
+_UNIT_ENDINGS: Mapping[str, str] = MappingProxyType(
+    {"m": "_m", "rad": "_rad", "kg": "_kg", "N": "_n", "s": "_s", "1": "_1"}
+)
+
+
+def _deviation(name: str, unit: str, field: str, meaning: str) -> UncertainQuantity:
+    return UncertainQuantity(
+        name=name, unit=unit, field=field, meaning=meaning, application=Application.ADD, enters=EntersAt.PLAN
+    )
+
+
+def _of_execution(
+    name: str, unit: str, field: str, meaning: str, application: Application, *, least: float = 0.0, zero: bool = True
+) -> UncertainQuantity:
+    return UncertainQuantity(
+        name=name,
+        unit=unit,
+        field=field,
+        meaning=meaning,
+        application=application,
+        enters=EntersAt.EXECUTION,
+        least=least,
+        is_least_allowed=zero,
+    )
+
+
+_REPLACE, _SCALE = Application.REPLACE, Application.SCALE
+
+_ALL = (
+    _deviation(
+        "workpiece.x", "m", "stands_x_m", "Distance along the world's x at which the object stands off its place."
+    ),
+    _deviation(
+        "workpiece.y", "m", "stands_y_m", "Distance along the world's y at which the object stands off its place."
+    ),
+    _of_execution("workpiece.mass", "kg", "mass_kg", "Mass of the object.", _REPLACE, zero=False),
+    _of_execution(
+        "workpiece.mass_factor", "1", "mass_kg", "Mass of the object over the mass that is stated.", _SCALE, zero=False
+    ),
+    _of_execution(
+        "workpiece.centre_of_mass",
+        "m",
+        "centre_of_mass_m",
+        "Height of the object's centre of mass above the centre of its shape.",
+        _REPLACE,
+        least=-math.inf,
+    ),
+    _of_execution(
+        "workpiece.friction",
+        "1",
+        "friction",
+        "Friction coefficient of the object; that of a contact is the product with the other body's.",
+        _REPLACE,
+    ),
+    _deviation("perception.x", "m", "perceived_x_m", "Perceived less true position of the object along the world's x."),
+    _deviation("perception.y", "m", "perceived_y_m", "Perceived less true position of the object along the world's y."),
+    _deviation("perception.z", "m", "perceived_z_m", "Perceived less true height of the object."),
+    _deviation(
+        "perception.yaw", "rad", "perceived_yaw_rad", "Perceived less true turn of the object about the vertical."
+    ),
+    _deviation(
+        "perception.roll", "rad", "perceived_roll_rad", "Perceived tilt of the upright object about the world's x."
+    ),
+    _deviation(
+        "perception.pitch", "rad", "perceived_pitch_rad", "Perceived tilt of the upright object about the world's y."
+    ),
+    UncertainQuantity(
+        name="robot.tool_speed",
+        unit="1",
+        meaning="Largest speed of the tool centre over the one that the design sets.",
+        field="tool_speed_m_s",
+        application=_SCALE,
+        enters=EntersAt.TIMING,
+        least=0.0,
+        is_least_allowed=False,
+    ),
+    UncertainQuantity(
+        name="robot.joint_offset",
+        unit="rad",
+        meaning="True less reported angle of a joint: the zero error of its encoder, drawn for each joint.",
+        field="joint_offsets_rad",
+        application=Application.ADD,
+        enters=EntersAt.EXECUTION,
+        count=_JOINTS,
+    ),
+    _of_execution(
+        "gripper.finger.force", "1", "finger_force_n", "Force of the fingers over the design's.", _SCALE, zero=False
+    ),
+    _of_execution(
+        "gripper.finger.speed", "1", "finger_speed_m_s", "Speed of the fingers over the design's.", _SCALE, zero=False
+    ),
+    _of_execution(
+        "gripper.finger.friction", "1", "pad_friction", "Friction coefficient of the pads over the design's.", _SCALE
+    ),
+    _of_execution(
+        "gripper.force_sensor.noise",
+        "N",
+        "sensor_noise_n",
+        "Standard deviation of the white noise in each reading of a finger's normal force.",
+        _REPLACE,
+    ),
+    _of_execution(
+        "gripper.force_sensor.offset",
+        "N",
+        "sensor_offset_n",
+        "Offset of every reading of a finger's normal force.",
+        _REPLACE,
+        least=-math.inf,
+    ),
+    _of_execution(
+        "gripper.force_sensor.delay", "s", "sensor_delay_s", "Age of a reading of a finger's normal force.", _REPLACE
+    ),
+)
+
+QUANTITIES: Mapping[str, UncertainQuantity] = MappingProxyType({one.name: one for one in _ALL})
+"""The quantities by name, in the order in which they are applied."""
+
+
+def quantity_of(draw: str) -> UncertainQuantity:
+    """The quantity of a draw, such as ``robot.joint_offset.3``.
+
+    Raises:
+        KeyError: There is none.
+    """
+    if draw in QUANTITIES:
+        return QUANTITIES[draw]
+    return QUANTITIES[draw.rpartition(".")[0]]
+
+
+def draw_column(draw: str) -> str:
+    """Name of a table's column of a draw, such as ``drawn_perception_x_m``: the unit at its end.
+
+    Args:
+        draw: The name of the draw; one that is not in the registry, from another version, has no unit.
+    """
+    try:
+        unit = _UNIT_ENDINGS[quantity_of(draw).unit]
+    except KeyError:
+        unit = ""
+    return f"drawn_{draw.replace('.', '_')}{unit}"

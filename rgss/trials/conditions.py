@@ -1,0 +1,255 @@
+"""Conditions of a trial: what its seed drew, what is true of the world, and what the robot perceives of it.
+
+The plan is made from what is perceived, the machine meets what is true, and the grip is controlled by what the robot
+believes of the object: what the files, or the case of the workload, say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from functools import lru_cache
+from types import MappingProxyType
+
+from rgss.scenes import Cylinder, Gripper, Pose, Scene, Workpiece
+from rgss.scenes.uncertainty import QUANTITIES, Application, Case, UncertainQuantity, draws_of, quantity_of
+from rgss.trials.trial_spec import TrialSpec
+
+_KEPT = 4096
+_NO_DRAWS: Mapping[str, float] = MappingProxyType({})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Conditions:
+    """The conditions of one trial. The fields after `draws` are what uncertain quantities change.
+
+    Attributes:
+        scene: The scene with the object of the trial's case, as the robot believes it.
+        design_gripper: The gripper as the design states it.
+        case: Id of the case of the workload; empty where there is none.
+        draws: The draws by name.
+        stands_x_m: Distance along x at which the object stands off its place.
+        stands_y_m: The same along y.
+        perceived_x_m: Perceived less true position of the object along x.
+        perceived_y_m: The same along y.
+        perceived_z_m: The same along z.
+        perceived_yaw_rad: Perceived less true turn of the object about the vertical.
+        perceived_roll_rad: Perceived tilt of the object about x.
+        perceived_pitch_rad: Perceived tilt of the object about y.
+        mass_kg: True mass of the object.
+        centre_of_mass_m: True height of its centre of mass above the centre of its shape.
+        friction: Its true friction coefficient.
+        tool_speed_m_s: Largest speed of the tool.
+        joint_offsets_rad: True less reported angle of each joint; empty where the encoders are right.
+        finger_force_n: Force of one finger.
+        finger_speed_m_s: Speed of the fingers.
+        pad_friction: Friction coefficient of the pads.
+        sensor_noise_n: Standard deviation of the noise of a reading of a finger's force.
+        sensor_offset_n: Its offset.
+        sensor_delay_s: Its age.
+    """
+
+    scene: Scene
+    design_gripper: Gripper
+    case: str = ""
+    draws: Mapping[str, float] = field(default_factory=lambda: _NO_DRAWS)
+    stands_x_m: float = 0.0
+    stands_y_m: float = 0.0
+    perceived_x_m: float = 0.0
+    perceived_y_m: float = 0.0
+    perceived_z_m: float = 0.0
+    perceived_yaw_rad: float = 0.0
+    perceived_roll_rad: float = 0.0
+    perceived_pitch_rad: float = 0.0
+    mass_kg: float
+    centre_of_mass_m: float
+    friction: float
+    tool_speed_m_s: float
+    joint_offsets_rad: tuple[float, ...] = ()
+    finger_force_n: float
+    finger_speed_m_s: float
+    pad_friction: float
+    sensor_noise_n: float = 0.0
+    sensor_offset_n: float = 0.0
+    sensor_delay_s: float = 0.0
+
+    @property
+    def true_scene(self) -> Scene:
+        """The scene as it is."""
+        believed = self.scene.workpiece
+        true = replace(
+            believed,
+            pose=_moved(believed.pose, (self.stands_x_m, self.stands_y_m, 0.0)),
+            mass_kg=self.mass_kg,
+            centre_of_mass_m=self.centre_of_mass_m,
+            friction=self.friction,
+        )
+        return _with_workpiece(self.scene, true)
+
+    @property
+    def perceived_scene(self) -> Scene:
+        """The scene as the robot perceives it: the object where it is seen, and what else the files say."""
+        believed = self.scene.workpiece
+        shift = (self.stands_x_m + self.perceived_x_m, self.stands_y_m + self.perceived_y_m, self.perceived_z_m)
+        pose = _moved(believed.pose, shift)
+        turn = (self.perceived_roll_rad, self.perceived_pitch_rad, self.perceived_yaw_rad)
+        if any(turn):
+            pose = pose @ Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), turn)
+        return _with_workpiece(self.scene, replace(believed, pose=pose))
+
+    @property
+    def true_gripper(self) -> Gripper:
+        """The gripper as it is."""
+        gripper = replace(
+            self.design_gripper,
+            finger_force_n=self.finger_force_n,
+            finger_velocity_m_s=self.finger_speed_m_s,
+            friction=self.pad_friction,
+        )
+        return self.design_gripper if gripper == self.design_gripper else gripper
+
+    @property
+    def is_grip_known(self) -> bool:
+        """Whether the robot reads the fingers' true forces and knows the object's mass and the friction."""
+        believed = self.scene.workpiece
+        is_sensor_ideal = self.sensor_noise_n == self.sensor_offset_n == self.sensor_delay_s == 0.0
+        return is_sensor_ideal and (self.mass_kg, self.friction, self.pad_friction) == (
+            believed.mass_kg,
+            believed.friction,
+            self.design_gripper.friction,
+        )
+
+
+def conditions_of(spec: TrialSpec) -> Conditions:
+    """The conditions of a trial, by its seed.
+
+    Args:
+        spec: The trial.
+    """
+    known = replace(spec, variant=0, planner="", planning_limit_s=0.0)
+    return _conditions_of(known)
+
+
+def nominal_conditions(spec: TrialSpec) -> Conditions:
+    """The conditions of a trial as the files and its case say, before anything is drawn.
+
+    Args:
+        spec: The trial.
+    """
+    case = spec.workload.case_of(spec.seed)
+    scene, gripper = _scene_of(spec.scene, case), spec.gripper
+    return Conditions(
+        scene=scene,
+        design_gripper=gripper,
+        case="" if case is None else case.id,
+        mass_kg=scene.workpiece.mass_kg,
+        centre_of_mass_m=scene.workpiece.centre_of_mass_m,
+        friction=scene.workpiece.friction,
+        tool_speed_m_s=spec.tool_speed_m_s,
+        finger_force_n=gripper.finger_force_n,
+        finger_speed_m_s=gripper.finger_velocity_m_s,
+        pad_friction=gripper.friction,
+    )
+
+
+@lru_cache(maxsize=_KEPT)
+def _conditions_of(spec: TrialSpec) -> Conditions:
+    nominal = nominal_conditions(spec)
+    draws = draws_of(spec.uncertainty, spec.seed) if spec.uncertainty.values else _NO_DRAWS
+    changes: dict[str, float | tuple[float, ...]] = {}
+    for quantity in QUANTITIES.values():
+        drawn = [draws[name] for name in quantity.draw_names if name in draws]
+        if not drawn:
+            continue
+        if quantity.count > 1:
+            changes[quantity.field] = tuple(drawn)
+            continue
+        present = changes.get(quantity.field, getattr(nominal, quantity.field))
+        changes[quantity.field] = _applied(quantity, present, drawn[0])
+    return replace(nominal, draws=draws, **changes)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawnValue:
+    """One draw of a trial and what it came to.
+
+    Attributes:
+        name: Name of the draw, such as ``gripper.finger.force``.
+        unit: Unit of the two values.
+        nominal: The value as the files, the design and the case say.
+        drawn: The value that the trial has.
+    """
+
+    name: str
+    unit: str
+    nominal: float
+    drawn: float
+
+
+def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
+    """The draws of a trial beside the nominal values, in the order of the registry.
+
+    Args:
+        spec: The trial.
+    """
+    conditions, nominal = conditions_of(spec), nominal_conditions(spec)
+    found = []
+    for name in conditions.draws:
+        quantity = quantity_of(name)
+        if quantity.count > 1:
+            before, after = 0.0, conditions.draws[name]
+        else:
+            before, after = getattr(nominal, quantity.field), getattr(conditions, quantity.field)
+        found.append(DrawnValue(name=name, unit=_unit_of(quantity), nominal=before, drawn=after))
+    return tuple(found)
+
+
+def changed_fields() -> frozenset[str]:
+    """Names of the fields that uncertain quantities change."""
+    own = {"scene", "design_gripper", "case", "draws"}
+    return frozenset(each.name for each in fields(Conditions)) - own
+
+
+def _unit_of(quantity: UncertainQuantity) -> str:
+    """Unit of the field of a quantity, which a factor does not have."""
+    if quantity.application is not Application.SCALE:
+        return quantity.unit
+    endings = {"_kg": "kg", "_n": "N", "_m_s": "m/s"}
+    return next((unit for ending, unit in endings.items() if quantity.field.endswith(ending)), "1")
+
+
+def _applied(quantity: UncertainQuantity, present: float, drawn: float) -> float:
+    if quantity.application is Application.REPLACE:
+        return drawn
+    return present + drawn if quantity.application is Application.ADD else present * drawn
+
+
+def _scene_of(scene: Scene, case: Case | None) -> Scene:
+    if case is None:
+        return scene
+    own = scene.workpiece
+    shape = Cylinder(
+        radius_m=own.shape.radius_m if case.radius_m is None else case.radius_m,
+        height_m=own.shape.height_m if case.height_m is None else case.height_m,
+    )
+    # It stands where the scene's object stands, on its own foot.
+    rise_m = shape.half_height_m - own.shape.half_height_m
+    workpiece = replace(
+        own,
+        shape=shape,
+        mass_kg=own.mass_kg if case.mass_kg is None else case.mass_kg,
+        friction=own.friction if case.friction is None else case.friction,
+        pose=_moved(own.pose, (0.0, 0.0, rise_m)),
+    )
+    return _with_workpiece(scene, workpiece)
+
+
+def _with_workpiece(scene: Scene, workpiece: Workpiece) -> Scene:
+    return scene if workpiece == scene.workpiece else replace(scene, workpiece=workpiece)
+
+
+def _moved(pose: Pose, shift_m: tuple[float, float, float]) -> Pose:
+    if not any(shift_m):
+        return pose
+    (x, y, z), (dx, dy, dz) = pose.position_m, shift_m
+    return Pose(position_m=(x + dx, y + dy, z + dz), quaternion_xyzw=pose.quaternion_xyzw)
