@@ -28,6 +28,7 @@ VERBS = (
     "replay",
     "measure",
     "trade",
+    "confirm",
     "regress",
     "trace",
     "report",

@@ -55,7 +55,7 @@ def trial_settings(project: Project) -> TrialSettings:
             simplification_limit_s=planning.simplification_limit_s,
             clearance_m=planning.clearance_m,
         ),
-        physics=PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),
+        physics=study.physics or PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),
     )
 
 

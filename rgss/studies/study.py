@@ -12,7 +12,7 @@ from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
-from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
+from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, PhysicsSettings
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.studies.document import StudyDocument
 from rgss.studies.promotion import Screening, read_screening
@@ -86,6 +86,7 @@ class StudyDefinition:
         screening: The trials that come first, and which designs go on from them; None if all do.
         regression: Which metrics are guarded against a baseline; None if none are.
         until_decided: When replication until decided goes on, and when it stops.
+        physics: Other physics settings than rate and iterations of the file, for a confirmation; None as the file says.
     """
 
     id: str
@@ -104,6 +105,7 @@ class StudyDefinition:
     screening: Screening | None = None
     regression: RegressionGuard | None = None
     until_decided: SequentialRule = field(default_factory=SequentialRule)
+    physics: PhysicsSettings | None = None
 
     @property
     def seeds(self) -> tuple[int, ...]:

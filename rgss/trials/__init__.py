@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
+    from rgss.trials.second_engine import mujoco_settings
     from rgss.trials.settings import PlanningSettings, TrialSettings
     from rgss.trials.tracing import run_traced_trial
     from rgss.trials.trial_spec import TrialSpec
@@ -35,6 +36,7 @@ __all__ = [
     "TrialSettings",
     "TrialSpec",
     "closing_impact",
+    "mujoco_settings",
     "reach_problems",
     "run_traced_trial",
     "scene_problems",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rgss.evidence import Fidelity, Phase
-from rgss.physics import TorqueArm, World
+from rgss.physics import TorqueArm, open_world
 from rgss.trials.execution import Execution
 from rgss.trials.monitors import StepObserver
 from rgss.trials.phase_result import PhaseResult
@@ -59,7 +59,7 @@ def execute(
         speed_m_s=gripper.finger_velocity_m_s,
         lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
     )
-    with World(scene, gripper, firm) as world:
+    with open_world(scene, gripper, firm) as world:
         return Execution(world, references, control, cell.arm, observer=observer, checkpoint=checkpoint).run()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rgss.physics import World
+from rgss.physics import ContactWorld
 from rgss.trials.plants import ControlSettings
 
 
@@ -15,7 +15,7 @@ class GripControl:
         since_tightening_s: Carrying time since the last increase; the caller adds each step.
     """
 
-    def __init__(self, world: World, control: ControlSettings) -> None:
+    def __init__(self, world: ContactWorld, control: ControlSettings) -> None:
         """Begin with the share that holds an object at rest.
 
         Args:
