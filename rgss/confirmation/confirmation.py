@@ -18,6 +18,7 @@ COMPARED_METRICS = (
     "peak_finger_force_n",
     "grip_margin_min",
     "peak_joint_torque_ratio",
+    "grasp_cycle_time_s",
     "motion_time_s",
     "task_time_s",
     "bench_payload_kg",

@@ -60,10 +60,10 @@ class MujocoContactReader:
         """
         self._data = data
         self._workpiece = int(compiled.geom(WORKPIECE).id)
-        self._finger_of = {int(compiled.geom(name).id): index for index, name in enumerate(model.fingers)}
+        self._finger_of = {int(compiled.geom(name).id): index for name, index in model.finger_shapes.items()}
         self._fingers = len(model.fingers)
         self._body_of = {int(compiled.geom(name).id): body for name, body in model.scene_bodies.items()}
-        links = {**model.links, **{name: name.replace(":", "_") for name in model.fingers}}
+        links = {**model.links, **{name: f"finger_{index}" for name, index in model.finger_shapes.items()}}
         self._link_of = {int(compiled.geom(name).id): link for name, link in links.items()}
 
     def contacts(self, standing: Contacts | None) -> Contacts:

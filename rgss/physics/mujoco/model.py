@@ -6,10 +6,9 @@ that a mistake in how those become its world would show.
 Contacts of this engine are soft, and what is held creeps. Against that its documentation recommends elliptic
 friction cones, the Newton solver, and friction much stiffer than the normal direction (`impratio`): at 100 an object
 near the limit sinks by 1 µm/s, at 10 by 12 µm/s. The second solver that it offers for what is left
-(`noslip_iterations`) is not needed, and neither changes the limit by as much as 1 %. A line of contact needs its
-two ends, and a face its corners: `multiccd`. Bodies that press with 10 N sink in by 10 µm, so that the contacts
-are computed to nanometres (`ccd_tolerance`): to the default of a micrometre, a contact now and then has a wrong
-normal for a step.
+(`noslip_iterations`) is not needed, and neither changes the limit by as much as 1 %. A face needs its corners:
+`multiccd`. Bodies that press with 10 N sink in by 10 µm, so that the contacts are computed to nanometres
+(`ccd_tolerance`): to the default of a micrometre, a contact now and then has a wrong normal for a step.
 """
 
 from __future__ import annotations
@@ -24,8 +23,9 @@ from numpy.typing import NDArray
 
 from rgss.errors import SimulationError
 from rgss.physics.mujoco.robot_links import RobotLink, read_links
+from rgss.physics.mujoco.solids import Capsule, Solid, finger_solids
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene, Shape
+from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene
 
 WORKPIECE = "workpiece"
 
@@ -43,13 +43,15 @@ class WorldModel:
 
     Attributes:
         text: The model as MJCF.
-        fingers: Names of the fingers' shapes, which are also those of their bodies, joints and motors.
+        fingers: Names of the fingers' joints, which are also those of their bodies and motors.
+        finger_shapes: Index of the finger by the name of a shape of it.
         scene_bodies: Id of the scene's body by the name of its shape.
         links: Name of the robot's link by the name of a shape, the fingers' left out.
     """
 
     text: str
     fingers: tuple[str, ...]
+    finger_shapes: Mapping[str, int]
     scene_bodies: Mapping[str, str]
     links: Mapping[str, str]
 
@@ -75,6 +77,7 @@ def world_model(
     return WorldModel(
         text=ET.tostring(builder.root, encoding="unicode"),
         fingers=builder.fingers,
+        finger_shapes=builder.finger_shapes,
         scene_bodies=builder.scene_bodies,
         links=builder.links,
     )
@@ -92,6 +95,7 @@ class _Builder:
             "solimp": _IMPEDANCE,
         }
         self.fingers = tuple(f"finger:{index}" for index in range(gripper.geometry.fingers))
+        self.finger_shapes: dict[str, int] = {}
         self.scene_bodies: dict[str, str] = {}
         self.links: dict[str, str] = {}
         self.root = ET.Element("mujoco", {"model": "rgss"})
@@ -151,7 +155,7 @@ class _Builder:
         frictions = {f"scene:{one.id}": one.friction * workpiece.friction for one in self._scene.bodies}
         # What else of the machine touches the workpiece ends the trial, so that its friction does not matter.
         frictions.update(dict.fromkeys(self.links, 0.0))
-        frictions.update(dict.fromkeys(self.fingers, self._gripper.friction * workpiece.friction))
+        frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction * workpiece.friction))
         for name, friction in frictions.items():
             sliding = _number(friction)
             pair = {
@@ -200,7 +204,9 @@ class _Builder:
             open_pose = geometry.base_pose.inverse() @ geometry.finger_pose(index, geometry.largest_opening_m)
             finger = _add_body(base, name, open_pose)
             _add_inertial(finger, gripper.finger_mass_kg, inertia)
-            _add_geom(finger, name, geometry.finger, Pose(), touches=_MACHINE)
+            for part, (shape, at) in enumerate(finger_solids(geometry, self._scene.workpiece.shape)):
+                self.finger_shapes[f"{name}:{part}"] = index
+                _add_geom(finger, f"{name}:{part}", shape, at, touches=_MACHINE)
             slide = {
                 "name": name,
                 "type": "slide",
@@ -233,11 +239,13 @@ def _add_inertial(
     ET.SubElement(body, "inertial", attributes)
 
 
-def _add_geom(parent: ET.Element, name: str, shape: Shape | float, pose: Pose, *, touches: tuple[int, int]) -> None:
+def _add_geom(parent: ET.Element, name: str, shape: Solid, pose: Pose, *, touches: tuple[int, int]) -> None:
     if isinstance(shape, Box):
         kind, size = "box", [edge / 2 for edge in shape.size_m]
     elif isinstance(shape, Cylinder):
         kind, size = "cylinder", [shape.radius_m, shape.half_height_m]
+    elif isinstance(shape, Capsule):
+        kind, size = "capsule", [shape.radius_m, shape.half_length_m]
     else:
         kind, size = "sphere", [shape]
     own, others = touches

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 
 from rgss.confirmation import Confirmation
 from rgss.findings import printable
-from rgss.invisible_characters import visible
 from rgss.reports.confirmation.sentences import summary_sentences
 from rgss.reports.confirmation.tables import confirmation_tables
 from rgss.reports.plain_text import aligned_table
@@ -62,4 +61,4 @@ def _row(cells: Iterable[str]) -> str:
 
 
 def _escaped(text: str) -> str:
-    return _MARKDOWN.sub(r"\\\1", visible(text))
+    return _MARKDOWN.sub(r"\\\1", printable(text))
