@@ -77,6 +77,23 @@ class Comparison:
             self._outcomes[key] = (first, second)
         return self._outcomes[key]
 
+    def shifted(self, variant: int, shift_m: tuple[float, float], *, mass_kg: float, friction: float) -> list[Outcome]:
+        """A variant's trial on both engines with a cup that stands elsewhere than the plan takes it to stand.
+
+        Args:
+            variant: The variant.
+            shift_m: How far the cup is off, along x and y of the world.
+            mass_kg: Its mass.
+            friction: Its coefficient.
+        """
+        spec, cell, plan, timing = self._timed(variant)
+        cup = spec.scene.workpiece
+        x, y, z = cup.pose.position_m
+        pose = replace(cup.pose, position_m=(x + shift_m[0], y + shift_m[1], z))
+        scene = replace(spec.scene, workpiece=replace(cup, mass_kg=mass_kg, friction=friction, pose=pose))
+        spec = replace(spec, scene=scene)
+        return [_run(with_physics(spec, one), cell, plan, timing) for one in (None, mujoco_settings())]
+
     def on_second(self, variant: int, rate_hz: float) -> Outcome:
         """A variant's trial on the second engine at another rate."""
         spec, cell, plan, timing = self._timed(variant)

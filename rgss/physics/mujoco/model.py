@@ -1,7 +1,7 @@
 """Scene, arm, hand and workpiece as a model of MuJoCo.
 
-Built from the scene, the gripper and the robot's description alone. Nothing of what PyBullet is given is used, so
-that a mistake in how those become its world would show.
+Built from the scene, the gripper and the robot's description. Nothing of what PyBullet is given is used but the
+ribs of the pads, so that a mistake in how those become its world would show.
 
 Contacts of this engine are soft, and what is held creeps. Against that its documentation recommends elliptic
 friction cones, the Newton solver, and friction much stiffer than the normal direction (`impratio`): at 100 an object

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rgss.confirmation import COMPARED_METRICS, Confirmation
+from rgss.confirmation import COMPARED_METRICS, Confirmation, ConfirmedTrial, SettingResult
 from rgss.reports.confirmation.sentences import decision_sentence, outcome_sentence, verdict_sentence
 from rgss.reports.plain_numbers import plain_number
 
@@ -31,23 +31,7 @@ def confirmation_to_json(confirmation: Confirmation) -> dict[str, Any]:
             "in_physics": selection.physical_failures,
             "sampled": [{"variant": variant, "seed": seed} for variant, seed in selection.sample],
         },
-        "settings": [
-            {
-                "setting": result.setting.label,
-                "varies": result.setting.aspect.value,
-                "rate_hz": result.setting.physics.rate_hz,
-                "solver_iterations": result.setting.physics.solver_iterations,
-                "first": result.first,
-                "ties": list(result.ties),
-                "ranking": [{"variant": variant, "value": plain_number(value)} for variant, value in result.ranking],
-                "verdicts": [
-                    {"variant": variant, "requirement": requirement, "verdict": verdict.value}
-                    for variant, verdicts in result.verdicts.items()
-                    for requirement, verdict in verdicts.items()
-                ],
-            }
-            for result in confirmation.results
-        ],
+        "settings": [_setting(result) for result in confirmation.results],
         "differing_verdicts": [
             {
                 "variant": one.variant,
@@ -58,24 +42,43 @@ def confirmation_to_json(confirmation: Confirmation) -> dict[str, Any]:
             }
             for one in confirmation.differing_verdicts
         ],
-        "trials": [
-            {
-                "variant": trial.variant,
-                "seed": trial.seed,
-                "sample": trial.is_sample,
-                "differs": bool(trial.differing),
-                "settings": [
-                    {
-                        "setting": result.setting.label,
-                        "outcome": trial.outcome(index),
-                        "detail": trial.records[index].failure_detail,
-                        "metrics": {name: plain_number(trial.metric(name, index)) for name in COMPARED_METRICS},
-                    }
-                    for index, result in enumerate(confirmation.results)
-                ],
-            }
-            for trial in confirmation.trials
-        ],
+        "trials": [_trial(confirmation, trial) for trial in confirmation.trials],
         "run": confirmation.made,
         "evidence": confirmation.evidence,
+    }
+
+
+def _setting(result: SettingResult) -> dict[str, Any]:
+    physics = result.setting.physics
+    return {
+        "setting": result.setting.label,
+        "varies": result.setting.aspect.value,
+        "rate_hz": physics.rate_hz,
+        "solver_iterations": physics.solver_iterations,
+        "first": result.first,
+        "ties": list(result.ties),
+        "ranking": [{"variant": variant, "value": plain_number(value)} for variant, value in result.ranking],
+        "verdicts": [
+            {"variant": variant, "requirement": requirement, "verdict": verdict.value}
+            for variant, verdicts in result.verdicts.items()
+            for requirement, verdict in verdicts.items()
+        ],
+    }
+
+
+def _trial(confirmation: Confirmation, trial: ConfirmedTrial) -> dict[str, Any]:
+    return {
+        "variant": trial.variant,
+        "seed": trial.seed,
+        "sample": trial.is_sample,
+        "differs": bool(trial.differing),
+        "settings": [
+            {
+                "setting": result.setting.label,
+                "outcome": trial.outcome(index),
+                "detail": trial.records[index].failure_detail,
+                "metrics": {name: plain_number(trial.metric(name, index)) for name in COMPARED_METRICS},
+            }
+            for index, result in enumerate(confirmation.results)
+        ],
     }
