@@ -6,6 +6,7 @@ import pytest
 
 from rgss.errors import DefinitionError, SimulationError
 from rgss.physics import PhysicsSettings, open_world
+from rgss.physics.mujoco.robot_links import read_links
 from rgss.scenes import Pose
 from rgss.trials.second_engine import mujoco_settings
 
@@ -137,6 +138,28 @@ def test_a_shape_that_the_second_engine_is_not_given_is_named(scene, gripper_wit
     odd = scene.robot.urdf.replace("<cylinder ", "<capsule ")
     with pytest.raises(SimulationError, match="<capsule>, which the second engine is not given"):
         open_world(replace(scene, robot=replace(scene.robot, urdf=odd)), gripper_with(2), mujoco_settings())
+
+
+def test_a_description_without_what_it_needs_is_named():
+    urdf = '<robot><link name="a"/><joint name="j" type="fixed"><child link="a"/></joint></robot>'
+    with pytest.raises(LookupError, match="a <joint> of the robot has no <parent>"):
+        read_links(urdf)
+
+
+def test_links_come_after_those_that_they_are_mounted_on():
+    urdf = """<robot>
+      <joint name="out" type="prismatic"><parent link="b"/><child link="c"/><origin xyz="0 0 1"/></joint>
+      <joint name="up" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint>
+      <joint name="aside" type="fixed"><parent link="a"/><child link="d"/></joint>
+      <link name="c"><collision><origin xyz="1 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+      <link name="b"><inertial><mass value="2"/><inertia ixx="1" iyy="2" izz="2.5" ixy="0" ixz="0" iyz="0"/></inertial>
+      </link><link name="d"/><link name="a"/></robot>"""
+    base, turning, fixed, sliding = read_links(urdf)
+    assert [base.name, turning.name, fixed.name, sliding.name] == ["a", "b", "d", "c"]
+    assert (turning.joint, turning.axis, turning.is_prismatic, turning.mass_kg) == ("up", (0.0, 0.0, 1.0), False, 2.0)
+    assert (fixed.joint, sliding.joint, sliding.is_prismatic, sliding.axis) == ("", "out", True, (1.0, 0.0, 0.0))
+    assert sliding.pose.position_m == (0.0, 0.0, 1.0)
+    assert sliding.shapes == ((0.1, Pose(position_m=(1.0, 0.0, 0.0))),)
 
 
 def test_a_world_that_runs_away_is_told(scene, gripper_with):
