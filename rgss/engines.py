@@ -9,6 +9,7 @@ from types import MappingProxyType
 from rgss.errors import DefinitionError
 
 INSTALL = "pip install 'rgss[sim]'"
+INSTALL_MUJOCO = "pip install 'rgss[mujoco]'"
 
 DISTRIBUTIONS: Mapping[str, str] = MappingProxyType(
     {
@@ -53,6 +54,19 @@ def require_engines(purpose: str, *, pictures: bool = False) -> None:
         raise DefinitionError(
             f"{purpose} needs the simulation engines, of which {', '.join(missing)} {verb} not installed", hint=INSTALL
         )
+
+
+def require_mujoco(purpose: str) -> None:
+    """Make sure that the second physics engine is installed.
+
+    Args:
+        purpose: What needs it, the first words of the message.
+
+    Raises:
+        DefinitionError: It is not installed.
+    """
+    if not _is_installed("mujoco"):
+        raise DefinitionError(f"{purpose} needs MuJoCo, which is not installed", hint=INSTALL_MUJOCO)
 
 
 def _is_installed(module: str) -> bool:

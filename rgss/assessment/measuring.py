@@ -49,7 +49,11 @@ class VariantMeasures:
 
 
 def measure_variants(
-    project: Project, store: EvidenceStore | None, *, recorded: VerdictRecord | None = None
+    project: Project,
+    store: EvidenceStore | None,
+    *,
+    recorded: VerdictRecord | None = None,
+    among: Sequence[DesignVariant] | None = None,
 ) -> tuple[VariantMeasures, ...]:
     """Estimate every measure of every variant from the evidence that is there, and judge the requirements.
 
@@ -64,13 +68,14 @@ def measure_variants(
         store: The evidence; None if there is none yet.
         recorded: The verdicts that were recorded; None to leave changes of requirements and
             measures out.
+        among: The variants; all by default.
 
     Raises:
         DefinitionError: A measure is not defined for a design.
         EvidenceError: The store is damaged.
     """
     assume_engines(() if store is None else (trial.provenance.versions for trial in store.iterate()))
-    variants = project.designs.expand()
+    variants = project.designs.expand() if among is None else among
     specs: dict[int, dict[str, TrialSpec]] = {}
     for spec in trial_specs(project, variants=variants):
         specs.setdefault(spec.variant, {})[key_of(spec)] = spec

@@ -30,6 +30,7 @@ VERBS = (
     "measure",
     "trade",
     "weigh",
+    "confirm",
     "regress",
     "trace",
     "report",

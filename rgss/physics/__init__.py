@@ -1,8 +1,10 @@
 """Headless rigid-body physics: world, actuation, contacts."""
 
 from rgss.physics.camera import VIEWS, Camera, View
+from rgss.physics.contact_world import ContactWorld
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
+from rgss.physics.opening import OtherEngineSettings, open_world
 from rgss.physics.rendering import Picture
 from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, MOST_ITERATIONS, PhysicsSettings
 from rgss.physics.stage import Posture
@@ -15,13 +17,16 @@ __all__ = [
     "MOST_ITERATIONS",
     "VIEWS",
     "Camera",
+    "ContactWorld",
     "Contacts",
     "FingerContact",
     "HandView",
+    "OtherEngineSettings",
     "PhysicsSettings",
     "Picture",
     "Posture",
     "TorqueArm",
     "View",
     "World",
+    "open_world",
 ]

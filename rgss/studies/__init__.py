@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from rgss.studies.bench_check import bench_findings
     from rgss.studies.document import MOST_REPLICATES, StudyDocument
     from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind
-    from rgss.studies.expansion import trial_specs
+    from rgss.studies.expansion import trial_settings, trial_specs
     from rgss.studies.finding_suppression import without_consequences
     from rgss.studies.impact_check import impact_findings
     from rgss.studies.input_names import CODE, named_inputs
@@ -59,6 +59,7 @@ __all__ = [
     "named_inputs",
     "planner_problem",
     "project_of_study",
+    "trial_settings",
     "trial_specs",
     "uncounted_mass_findings",
     "unread_findings",

@@ -59,7 +59,7 @@ def trial_settings(project: Project) -> TrialSettings:
             clearance_m=planning.clearance_m,
             moves=planning.moves,
         ),
-        physics=PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),
+        physics=study.physics or PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),
     )
 
 

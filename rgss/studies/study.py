@@ -12,7 +12,7 @@ from rgss.errors import DocumentError
 from rgss.evidence import PLANNED_PHASES, Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
-from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
+from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, PhysicsSettings
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes.uncertainty import (
     NOTHING_UNCERTAIN,
@@ -74,6 +74,7 @@ class StudyDefinition:
         uncertainty: What differs from trial to trial, in place of what the scene says of the same quantities.
         workload: The objects that the trials carry.
         is_nominal: Whether neither is applied, nor the scene's uncertainty.
+        physics: Other physics settings than rate and iterations of the file, for a confirmation; None as the file says.
     """
 
     id: str
@@ -95,6 +96,7 @@ class StudyDefinition:
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
     workload: Workload = ONE_WORKLOAD
     is_nominal: bool = False
+    physics: PhysicsSettings | None = None
 
     @property
     def seeds(self) -> tuple[int, ...]:

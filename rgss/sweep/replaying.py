@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from rgss.errors import EvidenceError
@@ -13,6 +13,8 @@ from rgss.studies import CODE, Project, named_inputs, trial_specs
 from rgss.sweep.agreement import Agreement, beyond_tolerance
 from rgss.sweep.engine_process import compute
 from rgss.sweep.input_changes import ABSENT, Change, changes_between
+from rgss.sweep.trial_keys import key_of
+from rgss.trials import mujoco_settings
 from rgss.trials.code import are_of_this_kind, fixed_numerics, versions
 from rgss.trials.pieces import TrialSpec, digests_of, run_trial, to_plain
 
@@ -82,6 +84,10 @@ def find_trial(project: Project, store: EvidenceStore, name: str) -> StoredTrial
         found = list(store.trials_of(_number(variant), _number(seed), fidelity))
         current = [trial for trial in found if dict(trial.provenance.versions) == versions()]
         found = current or found
+        if len(found) > 1:
+            # A confirmation keeps trials of the same name under other physics; the study's own is meant.
+            own = _own_key(project, found[0].record)
+            found = [trial for trial in found if trial.key == own] or found
     else:
         if len(name) < _SHORTEST_PREFIX:
             raise EvidenceError(
@@ -115,6 +121,7 @@ def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] |
     if not (record.draws or record.workload):
         project = project.nominal()
     (spec,) = trial_specs(project.with_fidelity(record.fidelity.value), variants=[variant], seeds=[record.seed])
+    spec = _in_its_engine(spec, inputs)
     again = compute(run_trial, spec)
     then, now = dict(stored.provenance.versions), versions()
     changed = tuple(
@@ -137,6 +144,19 @@ def replay(project: Project, stored: StoredTrial, *, inputs: Mapping[str, Any] |
     )
 
 
+def _in_its_engine(spec: TrialSpec, inputs: Mapping[str, Any] | None) -> TrialSpec:
+    """The trial in the second engine as it is installed, if it was made there.
+
+    Raises:
+        DefinitionError: That engine is not installed.
+    """
+    physics = {} if inputs is None else inputs["settings"]["physics"]
+    if "engine" not in physics:
+        return spec
+    settings = replace(spec.settings, physics=mujoco_settings(rate_hz=physics["rate_hz"]))
+    return replace(spec, settings=settings)
+
+
 def _changed_pieces(spec: TrialSpec, stored: StoredTrial) -> tuple[str, ...]:
     """The first piece whose inputs differ apart from the versions, and those after it."""
     if not are_of_this_kind(stored.provenance.versions):
@@ -147,6 +167,13 @@ def _changed_pieces(spec: TrialSpec, stored: StoredTrial) -> tuple[str, ...]:
 
 def _without_code(inputs: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in inputs.items() if name != CODE}
+
+
+def _own_key(project: Project, record: TrialRecord) -> str:
+    """Key of a trial of the study as the project is now; empty if its variant is no longer there."""
+    variants = [variant for variant in project.designs.expand() if variant.id == record.variant]
+    specs = trial_specs(project.with_fidelity(record.fidelity.value), variants=variants, seeds=[record.seed])
+    return "".join(map(key_of, specs))
 
 
 def _number(digits: str) -> int:

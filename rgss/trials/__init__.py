@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rgss.trials.plan import PlannedMove, TaskPlan
     from rgss.trials.planner_searches import searches_of
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
+    from rgss.trials.second_engine import mujoco_settings
     from rgss.trials.settings import PlanningSettings, TrialSettings
     from rgss.trials.tracing import run_traced_trial
     from rgss.trials.trial_spec import TrialSpec
@@ -44,6 +45,7 @@ __all__ = [
     "TrialSpec",
     "closing_impact",
     "drawn_values",
+    "mujoco_settings",
     "reach_problems",
     "run_traced_trial",
     "scene_problems",

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from rgss.evidence import Fidelity, Phase
-from rgss.physics import TorqueArm, World
+from rgss.physics import TorqueArm, open_world
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.execution import Execution
 from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
@@ -65,7 +65,7 @@ def execute(
         speed_m_s=gripper.finger_velocity_m_s,
         lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
     )
-    with World(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
+    with open_world(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
         execution = Execution(
             world,
             references,

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from rgss.evidence import Failure, Metric, Phase
 from rgss.grasping import GraspGeometryCache
-from rgss.physics import Contacts, World
+from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
 from rgss.trials.grip_control import GripControl
 from rgss.trials.monitors import (
@@ -38,7 +38,7 @@ class Execution:
 
     def __init__(
         self,
-        world: World,
+        world: ContactWorld,
         references: Mapping[Phase, Reference],
         control: ControlSettings,
         kinematics: ToolKinematics,

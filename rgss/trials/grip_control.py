@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rgss.physics import World
+from rgss.physics import ContactWorld
 from rgss.trials.monitors import GripEstimate
 from rgss.trials.plants import ControlSettings
 
@@ -18,7 +18,7 @@ class GripControl:
         friction: Coefficient of a finger on the object as the robot knows it.
     """
 
-    def __init__(self, world: World, control: ControlSettings, estimate: GripEstimate | None = None) -> None:
+    def __init__(self, world: ContactWorld, control: ControlSettings, estimate: GripEstimate | None = None) -> None:
         """Begin with the share that holds an object at rest.
 
         Args:

@@ -6,14 +6,14 @@ import math
 
 from rgss.evidence import Failure, Metric
 from rgss.grasping import configuration_distance_m
-from rgss.physics import World
+from rgss.physics import ContactWorld
 from rgss.scenes import Pose
 from rgss.trials.plants import ControlSettings
 
 Violation = tuple[Failure, str]
 
 
-def check_displacement(world: World, largest_m: float, *, touched: bool) -> tuple[float, Violation | None]:
+def check_displacement(world: ContactWorld, largest_m: float, *, touched: bool) -> tuple[float, Violation | None]:
     """Displacement of an object that was not grasped yet (m), and the violation if it exceeds a limit.
 
     Args:
@@ -40,7 +40,7 @@ def check_displacement(world: World, largest_m: float, *, touched: bool) -> tupl
     return moved_m, (Failure.OBJECT_DROPPED, f"the object slid by itself: {displacement}")
 
 
-def check_place(world: World) -> tuple[dict[str, Metric], Violation | None]:
+def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | None]:
     """Error and tilt of the placed object, and the violation if one of them exceeds its limit.
 
     Args:
@@ -62,7 +62,7 @@ def check_place(world: World) -> tuple[dict[str, Metric], Violation | None]:
     return {"place_error_m": error_m, "place_tilt_rad": tilt_rad}, violation
 
 
-def has_moved(world: World, control: ControlSettings, before: Pose, now: Pose) -> bool:
+def has_moved(world: ContactWorld, control: ControlSettings, before: Pose, now: Pose) -> bool:
     """Whether the object has left where it was, by its centre or by turning about it.
 
     The criterion is a distance, not a speed: when the engine finds a resting body's contacts anew, the body has a

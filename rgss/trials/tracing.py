@@ -10,7 +10,7 @@ import numpy as np
 from rgss.evidence import Phase, TrialRecord
 from rgss.evidence.records import PhaseSpan, TrialTrace
 from rgss.kinematics import Arm
-from rgss.physics import Contacts, World
+from rgss.physics import Contacts, ContactWorld
 from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces import TrialSpec, run_trial
 
@@ -64,7 +64,7 @@ class TraceRecorder:
 
     def after_step(
         self,
-        world: World,
+        world: ContactWorld,
         phase: Phase,
         contacts: Contacts,
         grip_margin: float | None,
@@ -114,7 +114,7 @@ class TraceRecorder:
             grip_margin=np.array(self._margins[:count]),
         )
 
-    def _sample(self, world: World, contacts: Contacts, margin: float) -> None:
+    def _sample(self, world: ContactWorld, contacts: Contacts, margin: float) -> None:
         positions, velocities, _ = world.arm_state()
         pose = world.workpiece_pose()
         self._times_s.append(self._steps * self._step_s)

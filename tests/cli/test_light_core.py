@@ -58,7 +58,7 @@ READING = [
     ["check", "--explain", "wording.R7"],
     ["report", "--no-film", "--out", "report.html"],
 ]
-SIMULATING = [["run", "1"], ["sweep"], ["sweep", "--dry-run"], ["replay", "1/1"], ["regress"]]
+SIMULATING = [["run", "1"], ["sweep"], ["sweep", "--dry-run"], ["replay", "1/1"], ["regress"], ["confirm"]]
 
 
 def rgss(folder, *arguments, engines=True):

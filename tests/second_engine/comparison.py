@@ -1,27 +1,22 @@
-"""One trial on both engines: the same plan, the same timed motions, the same task program."""
+"""One trial on both engines: the same plan, the same timed motions, the same program and monitors."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from rgss.evidence import Failure, Phase, PhaseOutcome
+from rgss.physics import PhysicsSettings
 from rgss.scenes import Scene
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
-from rgss.trials.phase_result import PhaseResult
-from rgss.trials.pieces.input_digests import TrialSpec
-from rgss.trials.pieces.run import execute
+from rgss.trials.executing import execute
 from rgss.trials.plan import TaskPlan, plan_task
-from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
-from rgss.trials.reference import Reference, reference_of
+from rgss.trials.second_engine import mujoco_settings
 from rgss.trials.timing import TaskTiming, time_task
+from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell
-
-from .plant import MujocoPlant
-
-STEP_S = 5.0e-4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,13 +73,31 @@ class Comparison:
         if key not in self._outcomes:
             spec, cell, plan, timing = self._timed(variant)
             spec = replace(spec, scene=_with_cup(spec.scene, mass_kg, breakable=breakable))
-            self._outcomes[key] = (_on_first(spec, cell, plan, timing), _on_second(spec, cell, timing, STEP_S))
+            first, second = (_run(with_physics(spec, one), cell, plan, timing) for one in (None, mujoco_settings()))
+            self._outcomes[key] = (first, second)
         return self._outcomes[key]
 
-    def on_second(self, variant: int, step_s: float) -> Outcome:
-        """A variant's trial on the second engine with another step."""
-        spec, cell, _, timing = self._timed(variant)
-        return _on_second(spec, cell, timing, step_s)
+    def shifted(self, variant: int, shift_m: tuple[float, float], *, mass_kg: float, friction: float) -> list[Outcome]:
+        """A variant's trial on both engines with a cup that stands elsewhere than the plan takes it to stand.
+
+        Args:
+            variant: The variant.
+            shift_m: How far the cup is off, along x and y of the world.
+            mass_kg: Its mass.
+            friction: Its coefficient.
+        """
+        spec, cell, plan, timing = self._timed(variant)
+        cup = spec.scene.workpiece
+        x, y, z = cup.pose.position_m
+        pose = replace(cup.pose, position_m=(x + shift_m[0], y + shift_m[1], z))
+        scene = replace(spec.scene, workpiece=replace(cup, mass_kg=mass_kg, friction=friction, pose=pose))
+        spec = replace(spec, scene=scene)
+        return [_run(with_physics(spec, one), cell, plan, timing) for one in (None, mujoco_settings())]
+
+    def on_second(self, variant: int, rate_hz: float) -> Outcome:
+        """A variant's trial on the second engine at another rate."""
+        spec, cell, plan, timing = self._timed(variant)
+        return _run(with_physics(spec, mujoco_settings(rate_hz=rate_hz)), cell, plan, timing)
 
     def _timed(self, variant: int) -> tuple[TrialSpec, Workcell, TaskPlan, TaskTiming]:
         (spec,) = trial_specs(self._project, variants=[self._variants[variant]], seeds=[self._project.study.seed])
@@ -98,13 +111,18 @@ class Comparison:
         return spec, cell, plan, time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
 
 
+def with_physics(spec: TrialSpec, physics: PhysicsSettings | None) -> TrialSpec:
+    """The trial under other physics settings; as it is if none are given."""
+    return spec if physics is None else replace(spec, settings=replace(spec.settings, physics=physics))
+
+
 def _with_cup(scene: Scene, mass_kg: float | None, *, breakable: bool) -> Scene:
     cup = scene.workpiece
     limit_n = cup.force_limit_n if breakable else float("inf")
     return replace(scene, workpiece=replace(cup, mass_kg=mass_kg or cup.mass_kg, force_limit_n=limit_n))
 
 
-def _on_first(spec: TrialSpec, cell: Workcell, plan: TaskPlan, timing: TaskTiming) -> Outcome:
+def _run(spec: TrialSpec, cell: Workcell, plan: TaskPlan, timing: TaskTiming) -> Outcome:
     record = assemble_record(spec, plan, timing.failures, execute(spec, cell, timing))
     completed = {phase.phase: phase for phase in record.phases if phase.outcome is PhaseOutcome.COMPLETED}
     return Outcome(
@@ -115,24 +133,4 @@ def _on_first(spec: TrialSpec, cell: Workcell, plan: TaskPlan, timing: TaskTimin
         place_error_m=record.metrics["place_error_m"],
         torque_ratio=record.metrics["peak_joint_torque_ratio"],
         tightenings=sum(phase.metrics.get("tightenings", 0) for phase in record.phases),
-    )
-
-
-def _on_second(spec: TrialSpec, cell: Workcell, timing: TaskTiming, step_s: float) -> Outcome:
-    gravity = spec.scene.gravity_m_s2
-    references: dict[Phase, Reference] = {
-        phase: reference_of(trajectory, cell.arm, step_s=step_s, gravity_m_s2=gravity)
-        for phase, trajectory in timing.trajectories.items()
-    }
-    plant = MujocoPlant(spec.scene, spec.gripper, spec.settings.control, step_s=step_s)
-    results: Sequence[PhaseResult] = run_program(plant, references)
-    last = results[-1]
-    return Outcome(
-        failure=last.failure,
-        failed_phase=None if last.failure is None else last.phase,
-        durations_s={result.phase: result.duration_s for result in results if result.failure is None},
-        slip_m=plant.slip_m,
-        place_error_m=plant.place_error_m,
-        torque_ratio=plant.torque_ratio,
-        tightenings=plant.tightenings,
     )

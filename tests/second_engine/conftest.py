@@ -1,4 +1,4 @@
-"""The second engine for the tests: MuJoCo models of the rig and of whole trials."""
+"""Grippers, the scene and whole trials for tests of the second engine."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from rgss.scenes import Gripper, GripperGeometry, Scene, load_gripper, load_scen
 from rgss.studies.project import load_project
 
 from .comparison import Comparison
-from .rig import Rig
 
 PROJECT = Path(__file__).parents[2]
 
@@ -39,18 +38,6 @@ def gripper_with(geometries) -> Callable[..., Gripper]:
             finger_force_n=force_n,
             friction=friction,
         )
-
-    return make
-
-
-@pytest.fixture(scope="session")
-def rig_with(scene) -> Callable[[Gripper, float], Rig]:
-    """A payload rig by its gripper and the mass of the cup."""
-
-    def make(gripper: Gripper, mass_kg: float) -> Rig:
-        cup = scene.workpiece
-        friction = gripper.friction * cup.friction
-        return Rig(gripper, cup.shape, mass_kg, friction=friction, gravity_m_s2=scene.gravity_m_s2)
 
     return make
 

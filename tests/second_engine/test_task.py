@@ -3,6 +3,7 @@
 import pytest
 
 from rgss.evidence import Failure, Phase
+from rgss.physics.mujoco import MujocoWorld
 
 pytestmark = pytest.mark.engine
 
@@ -23,14 +24,12 @@ def test_both_engines_do_the_task(comparison, variant):
 def test_on_both_engines_the_cup_stays_where_it_was_gripped(comparison, variant):
     """And is left standing there, at the place where the plan sets it down.
 
-    Rigid bodies below Coulomb's limit do not slip at all. The first engine loses a tenth of a millimetre by its
-    step, the second half a millimetre; the bounds are twice that, and a tenth of what is required.
+    Rigid bodies below Coulomb's limit do not slip at all. What is lost by the step is some hundredths of a
+    millimetre on both engines.
     """
-    first, second = comparison.both(variant)
-    assert first.slip_m < 2.0e-4
-    assert first.place_error_m < 5.0e-4
-    assert second.slip_m < 1.0e-3
-    assert second.place_error_m < 1.0e-3
+    for outcome in comparison.both(variant):
+        assert outcome.slip_m < 1.0e-4
+        assert outcome.place_error_m < 2.0e-4
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -76,13 +75,28 @@ def test_both_engines_fail_at_the_same_place_with_a_cup_that_is_too_heavy(compar
         assert (outcome.failure, outcome.failed_phase) == (failure, phase)
 
 
-def test_what_slips_on_the_second_engine_is_lost_by_its_step(comparison):
+def test_both_engines_carry_a_cup_that_the_edges_of_the_fingers_hold(comparison):
+    """It stands 12 mm off the plane of fingers that are 20 mm wide.
+
+    With flat fingers the second engine found one point of each, about which the cup turned and was lost.
+    """
+    first, second = comparison.shifted(28, (-0.0058, -0.0124), mass_kg=0.59, friction=0.82)
+    assert (first.failure, second.failure) == (None, None)
+    # It is placed as far off as it stood.
+    assert second.place_error_m == pytest.approx(first.place_error_m, abs=2.0e-4)
+    assert first.place_error_m > 0.012
+
+
+def test_what_slips_on_the_second_engine_is_lost_by_its_step(comparison, monkeypatch):
     """A cup that is carried round a bend moves along the tangent in each step, and friction has no memory.
 
-    With a sideways acceleration a it falls behind at a dt / 2. So the slip halves with the step, within the micrometres
-    that soft contacts add (2 % is 20 µm), and no friction would be seen to slip with a step that is short enough.
+    With a sideways acceleration a it falls behind at a dt / 2. So without the correction of the carried cup the slip
+    halves with the step, within the micrometres that soft contacts add (2 % is 20 µm); with it, nothing is left of it.
     """
-    _, fine = comparison.both(10)
-    coarse = comparison.on_second(10, 1.0e-3)
+    _, corrected = comparison.both(10)
+    with monkeypatch.context() as patched:
+        patched.setattr(MujocoWorld, "bend", lambda world, arc_m: None)
+        coarse, fine = comparison.on_second(10, 1000.0), comparison.on_second(10, 2000.0)
     assert coarse.success
     assert coarse.slip_m == pytest.approx(2 * fine.slip_m, rel=0.02)
+    assert corrected.slip_m < 0.05 * fine.slip_m

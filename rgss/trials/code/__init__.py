@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.trials.code.code_fingerprint import source_digest
     from rgss.trials.code.kernel_environment import (
         ONE_THREAD,
         is_in_force,
@@ -36,6 +37,7 @@ __all__ = [
     "numeric_environment_of_children",
     "numerics",
     "problem_here",
+    "source_digest",
     "versions",
     "versions_of",
 ]

@@ -50,6 +50,18 @@ def own_sources() -> SourceTree:
     return SourceTree(_PACKAGE)
 
 
+def source_digest(module: str) -> str:
+    """Digest of the code that a module of this package needs, itself and what it imports.
+
+    Args:
+        module: Its name.
+
+    Raises:
+        ModuleNotFoundError: It is not there.
+    """
+    return own_sources().closure_of((module,)).digest
+
+
 class SourceTree:
     """The sources of a package as files, each read once."""
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from rgss.evidence import Failure, Metric
-from rgss.physics import Contacts, World
+from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
 from rgss.trials.monitors.release_monitor import Violation
 from rgss.trials.plants import ControlSettings
@@ -22,7 +22,7 @@ class DragMonitor:
     What the object leans more counts with half of its height.
     """
 
-    def __init__(self, world: World, control: ControlSettings) -> None:
+    def __init__(self, world: ContactWorld, control: ControlSettings) -> None:
         """Begin when the hand still holds the object.
 
         Args:

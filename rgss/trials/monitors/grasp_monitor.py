@@ -6,7 +6,7 @@ import math
 
 from rgss.evidence import Metric
 from rgss.grasping import GraspGeometryCache
-from rgss.physics import World
+from rgss.physics import ContactWorld
 from rgss.scenes import Pose
 from rgss.trials.monitors.grasp_record import grasp_metrics, worst_of
 from rgss.trials.monitors.in_hand_motion import InHandMotionTracker
@@ -23,7 +23,9 @@ class GraspMonitor:
         slip_m: Greatest distance of the object from where it was grasped.
     """
 
-    def __init__(self, world: World, control: ControlSettings, held_at: Pose, memory: GraspGeometryCache) -> None:
+    def __init__(
+        self, world: ContactWorld, control: ControlSettings, held_at: Pose, memory: GraspGeometryCache
+    ) -> None:
         """Take the first look.
 
         Args:

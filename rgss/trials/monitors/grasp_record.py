@@ -23,7 +23,7 @@ from rgss.grasping import (
     recorded_motion,
     velocity_norm_m_s,
 )
-from rgss.physics import FingerContact, World
+from rgss.physics import ContactWorld, FingerContact
 from rgss.scenes import RIBS, Cylinder, Pose
 from rgss.trials.metrics import CARRY_METRICS, GRASP_METRICS, Aggregation, Direction
 from rgss.trials.monitors.in_hand_motion import HandMotion
@@ -67,7 +67,7 @@ _APART: Mapping[str, Metric] = {
 
 
 def grasp_metrics(
-    world: World, motion: HandMotion, held_at: Pose, memory: GraspGeometryCache, *, strength: bool = True
+    world: ContactWorld, motion: HandMotion, held_at: Pose, memory: GraspGeometryCache, *, strength: bool = True
 ) -> dict[str, Metric]:
     """Analyse the contacts between fingers and workpiece, and the workpiece in the hand, as they are now.
 
@@ -165,7 +165,7 @@ def _closing_velocity(azimuth_rad: float, speed_m_s: float, motion: HandMotion) 
     return motion.held.inverse_rotate((-speed_m_s * math.cos(azimuth_rad), -speed_m_s * math.sin(azimuth_rad), 0.0))
 
 
-def _tolerances(world: World) -> ContactTolerances:
+def _tolerances(world: ContactWorld) -> ContactTolerances:
     """Tolerances of the contact status; a pad may yield by what all of its finger's force deflects one of its ends."""
     yields_m = world.gripper.finger_force_n / (world.settings.pad_stiffness_n_m / RIBS)
     return ContactTolerances(gap_m=_PENETRATION_M + yields_m, speed_m_s=_SLIP_M_S)

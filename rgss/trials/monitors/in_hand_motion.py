@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.physics import HandView, World
+from rgss.physics import ContactWorld, HandView
 from rgss.scenes import Pose
 
 _Triple = tuple[float, float, float]
@@ -51,7 +51,7 @@ class HandMotion:
 class InHandMotionTracker:
     """Looks into the hand now and then, and remembers what it saw last."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: ContactWorld) -> None:
         """Take the first look.
 
         Args:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from rgss.evidence import Phase
-from rgss.physics import Contacts, World
+from rgss.physics import Contacts, ContactWorld
 
 
 class StepObserver(Protocol):
@@ -13,7 +13,7 @@ class StepObserver(Protocol):
 
     def after_step(
         self,
-        world: World,
+        world: ContactWorld,
         phase: Phase,
         contacts: Contacts,
         grip_margin: float | None,

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from rgss.evidence import Failure, Metric
 from rgss.grasping import GraspGeometryCache
-from rgss.physics import Contacts, World
+from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
 from rgss.trials.monitors.arm_monitor import ArmMonitor, Array, ToolKinematics
 from rgss.trials.monitors.force_sensor import ForceSensor
@@ -31,7 +31,7 @@ class PhaseMonitor:
 
     def __init__(
         self,
-        world: World,
+        world: ContactWorld,
         kinematics: ToolKinematics,
         control: ControlSettings,
         *,

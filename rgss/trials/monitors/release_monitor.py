@@ -6,7 +6,7 @@ import math
 
 from rgss.evidence import Failure, Metric
 from rgss.grasping import configuration_distance_m
-from rgss.physics import Contacts, World
+from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Cylinder, Pose
 from rgss.trials.monitors.force_sensor import ForceSensor
 
@@ -21,7 +21,7 @@ class LandingMonitor:
     the fall is lost: at most 1.5 g dt.
     """
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: ContactWorld) -> None:
         """Begin when the hand still holds the object.
 
         Args:
@@ -79,7 +79,7 @@ class PlacedObjectMonitor:
     A displacement counts from the first touch on, to the end: what was pushed may roll on or fall over.
     """
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: ContactWorld) -> None:
         """Begin when the object stands and the hand is open.
 
         Args:

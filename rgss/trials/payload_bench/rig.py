@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from enum import Enum
 from types import TracebackType
 
-from rgss.physics import Contacts, World
+from rgss.physics import Contacts, open_world
 from rgss.scenes import Cylinder, Joint, PlaceRegion, Pose, Robot, Scene, SceneBody, Task, Workpiece
 from rgss.trials.monitors import ForceSensor
 from rgss.trials.payload_bench.spec import BenchSpec
@@ -124,7 +124,7 @@ class PayloadRig:
         self._spec = spec
         self._mass_kg = mass_kg
         self._held_at = Pose()
-        self._world = World(_rig_scene(spec, mass_kg), spec.gripper, spec.physics_for(mass_kg))
+        self._world = open_world(_rig_scene(spec, mass_kg), spec.gripper, spec.physics_for(mass_kg))
         self._world.reset_arm((0.0,))
 
     def __enter__(self) -> PayloadRig:

@@ -1,0 +1,205 @@
+"""A confirmation: what each setting made of the same trials, and what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from rgss.confirmation.selection import Selection
+from rgss.confirmation.settings import Aspect, ConfirmationSetting
+from rgss.evidence import Metric, TrialRecord
+from rgss.measures import Verdict
+from rgss.tradeoff import DecisionStatus
+
+COMPARED_METRICS = (
+    "slip_m",
+    "place_error_m",
+    "sensed_finger_force_n",
+    "peak_finger_force_n",
+    "grip_margin_min",
+    "peak_joint_torque_ratio",
+    "grasp_cycle_time_s",
+    "motion_time_s",
+    "task_time_s",
+    "bench_payload_kg",
+)
+"""Metrics of a trial that physics decides and that matter to requirements."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConfirmedTrial:
+    """One trial under every setting.
+
+    Attributes:
+        variant: The design.
+        seed: The seed.
+        is_sample: Whether it is one of the failures that were sampled, and so takes no part in the decision.
+        records: Its record under each setting, in the order of the settings.
+    """
+
+    variant: int
+    seed: int
+    is_sample: bool
+    records: tuple[TrialRecord, ...]
+
+    def outcome(self, setting: int) -> str:
+        """``success``, or what went wrong where, such as ``object_dropped at lift``.
+
+        Args:
+            setting: Index of the setting.
+        """
+        record = self.records[setting]
+        if record.failure is None:
+            return "success" if record.success else "incomplete"
+        phase = record.failed_phase
+        return record.failure.value if phase is None else f"{record.failure.value} at {phase.value}"
+
+    @property
+    def differing(self) -> tuple[int, ...]:
+        """Indices of the settings whose outcome is not the study's."""
+        return tuple(index for index in range(1, len(self.records)) if self.outcome(index) != self.outcome(0))
+
+    def metric(self, name: str, setting: int) -> float | None:
+        """A metric of the trial; None if it was not observed.
+
+        Args:
+            name: Its name.
+            setting: Index of the setting.
+        """
+        value: Metric = self.records[setting].metrics.get(name)
+        return float(value) if isinstance(value, (int, float)) else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SettingResult:
+    """What the confirmed designs came to under one setting.
+
+    Attributes:
+        setting: The setting.
+        status: Whether a design is chosen.
+        ranking: The designs that meet every requirement, best first, each with its value.
+        ties: The designs that are equally good as the first.
+        verdicts: The verdict on each requirement, by design.
+    """
+
+    setting: ConfirmationSetting
+    status: DecisionStatus
+    ranking: tuple[tuple[int, float | None], ...]
+    ties: tuple[int, ...]
+    verdicts: Mapping[int, Mapping[str, Verdict]] = field(hash=False)
+
+    @property
+    def first(self) -> int | None:
+        """The design that comes first; None if none meets every requirement."""
+        return self.ranking[0][0] if self.ranking else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerdictDifference:
+    """A verdict that is another one than under the study's setting.
+
+    Attributes:
+        variant: The design.
+        requirement: The requirement.
+        setting: Index of the setting.
+        study: The verdict under the study's setting.
+        other: The verdict under the other.
+    """
+
+    variant: int
+    requirement: str
+    setting: int
+    study: Verdict
+    other: Verdict
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Confirmation:
+    """A decision under several physics settings.
+
+    Attributes:
+        study: The study's id.
+        evidence: Name of the evidence, as people see it.
+        selection: What was confirmed.
+        seeds: The seeds of the confirmed designs.
+        practical_margin: Differences in value below this are of no practical meaning.
+        results: One for each setting, the study's own first.
+        trials: Every trial under every setting.
+        made: How many trials were run now; the others came from evidence.
+    """
+
+    study: str
+    evidence: str
+    selection: Selection
+    seeds: tuple[int, ...]
+    practical_margin: float
+    results: tuple[SettingResult, ...]
+    trials: tuple[ConfirmedTrial, ...]
+    made: int
+
+    @property
+    def differing_trials(self) -> tuple[ConfirmedTrial, ...]:
+        """The trials whose outcome depends on the setting."""
+        return tuple(trial for trial in self.trials if trial.differing)
+
+    @property
+    def differing_decisions(self) -> tuple[int, ...]:
+        """Indices of the settings under which a design is first that is not among the equally best of the study's."""
+        study = self.results[0]
+        best = {study.first, *study.ties}
+        return tuple(index for index, result in enumerate(self.results) if result.first not in best)
+
+    @property
+    def differing_verdicts(self) -> tuple[VerdictDifference, ...]:
+        """The verdicts that depend on the setting."""
+        study = self.results[0].verdicts
+        return tuple(
+            VerdictDifference(
+                variant=variant,
+                requirement=requirement,
+                setting=index,
+                study=study[variant][requirement],
+                other=verdict,
+            )
+            for index, result in enumerate(self.results)
+            for variant, verdicts in result.verdicts.items()
+            for requirement, verdict in verdicts.items()
+            if verdict is not study[variant][requirement]
+        )
+
+    @property
+    def holds(self) -> bool:
+        """Whether the decision and every verdict are the same under all settings."""
+        return not self.differing_decisions and not self.differing_verdicts
+
+    @property
+    def aspects(self) -> tuple[Aspect, ...]:
+        """What was varied."""
+        return tuple(result.setting.aspect for result in self.results[1:])
+
+    def largest_difference(self, metric: str, setting: int) -> float | None:
+        """Greatest difference of a metric from the study's setting, over trials whose outcome is the same.
+
+        Args:
+            metric: Its name.
+            setting: Index of the setting.
+
+        Returns:
+            The difference in magnitude; None if no trial has the metric under both.
+        """
+        pairs = [(trial.metric(metric, 0), trial.metric(metric, setting)) for trial in self._alike(setting)]
+        found = [abs(one - other) for one, other in pairs if one is not None and other is not None]
+        return max(found, default=None)
+
+    def extreme(self, metric: str, setting: int) -> tuple[float, float] | None:
+        """Least and greatest value of a metric under a setting; None if no trial has it.
+
+        Args:
+            metric: Its name.
+            setting: Index of the setting.
+        """
+        found = [value for trial in self.trials if (value := trial.metric(metric, setting)) is not None]
+        return (min(found), max(found)) if found else None
+
+    def _alike(self, setting: int) -> tuple[ConfirmedTrial, ...]:
+        return tuple(trial for trial in self.trials if setting not in trial.differing)

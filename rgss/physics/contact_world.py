@@ -1,0 +1,99 @@
+"""The world of a contact trial as the task program and its monitors see it, whatever engine is behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Protocol
+
+from rgss.physics.contacts import Contacts, FingerContact
+from rgss.physics.hand_view import HandView
+from rgss.physics.settings import PhysicsSettings
+from rgss.scenes import Gripper, Pose, Scene
+
+
+class ContactWorld(Protocol):
+    """Arm, hand, workpiece and scene in contact, stepped at a fixed rate; a context manager that frees its engine."""
+
+    @property
+    def scene(self) -> Scene:
+        """Fixed bodies, workpiece and robot."""
+
+    @property
+    def gripper(self) -> Gripper:
+        """The gripper on the robot's flange."""
+
+    @property
+    def settings(self) -> PhysicsSettings:
+        """Step length and solver."""
+
+    def __enter__(self) -> ContactWorld: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+    def close(self) -> None:
+        """Free what the engine holds; closing twice is allowed."""
+
+    def reset_arm(self, configuration_rad: Sequence[float]) -> None:
+        """Put the arm at rest at a configuration, fingers open, without stepping."""
+
+    def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
+        """Set the arm's targets for the next step: positions at its start, mean velocities over it."""
+
+    def hold_open(self) -> None:
+        """Hold the fingers at their open end."""
+
+    def drive_fingers(self, velocity_m_s: float, force_n: float) -> None:
+        """Move every finger at a velocity (positive closes) with at most a force."""
+
+    def step(self) -> None:
+        """Advance by one step.
+
+        Raises:
+            SimulationError: The engine lost the solution.
+        """
+
+    def bend(self, arc_m: Sequence[float]) -> None:
+        """Second-order correction of the workpiece's position after a step in which the hand carried it.
+
+        Args:
+            arc_m: Displacement of the tool over the step less that along its tangent, in the world.
+        """
+
+    def solve_freely(self, *, free: bool) -> None:
+        """Let the solver do less while nothing is held, or all again; an engine may ignore it.
+
+        Args:
+            free: Whether the hand is empty and moves.
+        """
+
+    def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
+        """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step."""
+
+    def finger_travel_m(self) -> tuple[float, ...]:
+        """How far each finger has closed from its open end."""
+
+    def workpiece_pose(self) -> Pose:
+        """Transform of the workpiece to the world."""
+
+    def tool_pose(self) -> Pose:
+        """Transform of the grasp-centre frame to the world as the arm really stands."""
+
+    def hand_view(self) -> HandView:
+        """Poses of object, flange and fingers after the last step."""
+
+    def contacts(self, standing: Contacts | None = None) -> Contacts:
+        """Contacts of the last step.
+
+        Args:
+            standing: The contacts when the workpiece was last seen to stand at rest without the robot, if it was;
+                as long as the robot touches nothing, they hold.
+        """
+
+    def support_force_n(self) -> float:
+        """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
+
+    def finger_contacts(self) -> tuple[FingerContact, ...]:
+        """The points at which fingers press on the workpiece, by finger and from low to high."""

@@ -1,0 +1,161 @@
+"""Reading MuJoCo's contacts of the last step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.physics.contacts import Contacts, FingerContact
+from rgss.physics.mujoco.model import WORKPIECE, WorldModel
+from rgss.scenes import Pose
+
+Vector3 = tuple[float, float, float]
+_NO_FORCE = 0.0
+
+
+class PointContacts(Contacts):
+    """Contacts whose finger points are given with their friction forces (N) on the workpiece, in the world."""
+
+    __slots__ = ()
+
+    @property
+    def friction_n(self) -> Vector3:
+        """Vector sum of the fingers' friction forces on the workpiece, in the world."""
+        x, y, z = (math.fsum(friction[axis] for _, friction in self.pressed) for axis in range(3))
+        return x, y, z
+
+
+@dataclass(frozen=True, slots=True)
+class _Point:
+    """One contact of the workpiece.
+
+    Attributes:
+        index: Its place among the engine's contacts.
+        partner: The other shape.
+        sign: 1 if the engine's normal points into the workpiece, -1 otherwise.
+        row: Its first row among the constraint forces; negative where it is not part of the problem.
+    """
+
+    index: int
+    partner: int
+    sign: float
+    row: int
+
+
+class MujocoContactReader:
+    """Sorts the engine's contacts of one world by who touches whom."""
+
+    def __init__(self, compiled: Any, data: Any, model: WorldModel) -> None:
+        """Find the shapes of the model.
+
+        Args:
+            compiled: The engine's model.
+            data: The engine's state, read after each step.
+            model: The model with the names of its parts.
+        """
+        self._data = data
+        self._workpiece = int(compiled.geom(WORKPIECE).id)
+        self._finger_of = {int(compiled.geom(name).id): index for name, index in model.finger_shapes.items()}
+        self._fingers = len(model.fingers)
+        self._body_of = {int(compiled.geom(name).id): body for name, body in model.scene_bodies.items()}
+        links = {**model.links, **{name: f"finger_{index}" for name, index in model.finger_shapes.items()}}
+        self._link_of = {int(compiled.geom(name).id): link for name, link in links.items()}
+
+    def contacts(self, standing: Contacts | None) -> Contacts:
+        """Contacts of the last step; see `ContactWorld.contacts`."""
+        robot_bodies, points = self._sorted()
+        if standing is not None and not robot_bodies and all(one.partner in self._body_of for one in points):
+            return standing
+        forces, other_n = [0.0] * self._fingers, 0.0
+        pressed: list[tuple[float, Vector3]] = []
+        workpiece_bodies: dict[str, None] = {}
+        for point in points:
+            body = self._body_of.get(point.partner)
+            if body is not None:
+                workpiece_bodies[body] = None
+                continue
+            normal_n = self._normal_n(point)
+            finger = self._finger_of.get(point.partner)
+            if finger is None:
+                other_n += normal_n
+            elif normal_n > _NO_FORCE:
+                forces[finger] += normal_n
+                pressed.append((1.0, self._friction_n(point)))
+        return PointContacts(tuple(forces), other_n, tuple(pressed), tuple(robot_bodies), tuple(workpiece_bodies))
+
+    def scene_force_n(self) -> float:
+        """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
+        _, points = self._sorted()
+        return math.fsum(self._normal_n(one) for one in points if one.partner in self._body_of)
+
+    def finger_contacts(self, transform_workpiece_to_world: Pose) -> tuple[FingerContact, ...]:
+        """The points at which fingers press on the workpiece, by finger and from low to high.
+
+        Args:
+            transform_workpiece_to_world: The workpiece at the start of the step, where the engine found them.
+        """
+        inverse = transform_workpiece_to_world.inverse()
+        found = []
+        for point in self._sorted()[1]:
+            finger = self._finger_of.get(point.partner)
+            normal_n = self._normal_n(point)
+            if finger is None or normal_n <= _NO_FORCE:
+                continue
+            normal = _triple(point.sign * self._frame(point)[0])
+            gap_m = float(self._data.contact.dist[point.index])
+            # The engine's point lies between the surfaces.
+            middle = self._data.contact.pos[point.index]
+            at = _triple(middle + np.array(normal) * gap_m / 2)
+            found.append(
+                FingerContact(
+                    finger,
+                    (inverse @ Pose(position_m=at)).position_m,
+                    inverse.rotate(normal),
+                    gap_m,
+                    normal_n,
+                    inverse.rotate(self._friction_n(point)),
+                )
+            )
+        return tuple(sorted(found, key=lambda contact: (contact.finger, contact.position_m[2])))
+
+    def _sorted(self) -> tuple[dict[tuple[str, str], None], Sequence[_Point]]:
+        """Pairs (link, body) of the robot touching the scene, and the contacts of the workpiece."""
+        contact = self._data.contact
+        robot_bodies: dict[tuple[str, str], None] = {}
+        points = []
+        pairs, rows = contact.geom.tolist(), contact.efc_address.tolist()
+        for index, ((one, other), row) in enumerate(zip(pairs, rows, strict=True)):
+            # The engine's normal points from the first shape to the second.
+            if other == self._workpiece:
+                points.append(_Point(index, one, 1.0, row))
+            elif one == self._workpiece:
+                points.append(_Point(index, other, -1.0, row))
+            else:
+                link, body = (one, other) if one in self._link_of else (other, one)
+                robot_bodies[self._link_of[link], self._body_of[body]] = None
+        return robot_bodies, points
+
+    def _normal_n(self, point: _Point) -> float:
+        # With elliptic cones the first row of a contact is its normal force, the next two are its friction.
+        return float(self._data.efc_force[point.row]) if point.row >= 0 else _NO_FORCE
+
+    def _friction_n(self, point: _Point) -> Vector3:
+        """Friction force on the workpiece, in the world."""
+        first, second = self._data.efc_force[point.row + 1 : point.row + 3].tolist()
+        frame = self._frame(point)
+        return _triple(point.sign * (first * frame[1] + second * frame[2]))
+
+    def _frame(self, point: _Point) -> NDArray[np.float64]:
+        """Normal and two tangents of a contact as rows (3, 3), in the world."""
+        frame: NDArray[np.float64] = self._data.contact.frame[point.index].reshape(3, 3)
+        return frame
+
+
+def _triple(vector: NDArray[np.float64]) -> Vector3:
+    x, y, z = vector.tolist()
+    return x, y, z

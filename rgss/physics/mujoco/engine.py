@@ -1,0 +1,45 @@
+"""The one place where MuJoCo is imported and where a model is compiled."""
+
+from __future__ import annotations
+
+import importlib.metadata
+from functools import lru_cache
+from typing import Any
+
+from rgss.errors import SimulationError
+
+
+@lru_cache(maxsize=1)
+def mujoco() -> Any:
+    """The engine's module, imported on first use so that start-up stays light."""
+    import mujoco as module
+
+    # By default a warning is appended to a file MUJOCO_LOG.TXT in the current folder; worlds read the counters.
+    module.set_mju_user_warning(_ignore)
+    return module
+
+
+def engine_version() -> str:
+    """Installed release of the engine."""
+    return importlib.metadata.version("mujoco")
+
+
+def compiled(description: str) -> Any:
+    """The engine's model of a description in its own format.
+
+    Args:
+        description: The model as MJCF.
+
+    Raises:
+        SimulationError: The engine refused it.
+    """
+    try:
+        return mujoco().MjModel.from_xml_string(description)
+    except ValueError as error:
+        raise SimulationError(
+            f"the physics engine refused the world: {' '.join(str(error).split())}", hint="check the scene"
+        ) from error
+
+
+def _ignore(_: str) -> None:
+    """A warning is read from the counters of the world that it is about."""

@@ -1,0 +1,275 @@
+"""Scene, arm, hand and workpiece as a model of MuJoCo.
+
+Built from the scene, the gripper and the robot's description. Nothing of what PyBullet is given is used but the
+ribs of the pads, so that a mistake in how those become its world would show.
+
+Contacts of this engine are soft, and what is held creeps. Against that its documentation recommends elliptic
+friction cones, the Newton solver, and friction much stiffer than the normal direction (`impratio`): at 100 an object
+near the limit sinks by 1 µm/s, at 10 by 12 µm/s. The second solver that it offers for what is left
+(`noslip_iterations`) is not needed, and neither changes the limit by as much as 1 %. A face needs its corners:
+`multiccd`. Bodies that press with 10 N sink in by 10 µm, so that the contacts are computed to nanometres
+(`ccd_tolerance`): to the default of a micrometre, a contact now and then has a wrong normal for a step.
+"""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import SimulationError
+from rgss.physics.mujoco.robot_links import RobotLink, read_links
+from rgss.physics.mujoco.solids import Capsule, Solid, finger_solids
+from rgss.physics.settings import PhysicsSettings
+from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene
+
+WORKPIECE = "workpiece"
+
+# What may touch without a pair of its own: machine and scene, and neither itself.
+_MACHINE, _SCENE, _ALONE = (1, 2), (2, 1), (0, 0)
+_IMPEDANCE = "0.95 0.99 0.0001"
+# A finger's motor gives all its force once the finger lags by this share of its speed. With less than F dt / (2 M v),
+# which is 0.42 at most for the reference grippers, the finger jumps over the band in a step and closes wrongly.
+_SATURATING_SHARE = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldModel:
+    """A model with the names by which its parts are found again.
+
+    Attributes:
+        text: The model as MJCF.
+        fingers: Names of the fingers' joints, which are also those of their bodies and motors.
+        finger_shapes: Index of the finger by the name of a shape of it.
+        scene_bodies: Id of the scene's body by the name of its shape.
+        links: Name of the robot's link by the name of a shape, the fingers' left out.
+    """
+
+    text: str
+    fingers: tuple[str, ...]
+    finger_shapes: Mapping[str, int]
+    scene_bodies: Mapping[str, str]
+    links: Mapping[str, str]
+
+
+def world_model(
+    scene: Scene, gripper: Gripper, settings: PhysicsSettings, *, contact_time_constant_s: float
+) -> WorldModel:
+    """The model of a scene with its robot, a gripper on its flange, and the workpiece.
+
+    Args:
+        scene: Fixed bodies, workpiece and robot.
+        gripper: The gripper.
+        settings: Step and solver.
+        contact_time_constant_s: Time constant with which contacts and stops yield.
+
+    Raises:
+        SimulationError: The robot has a shape that the engine does not have, or the workpiece an impossible mass.
+    """
+    builder = _Builder(scene, gripper, settings, contact_time_constant_s)
+    builder.add_scene()
+    builder.add_robot()
+    builder.add_workpiece()
+    return WorldModel(
+        text=ET.tostring(builder.root, encoding="unicode"),
+        fingers=builder.fingers,
+        finger_shapes=builder.finger_shapes,
+        scene_bodies=builder.scene_bodies,
+        links=builder.links,
+    )
+
+
+class _Builder:
+    """Adds the parts of a world to an empty model."""
+
+    def __init__(
+        self, scene: Scene, gripper: Gripper, settings: PhysicsSettings, contact_time_constant_s: float
+    ) -> None:
+        self._scene, self._gripper, self._settings = scene, gripper, settings
+        self._stiffness = {
+            "solref": f"{_number(contact_time_constant_s)} 1",
+            "solimp": _IMPEDANCE,
+        }
+        self.fingers = tuple(f"finger:{index}" for index in range(gripper.geometry.fingers))
+        self.finger_shapes: dict[str, int] = {}
+        self.scene_bodies: dict[str, str] = {}
+        self.links: dict[str, str] = {}
+        self.root = ET.Element("mujoco", {"model": "rgss"})
+        ET.SubElement(self.root, "compiler", {"angle": "radian", "autolimits": "true"})
+        option = {
+            "timestep": _number(settings.step_s),
+            "gravity": f"0 0 {_number(-scene.gravity_m_s2)}",
+            "integrator": "implicitfast",
+            "solver": "Newton",
+            "iterations": str(settings.solver_iterations),
+            "tolerance": "1e-10",
+            "cone": "elliptic",
+            "impratio": "100",
+            "ccd_tolerance": "1e-9",
+            "ccd_iterations": "100",
+        }
+        ET.SubElement(ET.SubElement(self.root, "option", option), "flag", {"multiccd": "enable"})
+        self._world, self._contact, self._equality, self._actuator = (
+            ET.SubElement(self.root, part) for part in ("worldbody", "contact", "equality", "actuator")
+        )
+
+    def add_scene(self) -> None:
+        """Add the fixed bodies."""
+        for body in self._scene.bodies:
+            name = f"scene:{body.id}"
+            self.scene_bodies[name] = body.id
+            _add_geom(self._world, name, body.shape, body.pose, touches=_SCENE)
+
+    def add_robot(self) -> None:
+        """Add the arm with a motor of rated torque on each joint, and the hand on its flange."""
+        robot = self._scene.robot
+        parents: dict[str, ET.Element] = {}
+        for link in read_links(robot.urdf):
+            parent = parents[link.parent] if link.parent else self._world
+            parents[link.name] = self._add_link(parent, link, link.pose if link.parent else robot.base @ link.pose)
+        for joint in robot.joints:
+            limit = _number(joint.torque_n_m)
+            motor = {"name": joint.name, "joint": joint.name, "forcerange": f"-{limit} {limit}"}
+            ET.SubElement(self._actuator, "motor", motor)
+        self._add_hand(parents[robot.flange])
+
+    def add_workpiece(self) -> None:
+        """Add the workpiece, a solid cylinder that is free to move, with a contact pair for each shape.
+
+        The engine would take the greater one of both bodies' coefficients, where the trials take the product; a pair
+        has a coefficient of its own.
+        """
+        workpiece = self._scene.workpiece
+        if not 0.0 < workpiece.mass_kg < math.inf:
+            raise SimulationError(
+                f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
+            )
+        body = _add_body(self._world, WORKPIECE, workpiece.pose)
+        ET.SubElement(body, "freejoint")
+        _add_inertial(
+            *(body, workpiece.mass_kg, _cylinder_inertia(workpiece.shape, workpiece.mass_kg)),
+            centre_m=(0.0, 0.0, workpiece.centre_of_mass_m),
+        )
+        _add_geom(body, WORKPIECE, workpiece.shape, Pose(), touches=_ALONE)
+        frictions = {f"scene:{one.id}": one.friction * workpiece.friction for one in self._scene.bodies}
+        # What else of the machine touches the workpiece ends the trial, so that its friction does not matter.
+        frictions.update(dict.fromkeys(self.links, 0.0))
+        frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction * workpiece.friction))
+        for name, friction in frictions.items():
+            sliding = _number(friction)
+            pair = {
+                "geom1": name,
+                "geom2": WORKPIECE,
+                # Sliding friction alone: nothing in a scene has coefficients of spinning and rolling. A twist is
+                # withstood by the two ends of each line of contact.
+                "condim": "3",
+                "friction": f"{sliding} {sliding} 0 0 0",
+                **self._stiffness,
+                # The fastest that the engine allows.
+                "solreffriction": f"{_number(2 * self._settings.step_s)} 1",
+            }
+            ET.SubElement(self._contact, "pair", pair)
+
+    def _add_link(self, parent: ET.Element, link: RobotLink, pose: Pose) -> ET.Element:
+        body = _add_body(parent, f"link:{link.name}", pose)
+        if link.mass_kg > 0.0:
+            _add_inertial(body, link.mass_kg, link.inertia_kg_m2, link.centre_m)
+        for index, (shape, at) in enumerate(link.shapes):
+            name = f"link:{link.name}:{index}"
+            self.links[name] = link.name
+            _add_geom(body, name, shape, at, touches=_MACHINE)
+        if link.joint:
+            kind = {"type": "slide"} if link.is_prismatic else {}
+            ET.SubElement(body, "joint", {"name": link.joint, "axis": _numbers(link.axis), **kind})
+        return body
+
+    def _add_hand(self, flange: ET.Element) -> None:
+        """Add a solid base and solid fingers on slides, each with a motor.
+
+        A motor drives towards a speed with at most a force. Two fingers are coupled to close by the same travel; each
+        alone would give way to any force along their common axis.
+        """
+        gripper = self._gripper
+        geometry = gripper.geometry
+        base = _add_body(flange, "gripper_base", geometry.base_pose)
+        _add_inertial(base, gripper.base_mass_kg, _cylinder_inertia(geometry.base, gripper.base_mass_kg))
+        self.links["gripper_base"] = "gripper_base"
+        _add_geom(base, "gripper_base", geometry.base, Pose(), touches=_MACHINE)
+        x, y, z = geometry.finger.size_m
+        inertia = np.diag([y**2 + z**2, x**2 + z**2, x**2 + y**2]) * gripper.finger_mass_kg / 12
+        force = _number(gripper.finger_force_n)
+        gain = gripper.finger_force_n / (_SATURATING_SHARE * gripper.finger_velocity_m_s)
+        for index, name in enumerate(self.fingers):
+            open_pose = geometry.base_pose.inverse() @ geometry.finger_pose(index, geometry.largest_opening_m)
+            finger = _add_body(base, name, open_pose)
+            _add_inertial(finger, gripper.finger_mass_kg, inertia)
+            for part, (shape, at) in enumerate(finger_solids(geometry, self._scene.workpiece.shape)):
+                self.finger_shapes[f"{name}:{part}"] = index
+                _add_geom(finger, f"{name}:{part}", shape, at, touches=_MACHINE)
+            slide = {
+                "name": name,
+                "type": "slide",
+                "axis": "-1 0 0",
+                "range": f"0 {_number(geometry.stroke_m)}",
+                "solreflimit": self._stiffness["solref"],
+                "solimplimit": self._stiffness["solimp"],
+            }
+            ET.SubElement(finger, "joint", slide)
+            motor = {"name": name, "joint": name, "kv": _number(gain), "forcerange": f"-{force} {force}"}
+            ET.SubElement(self._actuator, "velocity", motor)
+        if geometry.fingers == 2:
+            one, other = self.fingers
+            coupling = {"joint1": one, "joint2": other, "polycoef": "0 1 0 0 0", **self._stiffness}
+            ET.SubElement(self._equality, "joint", coupling)
+
+
+def _add_body(parent: ET.Element, name: str, pose: Pose) -> ET.Element:
+    return ET.SubElement(parent, "body", {"name": name, **_placed(pose)})
+
+
+def _add_inertial(
+    body: ET.Element,
+    mass_kg: float,
+    inertia: NDArray[np.float64],
+    centre_m: Sequence[float] = (0.0, 0.0, 0.0),
+) -> None:
+    entries = [float(inertia[row, column]) for row, column in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    attributes = {"pos": _numbers(centre_m), "mass": _number(mass_kg), "fullinertia": _numbers(entries)}
+    ET.SubElement(body, "inertial", attributes)
+
+
+def _add_geom(parent: ET.Element, name: str, shape: Solid, pose: Pose, *, touches: tuple[int, int]) -> None:
+    if isinstance(shape, Box):
+        kind, size = "box", [edge / 2 for edge in shape.size_m]
+    elif isinstance(shape, Cylinder):
+        kind, size = "cylinder", [shape.radius_m, shape.half_height_m]
+    elif isinstance(shape, Capsule):
+        kind, size = "capsule", [shape.radius_m, shape.half_length_m]
+    else:
+        kind, size = "sphere", [shape]
+    own, others = touches
+    attributes = {"name": name, "type": kind, "size": _numbers(size)}
+    bits = {"contype": str(own), "conaffinity": str(others)}
+    ET.SubElement(parent, "geom", {**attributes, **bits, **_placed(pose)})
+
+
+def _cylinder_inertia(shape: Cylinder, mass_kg: float) -> NDArray[np.float64]:
+    across = mass_kg * (3 * shape.radius_m**2 + shape.height_m**2) / 12
+    return np.diag([across, across, mass_kg * shape.radius_m**2 / 2])
+
+
+def _placed(pose: Pose) -> dict[str, str]:
+    x, y, z, w = pose.quaternion_xyzw
+    return {"pos": _numbers(pose.position_m), "quat": _numbers((w, x, y, z))}
+
+
+def _numbers(values: Sequence[float]) -> str:
+    return " ".join(_number(value) for value in values)
+
+
+def _number(value: float) -> str:
+    return repr(float(value))

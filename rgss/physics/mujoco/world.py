@@ -1,0 +1,208 @@
+"""A world of MuJoCo: joints that follow targets, fingers that press, contacts that are read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from rgss.errors import DefinitionError, SimulationError
+from rgss.physics.contacts import Contacts, FingerContact
+from rgss.physics.hand_view import HandView
+from rgss.physics.mujoco.contact_reader import MujocoContactReader
+from rgss.physics.mujoco.engine import compiled, mujoco
+from rgss.physics.mujoco.model import WORKPIECE, world_model
+from rgss.physics.settings import PhysicsSettings
+from rgss.scenes import Gripper, Pose, Scene
+
+LEAST_MUJOCO_RATE_HZ = 500.0
+"""Contacts are stable with a time constant of two steps or more; theirs is 4 ms."""
+
+_FREQUENCY_RAD_S = 300.0
+
+
+class MujocoWorld:
+    """One world of MuJoCo, as the task program and its monitors see it (`rgss.physics.ContactWorld`).
+
+    The arm's joints follow their targets by computed torque: inverse dynamics of the target acceleration, by the
+    engine's own mass matrix and bias forces, and a critically damped correction. So the machine is dynamic and its
+    torques are bounded. With positions written into the state instead, the contact solver would see a hand that is
+    elsewhere in every step without having moved, and friction would not carry the object along.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        gripper: Gripper,
+        settings: PhysicsSettings,
+        *,
+        contact_time_constant_s: float,
+        joint_offsets_rad: Sequence[float] = (),
+    ) -> None:
+        """Build the world.
+
+        Args:
+            scene: Fixed bodies, workpiece and robot.
+            gripper: The gripper on the robot's flange.
+            settings: Step and solver.
+            contact_time_constant_s: Time constant with which contacts and stops yield.
+            joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
+
+        Raises:
+            DefinitionError: The rate is below the one at which contacts are stable.
+            SimulationError: The engine cannot build it.
+        """
+        if settings.rate_hz < LEAST_MUJOCO_RATE_HZ:
+            raise DefinitionError(
+                f"a rate of {settings.rate_hz:g} Hz is too low for contacts in MuJoCo",
+                hint=f"give {LEAST_MUJOCO_RATE_HZ:g} Hz or more",
+            )
+        self.scene, self.gripper, self.settings = scene, gripper, settings
+        self._engine = mujoco()
+        described = world_model(scene, gripper, settings, contact_time_constant_s=contact_time_constant_s)
+        self._model: Any = compiled(described.text)
+        self._data: Any = self._engine.MjData(self._model)
+        model, driven = self._model, [joint.name for joint in scene.robot.joints]
+        self._positions = np.array([model.joint(name).qposadr[0] for name in driven])
+        self._speeds = np.array([model.joint(name).dofadr[0] for name in driven])
+        self._motors = np.array([model.actuator(name).id for name in driven])
+        self._limits = model.actuator_forcerange[self._motors, 1].copy()
+        self._travels = np.array([model.joint(name).qposadr[0] for name in described.fingers])
+        self._finger_motors = np.array([model.actuator(name).id for name in described.fingers])
+        self._offsets = np.array(joint_offsets_rad or np.zeros(len(driven)), dtype=float)
+        self._flange = int(model.body(f"link:{scene.robot.flange}").id)
+        self._workpiece = int(model.body(WORKPIECE).id)
+        self._workpiece_at = int(model.joint(model.body(WORKPIECE).jntadr[0]).qposadr[0])
+        self._grasp_centre_m = gripper.geometry.grasp_centre.position_m
+        self._reader = MujocoContactReader(model, self._data, described)
+        self._wanted, self._needed = np.zeros(model.nv), np.zeros(model.nv)
+        self._target = self._target_speed = self._speed_before = self._torques = np.zeros(len(driven))
+        self._stood_m, self._stood_wxyz = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
+        self.reset_arm((0.0,) * len(driven))
+
+    def __enter__(self) -> MujocoWorld:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Do nothing: model and state are freed with this world."""
+
+    def reset_arm(self, configuration_rad: Sequence[float]) -> None:
+        """Put the arm at rest at a configuration, fingers open and the workpiece where it stands, without stepping."""
+        self._engine.mj_resetData(self._model, self._data)
+        self._target = np.array(configuration_rad, dtype=float) + self._offsets
+        self._data.qpos[self._positions] = self._target
+        self._target_speed = self._speed_before = self._torques = np.zeros(len(self._target))
+        self.hold_open()
+        self._engine.mj_forward(self._model, self._data)
+        self._note_workpiece()
+
+    def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
+        """Set the arm's targets for the next step: reported positions at its start, mean velocities over it."""
+        self._target, self._target_speed = np.asarray(position_rad) + self._offsets, np.asarray(velocity_rad_s)
+
+    def hold_open(self) -> None:
+        """Hold the fingers at their open end, against its stop."""
+        self.drive_fingers(-self.gripper.finger_velocity_m_s, self.gripper.finger_force_n)
+
+    def drive_fingers(self, velocity_m_s: float, force_n: float) -> None:
+        """Move every finger at a velocity (positive closes) with at most a force."""
+        self._data.ctrl[self._finger_motors] = velocity_m_s
+        self._model.actuator_forcerange[self._finger_motors] = (-force_n, force_n)
+
+    def step(self) -> None:
+        """Advance by one step.
+
+        Raises:
+            SimulationError: The engine warned, of an instability for instance.
+        """
+        model, data, engine = self._model, self._data, self._engine
+        engine.mj_step1(model, data)
+        self._note_workpiece()
+        lag = self._target - data.qpos[self._positions]
+        slowness = self._speed_before - data.qvel[self._speeds]
+        correction = _FREQUENCY_RAD_S**2 * lag + 2 * _FREQUENCY_RAD_S * slowness
+        self._wanted[self._speeds] = (self._target_speed - self._speed_before) / self.settings.step_s + correction
+        self._speed_before = self._target_speed
+        engine.mj_mulM(model, data, self._needed, self._wanted)
+        torques = (self._needed + data.qfrc_bias)[self._speeds]
+        self._torques = np.clip(torques, -self._limits, self._limits)
+        data.ctrl[self._motors] = self._torques
+        engine.mj_step2(model, data)
+        engine.mj_kinematics(model, data)
+        if data.warning.number.any():
+            names = [str(engine.mjtWarning(index).name) for index in np.flatnonzero(data.warning.number).tolist()]
+            raise SimulationError(f"MuJoCo warned: {', '.join(names)}", hint="take a higher rate")
+
+    def bend(self, arc_m: Sequence[float]) -> None:
+        """Second-order correction of a carried workpiece's position; see `ContactWorld.bend`.
+
+        This engine integrates like PyBullet, by the speed at the end of the step, and loses as much by it.
+        """
+        at = self._workpiece_at
+        self._data.qpos[at : at + 3] += arc_m
+        self._data.xpos[self._workpiece] += arc_m
+
+    def solve_freely(self, *, free: bool) -> None:
+        """Do nothing: Newton's method ends by itself where there is little to solve."""
+
+    def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
+        """Reported joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step."""
+        positions, velocities = self._data.qpos[self._positions] - self._offsets, self._data.qvel[self._speeds]
+        return tuple(positions.tolist()), tuple(velocities.tolist()), tuple(self._torques.tolist())
+
+    def finger_travel_m(self) -> tuple[float, ...]:
+        """How far each finger has closed from its open end."""
+        return tuple(self._data.qpos[self._travels].tolist())
+
+    def workpiece_pose(self) -> Pose:
+        """Transform of the workpiece to the world."""
+        return self._pose_of(self._workpiece)
+
+    def tool_pose(self) -> Pose:
+        """Transform of the grasp-centre frame to the world as the arm really stands."""
+        return self.hand_view().tool
+
+    def hand_view(self) -> HandView:
+        """Poses of object, flange and fingers after the last step."""
+        held, flange = self._pose_of(self._workpiece), self._pose_of(self._flange)
+        return HandView(
+            held.position_m,
+            held.quaternion_xyzw,
+            flange.position_m,
+            flange.quaternion_xyzw,
+            self._grasp_centre_m,
+            self.finger_travel_m(),
+        )
+
+    def contacts(self, standing: Contacts | None = None) -> Contacts:
+        """Contacts of the last step; see `ContactWorld.contacts`."""
+        return self._reader.contacts(standing)
+
+    def support_force_n(self) -> float:
+        """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
+        return self._reader.scene_force_n()
+
+    def finger_contacts(self) -> tuple[FingerContact, ...]:
+        """The points at which fingers press on the workpiece, by finger and from low to high."""
+        return self._reader.finger_contacts(_pose(self._stood_m, self._stood_wxyz))
+
+    def _note_workpiece(self) -> None:
+        """Keep where the workpiece stands at the start of a step, where the engine finds its contacts."""
+        self._stood_m = self._data.xpos[self._workpiece].copy()
+        self._stood_wxyz = self._data.xquat[self._workpiece].copy()
+
+    def _pose_of(self, body: int) -> Pose:
+        return _pose(self._data.xpos[body], self._data.xquat[body])
+
+
+def _pose(position_m: Any, quaternion_wxyz: Any) -> Pose:
+    x, y, z = position_m.tolist()
+    qw, qx, qy, qz = quaternion_wxyz.tolist()
+    return Pose(position_m=(x, y, z), quaternion_xyzw=(qx, qy, qz, qw))

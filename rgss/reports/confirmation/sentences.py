@@ -1,0 +1,110 @@
+"""Sentences that tell what a confirmation came to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from rgss.confirmation import Aspect, Confirmation, ConfirmedTrial
+
+_WORDS = {
+    Aspect.STUDY: "the study's own setting",
+    Aspect.STEP: "the step",
+    Aspect.ITERATIONS: "the solver's iterations",
+    Aspect.ENGINE: "the engine",
+}
+_NUMBERS = ("no", "one", "two", "three", "four")
+
+
+def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
+    """The decision, the verdicts and the outcomes in a sentence each, and what was left out."""
+    yield decision_sentence(confirmation)
+    yield verdict_sentence(confirmation)
+    yield outcome_sentence(confirmation)
+    selection = confirmation.selection
+    if selection.left_out:
+        ids = ", ".join(map(str, selection.left_out))
+        yield f"Rivals that were not confirmed: {ids} (name them with --variants)."
+    if selection.planned_failures or selection.physical_failures:
+        planned, physical = selection.planned_failures, selection.physical_failures
+        sampled = len(selection.sample)
+        yield (
+            f"Failures of the study: {planned} before physics, which no engine changes, and {physical} in physics, "
+            f"of which {sampled} of designs that are not confirmed {'was' if sampled == 1 else 'were'} run again."
+        )
+
+
+def decision_sentence(confirmation: Confirmation) -> str:
+    """Whether the decision depends on the setting, and on what."""
+    results, differing = confirmation.results, confirmation.differing_decisions
+    first = results[0].first
+    if not differing:
+        what = _listed([_WORDS[aspect] for aspect in confirmation.aspects], "or")
+        every = f"all {_number(len(results))} settings" if len(results) > 2 else "both settings"
+        if first is None:
+            return f"The decision does not depend on {what}: no design meets every requirement under {every}."
+        others = {result.first for result in results} - {first}
+        tied = f" (or {_listed(sorted(map(str, others)), 'or')}, equally good)" if others else ""
+        return f"The decision does not depend on {what}: variant {first}{tied} is first under {every}."
+    what = _listed([_WORDS[results[index].setting.aspect] for index in differing], "and")
+    under: dict[int | None, list[str]] = {}
+    for result in results:
+        under.setdefault(result.first, []).append(result.setting.label)
+    found = "; ".join(
+        f"{'no design' if variant is None else f'variant {variant}'} is first under {_listed(labels, 'and')}"
+        for variant, labels in under.items()
+    )
+    return f"The decision depends on {what}: {found}."
+
+
+def verdict_sentence(confirmation: Confirmation) -> str:
+    """Which verdicts depend on the setting."""
+    study = confirmation.results[0].verdicts
+    total = sum(map(len, study.values()))
+    designs = f"{len(study)} design{'' if len(study) == 1 else 's'}"
+    differing = confirmation.differing_verdicts
+    if not differing:
+        return f"All {total} verdicts on {designs} are the same under every setting."
+    count = len({(one.variant, one.requirement) for one in differing})
+    found = "; ".join(
+        f"{one.requirement} of variant {one.variant} is {_plain(one.study.value)} in the study and "
+        f"{_plain(one.other.value)} under {confirmation.results[one.setting].setting.label}"
+        for one in differing
+    )
+    return f"{count} of {total} verdicts {'depends' if count == 1 else 'depend'} on the setting: {found}."
+
+
+def outcome_sentence(confirmation: Confirmation) -> str:
+    """Which trials end otherwise under another setting."""
+    total = len(confirmation.trials)
+    differing = confirmation.differing_trials
+    if not differing:
+        return f"All {total} trials end alike under every setting." if total > 1 else "The trial ends alike."
+    found = "; ".join(trial_sentence(confirmation, trial) for trial in differing)
+    verb = "ends" if len(differing) == 1 else "end"
+    return f"{len(differing)} of {total} trials {verb} otherwise: {found}."
+
+
+def trial_sentence(confirmation: Confirmation, trial: ConfirmedTrial) -> str:
+    """How one trial ends in the study and under the settings that differ, with the numbers that show it."""
+    parts = []
+    for index in trial.differing:
+        detail = trial.records[index].failure_detail
+        shown = f" ({detail})" if detail else ""
+        parts.append(f"{trial.outcome(index)} under {confirmation.results[index].setting.label}{shown}")
+    detail = trial.records[0].failure_detail
+    own = trial.outcome(0) + (f" ({detail})" if detail else "")
+    return f"variant {trial.variant}, seed {trial.seed}: {own} in the study, {_listed(parts, 'and')}"
+
+
+def _number(count: int) -> str:
+    return _NUMBERS[count] if count < len(_NUMBERS) else str(count)
+
+
+def _plain(text: str) -> str:
+    return text.replace("_", " ")
+
+
+def _listed(parts: Sequence[str], conjunction: str) -> str:
+    if len(parts) < 2:
+        return "".join(parts)
+    return f"{', '.join(parts[:-1])} {conjunction} {parts[-1]}"
