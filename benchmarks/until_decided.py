@@ -347,7 +347,7 @@ def _template(project: Project) -> tuple[TradeProblem, dict[int, tuple[Class, fl
 
     measured, classes = [], {}
     for variant in project.designs.expand():
-        estimates = evaluate(project.measures, fixed=sources(variant), trials=[], seed=1, variant=variant.id)
+        estimates = evaluate(project.measures, fixed=sources(variant), trials=[], variant=variant.id)
         measured.append(
             VariantMeasures(variant=variant, trials=(), records=(), missing=0, estimates=estimates, verdicts={})
         )

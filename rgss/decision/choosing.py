@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from rgss.assessment import VariantMeasures, replicates_of, require_complete, requirements_with_criteria
 from rgss.decision.level_structure import level_structure
 from rgss.decision.preference_model import program_of, risks_of, threshold_of, value_function_of
-from rgss.measures import Estimate
+from rgss.measures import Estimate, Estimator
 from rgss.requirements import Criterion, Statistic
 from rgss.studies import Project
 from rgss.tradeoff import (
@@ -53,6 +53,8 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
     wanted = [*trade_off.weighting.weights, *(risk.measure for risk in risks)]
     wanted += program.aimed_measures
     wanted += [limit.measure for limit in program.limits]
+    # An end of an interval is drawn from where its measure is.
+    wanted += [criterion.measure for criterion in criteria.values()]
     columns = {measure: (measure, Statistic.VALUE) for measure in wanted}
     columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
     return TradeProblem(
@@ -90,6 +92,15 @@ def choose(
     margin = project.study.trade_off.practical_margin
     posed = trade_problem(project, measured) if problem is None else problem
     return decide(posed, margin=margin, seed=project.study.seed, independent=independent)
+
+
+def proportion_measures(project: Project) -> frozenset[str]:
+    """Ids of the measures that are estimated as proportions."""
+    return frozenset(
+        measure.id
+        for measure in project.measures.measures
+        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION
+    )
 
 
 def double_counting(project: Project) -> tuple[Overlap, ...]:

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rgss.assessment import VariantMeasures
-from rgss.decision.choosing import trade_problem
+from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
-from rgss.measures import Estimator, Verdict, evaluate
+from rgss.measures import Verdict, evaluate
 from rgss.studies import Project, trial_specs
 from rgss.sweep import key_of
 from rgss.tradeoff.sequential import Decided, Progress, Reason, SequentialEvidence, SequentialRule, next_batch
@@ -80,7 +80,7 @@ def replicate_until_decided(
     read = _Evidence(project, store, variants)
     wanted = {variant.id: rule.pilot for variant in variants}
     progress = Progress()
-    proportions = _proportions(project)
+    proportions = proportion_measures(project)
     while True:
         specs = read.missing(wanted)
         run(specs)
@@ -105,15 +105,6 @@ def replicate_until_decided(
         looks=progress.looks,
         rule=rule,
     )
-
-
-def _proportions(project: Project) -> set[str]:
-    """Ids of the measures that are estimated as proportions."""
-    return {
-        measure.id
-        for measure in project.measures.measures
-        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION
-    }
 
 
 def summary(result: UntilDecided) -> str:
@@ -185,7 +176,6 @@ class _Evidence:
             self._project.measures,
             fixed=sources(variant),
             trials=[record.metrics for _, record in rows],
-            seed=self._project.study.seed,
             variant=variant.id,
         )
         return VariantMeasures(
