@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from rgss.assessment import VariantMeasures, replicates_of, require_complete, requirements_with_criteria
 from rgss.decision.level_structure import level_structure
@@ -38,7 +39,7 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
     """
     require_complete(measured)
     criteria = {
-        requirement.id: requirement.criterion
+        requirement.id: _demanded(project, requirement.criterion)
         for requirement in requirements_with_criteria(project)
         if requirement.criterion is not None
     }
@@ -122,6 +123,14 @@ def shared_measures(project: Project) -> tuple[SharedPart, ...]:
     """Valued measures neither of which contains the other, but that depend on measures in common."""
     weights = project.study.trade_off.weighting.weights
     return shared_parts(weights, project.measures.dependencies)
+
+
+def _demanded(project: Project, criterion: Criterion) -> Criterion:
+    """The criterion that a choice must keep: on the end of the interval that a verdict needs, if the study asks so."""
+    from_trials = project.measures.measure(criterion.measure).from_trials
+    if not project.study.trade_off.shown_feasible or criterion.statistic is not Statistic.VALUE or not from_trials:
+        return criterion
+    return replace(criterion, statistic=Statistic.LOW if criterion.comparison.is_lower_bound else Statistic.HIGH)
 
 
 def _alternative(

@@ -43,6 +43,12 @@ class UntilDecided:
     rule: SequentialRule
 
     @property
+    def open_requirements(self) -> tuple[str, ...]:
+        """Ids of the requirements whose verdict on the choice is inconclusive."""
+        verdicts = {} if self.variant is None else self.verdicts.get(self.variant, {})
+        return tuple(name for name, verdict in verdicts.items() if verdict is Verdict.INCONCLUSIVE)
+
+    @property
     def total(self) -> int:
         """All trials."""
         return sum(self.trials.values())
@@ -116,6 +122,8 @@ def summary(result: UntilDecided) -> str:
     ended = {
         Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
         Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
+        Reason.BUDGET: f"budget of {result.rule.budget} trials spent with {len(result.contenders)} contenders"
+        + (f", open: {', '.join(result.open_requirements)}" if result.open_requirements else ""),
     }[result.reason]
     return (
         f"{chosen}: {ended}, probability of good selection {result.probability:.3f}; {result.total} trials in "

@@ -26,7 +26,7 @@ NOT_DIVIDED_YET = {
     "rgss/tradeoff/levels/guard.py": 308,
     "rgss/tradeoff/portfolio/portfolio.py": 379,
     "rgss/tradeoff/robustness/effects.py": 312,
-    "rgss/tradeoff/sequential/sequential.py": 365,
+    "rgss/tradeoff/sequential/sequential.py": 326,
     "rgss/motion/planning.py:plan": 66,
     "rgss/studies/study.py:read_study": 69,
 }

@@ -14,15 +14,15 @@ from rgss.decision.robustness.assumptions import AssumptionFinding, assumption_f
 from rgss.decision.robustness.cost_box import CostBox, cost_box
 from rgss.decision.robustness.effect_findings import StudyEffects
 from rgss.decision.robustness.effects import study_effects
-from rgss.decision.robustness.findings import RequirementPrice, Robustness, WeightRobustness
+from rgss.decision.robustness.findings import Robustness, WeightRobustness
 from rgss.decision.robustness.parts import Part, PartComputer
+from rgss.decision.robustness.pricing import requirement_prices
 from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.errors import TradeoffError
 from rgss.studies import Project
 from rgss.tradeoff import AdditiveValue, Decision, TradeProblem
-from rgss.tradeoff.problem import FEWEST_REPLICATES, Comparison, EvidenceTable, Resamples, bootstrap
+from rgss.tradeoff.problem import FEWEST_REPLICATES, EvidenceTable, Resamples, bootstrap
 from rgss.tradeoff.programs import (
-    condition_column,
     enumerate_alternatives,
     orderings_of,
     single_values,
@@ -37,9 +37,7 @@ from rgss.tradeoff.robustness import (
     RankReversal,
     admitted_weights,
     choice_uncertainty,
-    condition_masks,
     pareto_front,
-    price_list,
     rank_reversals,
     replicate_number,
     sample_anchored,
@@ -57,6 +55,8 @@ DRAWN_RESAMPLES = 1_000
 
 
 _NO_EFFECTS = StudyEffects(factors=(), constants=(), measures=())
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Posed:
     """A trade-off by weighted value with its values by the estimates.
@@ -153,7 +153,7 @@ def analyse_robustness(
         weighting=weighting,
         assumptions=assumed[0],
         costs=assumed[1],
-        prices=parts.compute(Part.PRICES, lambda: _prices(problem, table), ()),
+        prices=parts.compute(Part.PRICES, lambda: requirement_prices(problem, table), ()),
         reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
         stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
         effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, measured, resamples), _NO_EFFECTS),
@@ -237,34 +237,6 @@ def _weighting(
         uncertainty=uncertainty,
         with_noise=posterior is not None,
     )
-
-
-def _prices(problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPrice, ...]:
-    totals = weighted_values(problem, table)
-    masks = condition_masks(problem, table)
-    known = ~np.isnan(totals)
-
-    orderings = orderings_of(problem.program, problem, table)
-
-    def best_of(among: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        return orderings(among).best(among)
-
-    found = []
-    for place, condition in enumerate(problem.conditions):
-        others = np.logical_and.reduce([known, *(mask for other, mask in enumerate(masks) if other != place)])
-        found.append(
-            RequirementPrice(
-                condition=condition,
-                steps=price_list(
-                    condition_column(condition, table),
-                    totals,
-                    others,
-                    at_least=condition.sense is Comparison.AT_LEAST,
-                    best_of=None if isinstance(problem.program, AdditiveValue) else best_of,
-                ),
-            )
-        )
-    return tuple(found)
 
 
 def _reversals(problem: TradeProblem, table: EvidenceTable, feasible: NDArray[np.bool_]) -> tuple[RankReversal, ...]:

@@ -32,6 +32,8 @@ class TradeOff:
         risks: What is demanded of the replicates.
         practical_margin: Alternatives within it of the best are near-ties.
         choose_levels: Whether levels of factors are chosen instead of variants.
+        shown_feasible: Whether a choice must be shown to meet the requirements, by the end of the
+            interval that a verdict needs; by its estimates otherwise.
         fleet: The portfolio; None if none is wanted.
     """
 
@@ -43,6 +45,7 @@ class TradeOff:
     risks: tuple[RiskChoice, ...] = ()
     practical_margin: float = 0.0
     choose_levels: bool = False
+    shown_feasible: bool = False
     fleet: PortfolioEntry | None = None
 
     @property

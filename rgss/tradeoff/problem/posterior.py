@@ -65,16 +65,17 @@ def alike_groups(observed: Sequence[ObservedRows]) -> NDArray[np.intp]:
     """The group of each alternative, shape (n,), that shares the trials behind its proportions.
 
     Alternatives are alike where no replicate of a proportion, and none of some mean, tells them
-    apart: planning limits that never bind, or tool speeds of the same plans.
+    apart: planning limits that never bind, or tool speeds of the same plans. Equal proportions alone
+    say nothing, for they are often equal by chance.
     """
     count = len(observed[0].values)
     proportions = [one for one in observed if one.is_proportion]
     means = [one for one in observed if not one.is_proportion]
     group = np.arange(count)
-    for mean in means or [None]:
+    for mean in means:
         seen: dict[bytes, int] = {}
         for row in range(count):
-            rows = [one.values[row] for one in (*proportions, *(() if mean is None else (mean,)))]
+            rows = [one.values[row] for one in (*proportions, mean)]
             first = seen.setdefault(b"".join(np.ascontiguousarray(each).tobytes() for each in rows), row)
             if group[first] != group[row]:
                 group[group == group[row]] = group[first]
@@ -87,9 +88,7 @@ def _same_rows(values: Array) -> NDArray[np.intp]:
     return np.array([seen.setdefault(np.ascontiguousarray(row).tobytes(), len(seen)) for row in values], dtype=np.intp)
 
 
-def _proportions(
-    values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator
-) -> Array:
+def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator) -> Array:
     """Draws of proportions: beta-binomial, with the population's mean and strength drawn from their posterior.
 
     A success and a failure more, with random weights, are what the population adds to the seeds' own:
@@ -115,14 +114,17 @@ def _populations(
 ) -> tuple[Array, Array]:
     """The mean and the strength of the population of proportions in each draw, from their posterior on a grid.
 
-    The mean has Jeffreys's prior, the strength is uniform in its logarithm.
+    The mean has Jeffreys's prior. The share by which a single trial is drawn to the mean, s / (1 + s)
+    of the strength s, is uniform: the strength's density is 1 / (1 + s)².
     """
     from scipy.special import betaln
 
     mean, strength = np.meshgrid(_MEANS, _STRENGTHS, indexing="ij")
     one, other = (mean * strength)[..., None], ((1.0 - mean) * strength)[..., None]
     fit = betaln(one + successes, other + (trials - successes)) - betaln(one, other)
-    heights = fit.sum(axis=-1) - 0.5 * np.log(mean * (1.0 - mean))
+    # On a grid of the strength's logarithm its density has the strength as a factor.
+    prior = np.log(strength) - 2.0 * np.log1p(strength) - 0.5 * np.log(mean * (1.0 - mean))
+    heights = fit.sum(axis=-1) + prior
     chances = np.exp(heights - heights.max()).ravel()
     picked = generator.choice(chances.size, size=draws, p=chances / chances.sum())
     return mean.ravel()[picked], strength.ravel()[picked]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.json.conclusion import conclusion_to_json
 from rgss.reports.decision.json.decision import checks_to_json, decision_to_json
 from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
 from rgss.reports.decision.json.screening import screening_to_json
@@ -28,6 +29,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
     document["shared_parts"] = [
         {"first": shared.first, "second": shared.second, "parts": list(shared.parts)} for shared in made.shared_parts
     ]
+    document["conclusion"] = conclusion_to_json(made)
     document["robustness"] = None if made.robustness is None else robustness_to_json(made.robustness.analysis)
     document["fleet"] = None if made.portfolio is None else portfolio_to_json(made.portfolio)
     document["what_if"] = (

@@ -148,7 +148,6 @@ def _regions(found: Robustness, regions: Sequence[WeightRegion]) -> list[Plain]:
 
 
 def _acceptability(found: Robustness, weighting: WeightRobustness, indices: Acceptability) -> Plain:
-    errors = indices.rank_errors[:, 0] if weighting.first_errors is None else weighting.first_errors
     return {
         "iterations": indices.iterations,
         "drawn_by": indices.drawn_by.value,
@@ -158,7 +157,7 @@ def _acceptability(found: Robustness, weighting: WeightRobustness, indices: Acce
                 "variant": variant,
                 "ranks": {str(rank): float(share) for rank, share in enumerate(indices.ranks[row], start=1) if share},
                 "first": float(indices.first[row]),
-                "first_error": float(errors[row]),
+                "first_error": float(np.asarray(weighting.first_errors, dtype=np.float64)[row]),
                 "unranked": float(indices.unranked[row]),
                 "central_weights": _by_measure(found, indices.central_weights[row]),
                 "confidence": _finite(float(indices.confidence[row])),
