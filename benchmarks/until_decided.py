@@ -28,7 +28,8 @@ from rgss.studies.project import Project, load_project
 from rgss.tradeoff import Alternative, Comparison, PiecewiseValue, Threshold, TradeProblem, Weighting
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.probability import probability_of_good_selection
-from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, SequentialRule, next_batch
+from rgss.tradeoff.sequential.rule import SequentialRule
+from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, next_batch
 from rgss.trials.pieces.input_digests import TrialSpec
 
 FIXED = 200
@@ -347,7 +348,7 @@ def _template(project: Project) -> tuple[TradeProblem, dict[int, tuple[Class, fl
 
     measured, classes = [], {}
     for variant in project.designs.expand():
-        estimates = evaluate(project.measures, fixed=sources(variant), trials=[], seed=1, variant=variant.id)
+        estimates = evaluate(project.measures, fixed=sources(variant), trials=[], variant=variant.id)
         measured.append(
             VariantMeasures(variant=variant, trials=(), records=(), missing=0, estimates=estimates, verdicts={})
         )

@@ -174,7 +174,6 @@ def _measured(
         project.measures,
         fixed=sources(variant),
         trials=[record.metrics for record in records],
-        seed=project.study.seed,
         variant=variant.id,
     )
     return VariantMeasures(

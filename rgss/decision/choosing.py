@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from rgss.assessment import VariantMeasures, replicates_of, require_complete, requirements_with_criteria
 from rgss.decision.level_structure import level_structure
 from rgss.decision.preference_model import program_of, risks_of, threshold_of, value_function_of
-from rgss.measures import Estimate
+from rgss.measures import Estimate, Estimator
 from rgss.requirements import Criterion, Statistic
 from rgss.studies import Project
 from rgss.tradeoff import (
@@ -38,7 +39,7 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
     """
     require_complete(measured)
     criteria = {
-        requirement.id: requirement.criterion
+        requirement.id: _demanded(project, requirement.criterion)
         for requirement in requirements_with_criteria(project)
         if requirement.criterion is not None
     }
@@ -53,6 +54,8 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
     wanted = [*trade_off.weighting.weights, *(risk.measure for risk in risks)]
     wanted += program.aimed_measures
     wanted += [limit.measure for limit in program.limits]
+    # An end of an interval is drawn from where its measure is.
+    wanted += [criterion.measure for criterion in criteria.values()]
     columns = {measure: (measure, Statistic.VALUE) for measure in wanted}
     columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
     return TradeProblem(
@@ -94,6 +97,15 @@ def choose(
     return decide(posed, margin=margin, seed=project.study.seed, independent=independent, time_limit=time_limit)
 
 
+def proportion_measures(project: Project) -> frozenset[str]:
+    """Ids of the measures that are estimated as proportions."""
+    return frozenset(
+        measure.id
+        for measure in project.measures.measures
+        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION
+    )
+
+
 def double_counting(project: Project) -> tuple[Overlap, ...]:
     """Valued measures of which one contains the other, with what could be valued instead."""
     measures = project.measures
@@ -113,6 +125,14 @@ def shared_measures(project: Project) -> tuple[SharedPart, ...]:
     """Valued measures neither of which contains the other, but that depend on measures in common."""
     weights = project.study.trade_off.weighting.weights
     return shared_parts(weights, project.measures.dependencies)
+
+
+def _demanded(project: Project, criterion: Criterion) -> Criterion:
+    """The criterion that a choice must keep: on the end of the interval that a verdict needs, if the study asks so."""
+    from_trials = project.measures.measure(criterion.measure).from_trials
+    if not project.study.trade_off.shown_feasible or criterion.statistic is not Statistic.VALUE or not from_trials:
+        return criterion
+    return replace(criterion, statistic=Statistic.LOW if criterion.comparison.is_lower_bound else Statistic.HIGH)
 
 
 def _alternative(

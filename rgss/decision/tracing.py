@@ -111,7 +111,6 @@ def _values(project: Project, entry: VariantMeasures, record: TrialRecord) -> di
         project.measures,
         fixed=sources(entry.variant),
         trials=[record.metrics],
-        seed=project.study.seed,
         variant=entry.variant.id,
     )
     return {name: estimate.value for name, estimate in alone.items()}

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rgss.assessment import VariantMeasures
-from rgss.decision.choosing import trade_problem
+from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
-from rgss.measures import Estimator, Verdict, evaluate
+from rgss.measures import Verdict, evaluate
 from rgss.studies import Project, trial_specs
 from rgss.sweep import key_of
 from rgss.tradeoff.sequential import Decided, Progress, Reason, SequentialEvidence, SequentialRule, next_batch
@@ -41,6 +41,12 @@ class UntilDecided:
     probability: float
     looks: int
     rule: SequentialRule
+
+    @property
+    def open_requirements(self) -> tuple[str, ...]:
+        """Ids of the requirements whose verdict on the choice is inconclusive."""
+        verdicts = {} if self.variant is None else self.verdicts.get(self.variant, {})
+        return tuple(name for name, verdict in verdicts.items() if verdict is Verdict.INCONCLUSIVE)
 
     @property
     def total(self) -> int:
@@ -80,7 +86,7 @@ def replicate_until_decided(
     read = _Evidence(project, store, variants)
     wanted = {variant.id: rule.pilot for variant in variants}
     progress = Progress()
-    proportions = _proportions(project)
+    proportions = proportion_measures(project)
     while True:
         specs = read.missing(wanted)
         run(specs)
@@ -107,15 +113,6 @@ def replicate_until_decided(
     )
 
 
-def _proportions(project: Project) -> set[str]:
-    """Ids of the measures that are estimated as proportions."""
-    return {
-        measure.id
-        for measure in project.measures.measures
-        if measure.estimate is not None and measure.estimate.statistic is Estimator.PROPORTION
-    }
-
-
 def summary(result: UntilDecided) -> str:
     """One line that says what came of it."""
     share = result.total / (len(result.trials) * result.rule.cap)
@@ -125,6 +122,8 @@ def summary(result: UntilDecided) -> str:
     ended = {
         Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
         Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
+        Reason.BUDGET: f"budget of {result.rule.budget} trials spent with {len(result.contenders)} contenders"
+        + (f", open: {', '.join(result.open_requirements)}" if result.open_requirements else ""),
     }[result.reason]
     return (
         f"{chosen}: {ended}, probability of good selection {result.probability:.3f}; {result.total} trials in "
@@ -185,7 +184,6 @@ class _Evidence:
             self._project.measures,
             fixed=sources(variant),
             trials=[record.metrics for _, record in rows],
-            seed=self._project.study.seed,
             variant=variant.id,
         )
         return VariantMeasures(

@@ -241,7 +241,6 @@ def _judged(
         project.measures,
         fixed=sources(variant),
         trials=[record.metrics for record in records],
-        seed=project.study.seed,
         variant=variant.id,
     )
     verdicts: dict[str, Verdict] = {}

@@ -27,6 +27,8 @@ from rgss.measures.ratios import QUOTIENT
 from rgss.measures.readings import with_readings
 from rgss.quantities import conversion_factor, dimension, parse_quantity
 
+Bounds = tuple["float | None", "float | None"]
+
 
 def build_measures(loaded: LoadedDocument[MeasuresDocument], lines: Sequence[str]) -> MeasureSet | list[Finding]:
     """Build the set of measures.
@@ -62,11 +64,13 @@ class _Builder:
         order, used = self._order(expressions)
         lengths = self._check_kinds(expressions, order)
         by_trial = {name: known for name in order if (known := self._differs(used[name], {*order})) is not None}
+        bounds = {name: self._bounds(index) for name, index in self._indices.items()}
         self._findings += check_roles(self._document, entries, used, by_trial, lengths)
         if self._findings:
             return self._findings
         measures = {
-            name: _measure(entries.measures[self._indices[name]], expressions[name], lengths[name]) for name in order
+            name: _measure(entries.measures[self._indices[name]], expressions[name], lengths[name], bounds[name])
+            for name in order
         }
         return MeasureSet(
             constants=tuple(_constant(entry, value) for entry, value in zip(entries.constants, values, strict=True)),
@@ -107,6 +111,32 @@ class _Builder:
         if not math.isfinite(value):
             self._findings.append(self._document.finding("measures.unit", "the number is too large", location))
         return value
+
+    def _bounds(self, index: int) -> Bounds:
+        """The least and the greatest value of a measure in one trial, in its unit, as far as they are declared."""
+        entry = self._entries.measures[index]
+        rule = entry.estimate
+        if rule is None:
+            return None, None
+        found: list[float | None] = []
+        for key, text in (("least", rule.least), ("most", rule.most)):
+            location = ("measures", index, "estimate", key)
+            if text is not None and rule.statistic is Estimator.PROPORTION:
+                self._refuse_bound(location, "a proportion lies between 0 and 1 as it is", "remove the bound")
+                return None, None
+            try:
+                found.append(None if text is None else parse_quantity(text, entry.unit))
+            except QuantityError as error:
+                self._refuse_bound(location, error.message, error.hint)
+                found.append(None)
+        least, most = found
+        if least is not None and most is not None and least >= most:
+            message = f"no trial can give at least {least:g} and at most {most:g} {entry.unit}"
+            self._refuse_bound(("measures", index, "estimate", "least"), message, "state 'least' below 'most'")
+        return least, most
+
+    def _refuse_bound(self, location: tuple[str | int, ...], message: str, hint: str) -> None:
+        self._findings.append(self._document.finding("measures.estimate", message, location, hint=hint))
 
     def _expressions(self) -> dict[str, Expression]:
         expressions: dict[str, Expression] = {}
@@ -200,7 +230,7 @@ def _constant(entry: ConstantEntry, value: float) -> Constant:
     return Constant(id=entry.id, value=value, unit=entry.unit, definition=entry.definition, source=entry.source or "")
 
 
-def _measure(entry: MeasureEntry, expression: Expression, length: int | None) -> Measure:
+def _measure(entry: MeasureEntry, expression: Expression, length: int | None, bounds: Bounds) -> Measure:
     return Measure(
         id=entry.id,
         kind=entry.kind,
@@ -216,6 +246,8 @@ def _measure(entry: MeasureEntry, expression: Expression, length: int | None) ->
         estimate=entry.estimate,
         summary=entry.summary,
         length=length,
+        least=bounds[0],
+        most=bounds[1],
     )
 
 

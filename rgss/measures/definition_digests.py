@@ -39,10 +39,14 @@ def _of_measure(measure: Measure) -> dict[str, Any]:
         "definition": _flat(measure.definition),
         "unit": measure.unit,
         "expression": _flat(measure.expression.text),
-        "estimate": None if rule is None else [rule.statistic, rule.over],
+        "estimate": None if rule is None else [rule.statistic, rule.over, *_bounds(measure)],
         "summary": measure.summary,
         "length": measure.length,
     }
+
+
+def _bounds(measure: Measure) -> list[float | None]:
+    return [] if measure.least is None and measure.most is None else [measure.least, measure.most]
 
 
 def _of_input(symbol: InputSymbol) -> dict[str, Any]:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
-from rgss.documents import DocumentModel, Identifier, Text, UnitText
+from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
 from rgss.errors import DefinitionError
 from rgss.measures.expressions import Expression
+from rgss.quantities import dimension
+
+_NEVER_NEGATIVE = tuple(((name, 1.0),) for name in ("time", "mass", "currency"))
 
 
 class MeasureKind(str, Enum):
@@ -121,11 +124,28 @@ class Equation:
     note: str
 
 
+def _as_text(value: Any) -> Any:
+    """A pure number may stand without quotes; its unit decides later whether it may."""
+    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+NumberOrQuantityText = Annotated[
+    QuantityText,
+    BeforeValidator(_as_text),
+    WithJsonSchema(
+        {"type": ["string", "number"], "minLength": 1, "maxLength": 60, "description": "A quantity, or a pure number."}
+    ),
+]
+"""A value such as ``"9.81 m/s^2"``; a pure number may be bare."""
+
+
 class EstimateRule(DocumentModel):
-    """Estimator of a measure and the trials that it takes."""
+    """Estimator of a measure, the trials that it takes, and the bounds that none of their values can exceed."""
 
     statistic: Estimator
     over: Population
+    least: NumberOrQuantityText | None = None
+    most: NumberOrQuantityText | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -166,6 +186,8 @@ class Measure:
         length: The number of its entries; None for a single number.
         simulated_as: The measure that a simulation shows of the same quantity; None where there is none.
         alternatives: Other readings of its source.
+        least: The least value that a trial can give, in its unit; None where none is declared.
+        most: The greatest value that a trial can give; None where none is declared.
     """
 
     id: str
@@ -184,6 +206,13 @@ class Measure:
     length: int | None
     simulated_as: str | None = None
     alternatives: tuple[Alternative, ...] = ()
+    least: float | None = None
+    most: float | None = None
+
+    @property
+    def is_never_negative(self) -> bool:
+        """Whether its unit is one of time, mass or money, of which no trial has less than none."""
+        return dimension(self.unit) in _NEVER_NEGATIVE
 
     @property
     def from_trials(self) -> bool:

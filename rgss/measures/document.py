@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
-from pydantic import BeforeValidator, Field, WithJsonSchema
+from pydantic import Field
 
-from rgss.documents import DocumentModel, Identifier, QuantityText, Text, UnitText
-from rgss.measures.definitions import Assumption, Direction, EstimateRule, InputSymbol, MeasureKind, Summary
-
-
-def _as_text(value: Any) -> Any:
-    """A pure number may stand without quotes; its unit decides later whether it may."""
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
-
-
-ConstantText = Annotated[
-    QuantityText,
-    BeforeValidator(_as_text),
-    WithJsonSchema(
-        {"type": ["string", "number"], "minLength": 1, "maxLength": 60, "description": "A quantity, or a pure number."}
-    ),
-]
-"""The value of a constant, such as ``"9.81 m/s^2"``; a pure number may be bare."""
+from rgss.documents import DocumentModel, Identifier, Text, UnitText
+from rgss.measures.definitions import (
+    Assumption,
+    Direction,
+    EstimateRule,
+    InputSymbol,
+    MeasureKind,
+    NumberOrQuantityText,
+    Summary,
+)
 
 
 class ConstantEntry(DocumentModel):
     """A number that is the same for every design."""
 
     id: Identifier
-    value: ConstantText
+    value: NumberOrQuantityText
     unit: UnitText
     definition: Text
     source: Text | None = None

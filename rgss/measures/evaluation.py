@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from rgss.errors import DefinitionError
 from rgss.measures.definitions import Estimator, InputSymbol, Measure, MeasureSet, Population
-from rgss.measures.estimates import Estimate, interval_seed, mean_estimate, proportion_estimate
+from rgss.measures.estimates import Estimate, mean_estimate, proportion_estimate
 from rgss.measures.functions import FUNCTIONS, Value
 from rgss.measures.ratios import ratio_values
 
@@ -23,7 +23,6 @@ def evaluate(
     *,
     fixed: Mapping[str, float | str],
     trials: Sequence[Mapping[str, Observed]],
-    seed: int,
     variant: int,
 ) -> dict[str, Estimate]:
     """Estimate every measure of one variant.
@@ -37,7 +36,6 @@ def evaluate(
             no measure names may be among them, texts too.
         trials: The metrics of each trial, in SI; an absent key is an unknown value. A trial
             succeeded if its metric ``success`` is 1.
-        seed: The study's master seed, for the resampling of intervals.
         variant: The variant's id, for messages.
 
     Returns:
@@ -45,7 +43,8 @@ def evaluate(
 
     Raises:
         DefinitionError: A value of the design is missing or is a text; a measure is not
-            defined for this design (a division by zero); a metric has not the shape declared.
+            defined for this design (a division by zero); a metric has not the shape declared; a
+            trial's value lies outside the bounds that its measure declares.
     """
     design = design_values(measure_set, fixed=fixed, variant=variant)
     rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
@@ -67,9 +66,24 @@ def evaluate(
             complete = sum(value >= COMPLETE for value in known)
             estimates[measure.id] = proportion_estimate(complete, len(known))
         else:
-            seed_here = interval_seed(seed, measure.id)
-            estimates[measure.id] = mean_estimate(known, measure.unit, seed=seed_here)
+            estimates[measure.id] = _mean(measure, known, variant)
     return estimates
+
+
+def _mean(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
+    """The mean of a measure's values, between the bounds that it declares or that its unit implies."""
+    for value in known:
+        if (measure.least is not None and value < measure.least) or (measure.most is not None and value > measure.most):
+            raise DefinitionError(
+                f"a trial of variant {variant} gives {measure.id} = {value:g} {measure.unit}, "
+                "outside the bounds that the measure declares",
+                hint="correct 'least' and 'most' of its estimate in the measures file",
+            )
+    least = measure.least
+    # One trial says nothing of a spread, so that only a declared bound gives it an interval.
+    if least is None and measure.is_never_negative and len(known) > 1 and min(known) >= 0.0:
+        least = 0.0
+    return mean_estimate(known, measure.unit, least=least, most=measure.most)
 
 
 def design_values(measure_set: MeasureSet, *, fixed: Mapping[str, float | str], variant: int) -> dict[str, float]:

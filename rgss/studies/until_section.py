@@ -27,6 +27,7 @@ class UntilDecidedEntry(DocumentModel):
     batch: _Count = _DEFAULT.batch
     cap: _Count = _DEFAULT.cap
     verdict_cap: Annotated[int, Field(ge=0, le=MOST_TRIALS)] = _DEFAULT.verdict_cap
+    budget: Annotated[int, Field(ge=1)] | None = None
 
 
 def read_until_decided(entry: UntilDecidedEntry | None, document: Document, findings: list[Finding]) -> SequentialRule:

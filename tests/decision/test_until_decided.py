@@ -9,7 +9,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of
-from rgss.tradeoff.sequential.sequential import Reason, SequentialRule
+from rgss.tradeoff.sequential import Reason, SequentialRule
 
 RULE = SequentialRule(pilot=4, batch=4, cap=12, verdict_cap=4)
 

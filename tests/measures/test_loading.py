@@ -146,6 +146,16 @@ def test_a_measure_is_checked_against_what_another_declares(
             "measures.estimate",
             "a ratio needs an expression that is a quotient of two numbers",
         ),
+        (
+            {"estimate": "{statistic: mean, over: all, least: 3 s, most: 50 ms}"},
+            "measures.estimate",
+            "no trial can give at least 3 and at most 0.05 s",
+        ),
+        (
+            {"estimate": "{statistic: mean, over: all, most: 5 kg}"},
+            "measures.estimate",
+            "unit 'kg' does not measure what 's' measures",
+        ),
     ],
 )
 def test_a_measure_of_trials_says_how_it_is_estimated(
@@ -153,6 +163,12 @@ def test_a_measure_of_trials_says_how_it_is_estimated(
 ) -> None:
     (finding,) = findings_of(load_entries, entry("x", "time", "s", **more))
     assert (finding.rule, finding.message) == (rule, message)
+
+
+def test_a_proportion_has_its_bounds(load_entries: Loader, entry: Writer, findings_of: Finder) -> None:
+    rule = "{statistic: proportion, over: all, most: 0.9}"
+    (finding,) = findings_of(load_entries, entry("x", "time / time", "1", estimate=rule))
+    assert (finding.message, finding.hint) == ("a proportion lies between 0 and 1 as it is", "remove the bound")
 
 
 def test_a_row_says_how_it_is_summarised(load_entries: Loader, entry: Writer, findings_of: Finder) -> None:

@@ -49,6 +49,23 @@ def test_one_trial_is_inconclusive() -> None:
     assert judge(criterion(">=", 10.0), estimate(50.0, None, None)) is Verdict.INCONCLUSIVE
 
 
+@pytest.mark.parametrize(
+    ("comparison", "known", "verdict"),
+    [
+        (">=", estimate(12.0, 11.0, None), Verdict.MET),
+        ("<=", estimate(8.0, None, 9.0), Verdict.MET),
+        (">=", estimate(8.0, None, 9.0), Verdict.NOT_MET),
+        ("<=", estimate(12.0, 11.0, None), Verdict.NOT_MET),
+        (">=", estimate(12.0, None, 13.0), Verdict.INCONCLUSIVE),
+        ("<=", estimate(8.0, 7.0, None), Verdict.INCONCLUSIVE),
+        (">=", estimate(8.0, 7.0, None), Verdict.INCONCLUSIVE),
+        ("<=", estimate(12.0, None, 13.0), Verdict.INCONCLUSIVE),
+    ],
+)
+def test_the_end_that_a_verdict_needs_is_enough(comparison: str, known: Estimate, verdict: Verdict) -> None:
+    assert judge(criterion(comparison, 10.0), known) is verdict
+
+
 def test_no_value_is_not_run() -> None:
     assert judge(criterion(">=", 10.0), Estimate.unknown("s")) is Verdict.NOT_RUN
 

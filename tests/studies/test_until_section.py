@@ -7,7 +7,7 @@ import pytest
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
-from rgss.tradeoff.sequential.sequential import SequentialRule
+from rgss.tradeoff.sequential import SequentialRule
 
 STUDY = "studies/pick_place.yaml"
 SECTION = """\

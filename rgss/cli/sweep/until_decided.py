@@ -94,6 +94,7 @@ def _as_json(found: UntilDecided) -> dict[str, object]:
         "reason": found.reason.value,
         "variant": found.variant,
         "contenders": list(found.contenders),
+        "open": list(found.open_requirements),
         "probability": found.probability,
         **asdict(found.rule),
         "looks": found.looks,

@@ -15,6 +15,7 @@ from rgss.decision.robustness.parts import NotComputed, Part
 from rgss.tradeoff import Condition
 from rgss.tradeoff.robustness import (
     Acceptability,
+    ChoiceUncertainty,
     ParetoFront,
     PriceStep,
     RankReversal,
@@ -49,6 +50,9 @@ class WeightRobustness:
         ranges: How far each weight may move alone.
         acceptability: The indices of SMAA-2 over weights and noise; over weights alone where
             there is no noise to draw from.
+        first_errors: The standard error of each alternative's first-rank acceptability over
+            repetitions of the study, shape (n,); that of the draws of weights where there is no noise.
+        uncertainty: The uncertainty of the choice at the study's weights; None without noise.
         with_noise: Whether they are over noise too.
 
     A part that could not be computed is None, and `Robustness.not_computed` says why.
@@ -59,6 +63,8 @@ class WeightRobustness:
     shifts: tuple[WeightShift, ...] | None
     ranges: tuple[WeightRange, ...] | None
     acceptability: Acceptability | None
+    first_errors: NDArray[np.float64] | None
+    uncertainty: ChoiceUncertainty | None
     with_noise: bool
 
 
@@ -81,7 +87,8 @@ class Robustness:
             study's program; none for values that are anchored on requirements.
         stretched: The same had the values been stretched between the extremes of the sample.
         effects: What each factor does to each measure.
-        resamples: How many resamples of the replicates stand for the noise; 0 without noise.
+        draws: How many posterior draws stand for the noise; 0 without noise.
+        resamples: How many resamples of the replicates stand for it in the effects; 0 without noise.
         all_resamples: Whether these are all there are.
         refused: Why an analysis does not apply, by its name.
         not_computed: Why a part could not be computed; what stands for it here is empty.
@@ -100,6 +107,7 @@ class Robustness:
     reversals: tuple[RankReversal, ...]
     stretched: tuple[RankReversal, ...]
     effects: StudyEffects
+    draws: int
     resamples: int
     all_resamples: bool
     refused: Mapping[str, str]

@@ -21,6 +21,7 @@ class Part(str, Enum):
     NEAREST = "weight_changes.nearest"
     RANGES = "weight_changes.ranges"
     ACCEPTABILITY = "weight_changes.acceptability"
+    UNCERTAINTY = "uncertainty"
     ASSUMPTIONS = "assumptions"
     COSTS = "costs"
     PRICES = "prices"
@@ -44,6 +45,7 @@ _TITLES = MappingProxyType(
         Part.NEAREST: "nearest weights that change the choice",
         Part.RANGES: "range of each weight",
         Part.ACCEPTABILITY: "acceptability and confidence",
+        Part.UNCERTAINTY: "probability of the choice, ties and value of more replicates",
         Part.ASSUMPTIONS: "assumptions",
         Part.COSTS: "all costs together",
         Part.PRICES: "price of each requirement",

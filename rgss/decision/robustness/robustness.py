@@ -3,41 +3,41 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rgss.assessment import VariantMeasures
-from rgss.decision.choosing import trade_problem
+from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.decision.robustness.assumptions import AssumptionFinding, assumption_findings
 from rgss.decision.robustness.cost_box import CostBox, cost_box
 from rgss.decision.robustness.effect_findings import StudyEffects
 from rgss.decision.robustness.effects import study_effects
-from rgss.decision.robustness.findings import RequirementPrice, Robustness, WeightRobustness
+from rgss.decision.robustness.findings import Robustness, WeightRobustness
 from rgss.decision.robustness.parts import Part, PartComputer
+from rgss.decision.robustness.pricing import requirement_prices
 from rgss.decision.robustness.remeasuring import Remeasuring
 from rgss.errors import TradeoffError
 from rgss.studies import Project
 from rgss.tradeoff import AdditiveValue, Decision, TradeProblem
-from rgss.tradeoff.problem import Comparison, EvidenceTable, Resamples, bootstrap
+from rgss.tradeoff.problem import FEWEST_REPLICATES, EvidenceTable, Resamples, bootstrap
 from rgss.tradeoff.programs import (
-    condition_column,
     enumerate_alternatives,
     orderings_of,
     single_values,
     weighted_values,
 )
 from rgss.tradeoff.robustness import (
+    ChoiceUncertainty,
     Outcomes,
     OutcomeSource,
     ParetoFront,
+    PosteriorOutcomes,
     RankReversal,
-    ResampledOutcomes,
     admitted_weights,
-    condition_masks,
+    choice_uncertainty,
     pareto_front,
-    price_list,
     rank_reversals,
     replicate_number,
     sample_anchored,
@@ -55,6 +55,40 @@ DRAWN_RESAMPLES = 1_000
 
 
 _NO_EFFECTS = StudyEffects(factors=(), constants=(), measures=())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Posed:
+    """A trade-off by weighted value with its values by the estimates.
+
+    Attributes:
+        problem: The trade-off.
+        values: Single values, shape (n, m).
+        feasible: Which alternatives meet every demand, shape (n,).
+        weights: The weights, shape (m,).
+        margin: The practical margin.
+        replicates: Fewest replicates of an alternative.
+    """
+
+    problem: TradeProblem
+    values: NDArray[np.float64]
+    feasible: NDArray[np.bool_]
+    weights: NDArray[np.float64]
+    margin: float
+    replicates: int
+
+    def uncertainty(self, posterior: PosteriorOutcomes, chosen: int) -> ChoiceUncertainty:
+        """The uncertainty of a choice."""
+        return choice_uncertainty(
+            posterior,
+            chosen,
+            margin=self.margin,
+            replicates=self.replicates,
+            estimated=self.feasible,
+            single=self.values,
+        )
+
+
 _Assumed = tuple[tuple[AssumptionFinding, ...], CostBox | None]
 
 
@@ -94,8 +128,18 @@ def analyse_robustness(
     weighting: WeightRobustness | None = None
     assumed: _Assumed = (), None
     reason = _no_weights(problem, chosen)
+    posterior = None
     if chosen is not None and not reason:
-        weighting = _weighting(problem, table, feasible, values, weights, chosen, resamples, generator, parts)
+        posterior = _posterior(project, problem, table, generator)
+        posed = _Posed(
+            problem=problem,
+            values=values,
+            feasible=feasible,
+            weights=weights,
+            margin=project.study.trade_off.practical_margin,
+            replicates=min(len(entry.records) for entry in measured),
+        )
+        weighting = _weighting(posed, chosen, posterior, generator, parts)
         assumed = _assumed(Remeasuring.of(project, measured, table), problem, chosen, parts, refused)
     else:
         refused.update(dict.fromkeys(("weights", "assumptions", "costs"), reason))
@@ -109,10 +153,11 @@ def analyse_robustness(
         weighting=weighting,
         assumptions=assumed[0],
         costs=assumed[1],
-        prices=parts.compute(Part.PRICES, lambda: _prices(problem, table), ()),
+        prices=parts.compute(Part.PRICES, lambda: requirement_prices(problem, table), ()),
         reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
         stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
         effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, measured, resamples), _NO_EFFECTS),
+        draws=0 if posterior is None else posterior.outcomes.shape[0],
         resamples=0 if resamples is None else len(resamples.probabilities),
         all_resamples=resamples is not None and resamples.exact,
         refused=refused,
@@ -151,21 +196,35 @@ def _resamples(table: EvidenceTable, generator: np.random.Generator, refused: di
         return None
 
 
+def _posterior(
+    project: Project, problem: TradeProblem, table: EvidenceTable, generator: np.random.Generator
+) -> PosteriorOutcomes | None:
+    """Posterior draws of the evidence; None where nothing was observed twice."""
+    if max((int(samples.ran.sum(axis=1).max()) for samples in table.samples.values()), default=0) < FEWEST_REPLICATES:
+        return None
+    return PosteriorOutcomes.of(problem, table, proportion_measures(project), generator=generator)
+
+
 def _weighting(
-    problem: TradeProblem,
-    table: EvidenceTable,
-    feasible: NDArray[np.bool_],
-    values: NDArray[np.float64],
-    weights: NDArray[np.float64],
+    posed: _Posed,
     chosen: int,
-    resamples: Resamples | None,
+    posterior: PosteriorOutcomes | None,
     generator: np.random.Generator,
     parts: PartComputer,
 ) -> WeightRobustness:
+    problem, values, feasible, weights = posed.problem, posed.values, posed.feasible, posed.weights
     admitted = admitted_weights(problem)
-    outcomes: OutcomeSource = Outcomes.certain(values, feasible)
-    if resamples is not None:
-        outcomes = ResampledOutcomes.of(problem, table, resamples)
+    outcomes: OutcomeSource = Outcomes.certain(values, feasible) if posterior is None else posterior.outcomes
+    acceptability = parts.compute(
+        Part.ACCEPTABILITY, lambda: smaa2(outcomes, admitted, iterations=ITERATIONS, generator=generator), None
+    )
+    errors = None if acceptability is None else acceptability.rank_errors[:, 0]
+    uncertainty = None
+    if posterior is not None:
+        if errors is not None:
+            drawn: NDArray[np.float64] = errors
+            errors = np.hypot(drawn, posterior.first_errors(admitted, generator))
+        uncertainty = parts.compute(Part.UNCERTAINTY, lambda: posed.uncertainty(posterior, chosen), None)
     return WeightRobustness(
         elicited=not admitted.is_simplex,
         regions=parts.compute(
@@ -173,41 +232,11 @@ def _weighting(
         ),
         shifts=parts.compute(Part.NEAREST, lambda: weight_shifts(values, feasible, weights, among=admitted), None),
         ranges=parts.compute(Part.RANGES, lambda: weight_ranges(values, feasible, weights, chosen), None),
-        acceptability=parts.compute(
-            Part.ACCEPTABILITY,
-            lambda: smaa2(outcomes, admitted, iterations=ITERATIONS, generator=generator),
-            None,
-        ),
-        with_noise=resamples is not None,
+        acceptability=acceptability,
+        first_errors=errors,
+        uncertainty=uncertainty,
+        with_noise=posterior is not None,
     )
-
-
-def _prices(problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPrice, ...]:
-    totals = weighted_values(problem, table)
-    masks = condition_masks(problem, table)
-    known = ~np.isnan(totals)
-
-    orderings = orderings_of(problem.program, problem, table)
-
-    def best_of(among: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        return orderings(among).best(among)
-
-    found = []
-    for place, condition in enumerate(problem.conditions):
-        others = np.logical_and.reduce([known, *(mask for other, mask in enumerate(masks) if other != place)])
-        found.append(
-            RequirementPrice(
-                condition=condition,
-                steps=price_list(
-                    condition_column(condition, table),
-                    totals,
-                    others,
-                    at_least=condition.sense is Comparison.AT_LEAST,
-                    best_of=None if isinstance(problem.program, AdditiveValue) else best_of,
-                ),
-            )
-        )
-    return tuple(found)
 
 
 def _reversals(problem: TradeProblem, table: EvidenceTable, feasible: NDArray[np.bool_]) -> tuple[RankReversal, ...]:

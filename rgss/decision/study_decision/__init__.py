@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.decision.study_decision.comparison import ObjectiveRow, ParameterRow, SideBySide, WeightedRow
+    from rgss.decision.study_decision.conclusion import Conclusion, DesignStanding, Feasibility
     from rgss.decision.study_decision.contenders import Contender
     from rgss.decision.study_decision.findings import Driver, RobustnessFindings, WeightMove
     from rgss.decision.study_decision.limit_moves import LimitMove, LimitMoves
@@ -17,9 +18,12 @@ else:
 
 __all__ = [
     "ClosestLimit",
+    "Conclusion",
     "Contender",
     "DecisionSide",
+    "DesignStanding",
     "Driver",
+    "Feasibility",
     "Gain",
     "LimitMove",
     "LimitMoves",

@@ -19,7 +19,7 @@ class Contender:
         single_values: Its value in each weighted measure, rounded so that equal variants compare equal.
         region: The share of weights at which it is best by the evidence; None if not computed.
         first: The share of the draws in which none is better.
-        first_error: The standard error of that.
+        first_error: The standard error of that over repetitions of the study.
         confidence: The probability that it is best at the weights that are typical for it; NaN if
             it is never first.
         feasible_share: The share of the draws in which it is feasible.
@@ -56,6 +56,7 @@ def contenders_of(found: Robustness) -> tuple[Contender, ...]:
     if weighting is None or weighting.acceptability is None:
         return ()
     indices = weighting.acceptability
+    errors = indices.rank_errors[:, 0] if weighting.first_errors is None else weighting.first_errors
     supports = {point.row: point.support for point in found.front.points}
     shifts = {row: shift for shift in weighting.shifts or () for row in shift.rows}
     made = []
@@ -71,7 +72,7 @@ def contenders_of(found: Robustness) -> tuple[Contender, ...]:
                 single_values=tuple(round(value, 12) for value in found.values[row].tolist()),
                 region=None if weighting.regions is None else float(weighting.regions[row].share),
                 first=float(indices.first[row]),
-                first_error=float(indices.rank_errors[row, 0]),
+                first_error=float(errors[row]),
                 confidence=float(indices.confidence[row]),
                 feasible_share=float(1.0 - indices.unranked[row]),
                 weight_to_move=None if shift is None else shift.sum_distance / 2.0,

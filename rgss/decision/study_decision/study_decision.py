@@ -11,6 +11,7 @@ from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.screening_result import ScreeningResult
 from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
+from rgss.decision.study_decision.conclusion import Conclusion, conclusion_of
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
 from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
@@ -32,6 +33,7 @@ class StudyDecision:
         variants: Number of variants that were compared.
         trials: Number of their trials.
         decision: Choice, ranking, conflicts and certificate.
+        conclusion: What the verdicts show of every design.
         comparison: The choice beside the runner-up; None if nothing is chosen.
         gains: The gains of the choice over the runner-up, in the order of the weights.
         closest_limits: The limits that the choice comes closest to.
@@ -54,6 +56,7 @@ class StudyDecision:
     variants: int
     trials: int
     decision: Decision
+    conclusion: Conclusion
     comparison: SideBySide | None
     gains: tuple[Gain, ...]
     closest_limits: tuple[ClosestLimit, ...]
@@ -175,6 +178,7 @@ def study_decision(
         variants=len(measured),
         trials=sum(len(entry.records) for entry in measured),
         decision=decision,
+        conclusion=conclusion_of(project, measured, decision.chosen),
         comparison=side_by_side(project, measured, decision),
         gains=gains_over_runner_up(decision),
         closest_limits=closest_limits(problem, decision.chosen),

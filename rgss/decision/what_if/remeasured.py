@@ -52,7 +52,6 @@ def _estimates(project: Project, entry: VariantMeasures, affected: frozenset[str
             measures,
             fixed=fixed,
             trials=[record.metrics for record in entry.records],
-            seed=project.study.seed,
             variant=entry.variant.id,
         )
     # What follows from the design alone needs no interval, and the rest stays as it is.

@@ -10,6 +10,7 @@ from rgss.decision.study_decision import RobustnessFindings, SideBySide, StudyDe
 from rgss.documents import LARGEST_FILE_BYTES, chunks_of
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible
+from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
 from rgss.reports.decision.words import UNKNOWN, amount, ids_text, moves_text, score, variants_text
 from rgss.trace.views import share_in_words
 
@@ -73,8 +74,10 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
     ties = f" ({variants_text(decision.ties[1:])} are as good)" if len(decision.ties) > 1 else ""
     yield (
         f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {made.trials} trials; "
-        f"{decision.counts.feasible} of them meet every requirement."
+        f"{decision.counts.feasible} of them meet every requirement by their estimates."
     )
+    yield ""
+    yield " ".join([headline(made), standing_sentence(made), *uncertainty_sentences(made)])
     yield ""
     shown = len(compared.variants)
     yield f"| | weight | {' | '.join(['chosen', 'runner-up'][:shown])} |"

@@ -7,11 +7,12 @@ import itertools
 from rgss.decision import screening_summary
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.study_decision import LimitMoves, RobustnessFindings, StudyDecision
+from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
 from rgss.reports.decision.report_conflicts import conflict_reasons
 from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
 from rgss.reports.plain_numbers import Plain, plain_number
-from rgss.tradeoff import Contribution, Decision, PortfolioDecision
+from rgss.tradeoff import Contribution, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
 
 MOST_CONTENDERS = 40
@@ -36,7 +37,8 @@ def decision_part(made: StudyDecision) -> Plain:
         "objectives": list(decision.objectives),
         "counts": {"alternatives": decision.counts.alternatives, "feasible": decision.counts.feasible},
         "demands": dict(decision.demands),
-        "headline": _headline(decision),
+        "headline": headline(made),
+        "standing": [line for line in (standing_sentence(made), *uncertainty_sentences(made)) if line],
         "reasons": _reasons(made),
         "cautions": list(cautions(made)),
         "readings": list(reading_lines(made)),
@@ -77,14 +79,6 @@ def _robustness(found: RobustnessFindings | None) -> Plain:
         "refused": dict(found.analysis.refused),
         "not_computed": list(not_computed_lines(found.analysis.not_computed)),
     }
-
-
-def _headline(decision: Decision) -> str:
-    counts = decision.counts
-    if decision.chosen is None:
-        return f"No variant is chosen: none of {counts.alternatives} meets every requirement."
-    meet = "meets" if counts.feasible == 1 else "meet"
-    return f"Variant {decision.chosen} is chosen: {counts.feasible} of {counts.alternatives} {meet} every requirement."
 
 
 def _reasons(made: StudyDecision) -> list[str]:

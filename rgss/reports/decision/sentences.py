@@ -41,7 +41,7 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     )
     feasible = decision.counts.feasible
     among = "is the one variant that meets" if feasible == 1 else f"of the {feasible} variants that meet"
-    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement.")
+    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement by the estimates.")
     others = [variant for variant in decision.ties if variant != decision.chosen]
     if others:
         names = ", ".join(map(str, others))

@@ -193,4 +193,5 @@ class TradeOffEntry(DocumentModel):
     tail: tuple[TailEntry, ...] = ()
     practical_margin: Dimensionless = 0.0
     choose: Literal["variants", "levels"] = "variants"
+    feasible_by: Literal["estimates", "verdicts"] = "estimates"
     fleet: PortfolioEntry | None = None

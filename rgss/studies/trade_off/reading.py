@@ -63,6 +63,7 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         risks=risks,
         practical_margin=entry.practical_margin,
         choose_levels=entry.choose == "levels",
+        shown_feasible=entry.feasible_by == "verdicts",
         fleet=fleet,
         elicited=tuple(answers.elicited),
         stakeholders=stakeholders,

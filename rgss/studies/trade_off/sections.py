@@ -36,6 +36,8 @@ class TradeOff:
         risks: What is demanded of the replicates.
         practical_margin: Alternatives within it of the best are near-ties.
         choose_levels: Whether levels of factors are chosen instead of variants.
+        shown_feasible: Whether a choice must be shown to meet the requirements, by the end of the
+            interval that a verdict needs; by its estimates otherwise.
         fleet: The portfolio; None if none is wanted.
         elicited: The groups whose weights follow from pairwise answers.
         stakeholders: Stakeholders with weights of their own.
@@ -51,6 +53,7 @@ class TradeOff:
     risks: tuple[RiskChoice, ...] = ()
     practical_margin: float = 0.0
     choose_levels: bool = False
+    shown_feasible: bool = False
     fleet: PortfolioEntry | None = None
     elicited: tuple[ElicitedWeights, ...] = ()
     stakeholders: tuple[Stakeholder, ...] = ()

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.problem.evidence_table import Alternative, EvidenceTable, Samples, check_evidence, tabulated
     from rgss.tradeoff.problem.hierarchy import CriterionNode, weighting_of, weights_of_criteria
     from rgss.tradeoff.problem.level_space import Incompatibility, LevelFactor, LevelSpace, LevelStructure
+    from rgss.tradeoff.problem.posterior import ObservedRows, posterior_means
     from rgss.tradeoff.problem.resampling import FEWEST_REPLICATES, Resamples, bootstrap, interval
     from rgss.tradeoff.problem.values import (
         SHAPE_KEYS,
@@ -71,6 +72,7 @@ __all__ = [
     "LevelSpace",
     "LevelStructure",
     "Mask",
+    "ObservedRows",
     "PiecewiseValue",
     "PointEntry",
     "QuantityField",
@@ -95,6 +97,7 @@ __all__ = [
     "half_value_share",
     "interval",
     "nondominated",
+    "posterior_means",
     "replicates_of",
     "shape_of",
     "tabulated",

@@ -14,11 +14,13 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.outcomes import admitted_weights, condition_masks, noisy_outcomes, replicate_number
     from rgss.tradeoff.robustness.overlap import Overlap, SharedPart, overlapping_measures, shared_parts
     from rgss.tradeoff.robustness.pareto import ParetoFront, Support, pareto_front
+    from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
     from rgss.tradeoff.robustness.prices import PriceStep, changes_of_best, price_list, step_at
     from rgss.tradeoff.robustness.rank_reversal import RankReversal, rank_reversals, sample_anchored
     from rgss.tradeoff.robustness.resampled_outcomes import ResampledOutcomes
     from rgss.tradeoff.robustness.sampled_effects import FEWEST_PER_CLASS, SampledIndex, classes_of, first_order_indices
     from rgss.tradeoff.robustness.stakeholders import StakeholderAgreement, StakeholderView, stakeholder_agreement
+    from rgss.tradeoff.robustness.uncertainty import ChoiceUncertainty, Rival, choice_uncertainty
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -28,6 +30,7 @@ __all__ = [
     "AssumptionRange",
     "BoxProblem",
     "BoxRange",
+    "ChoiceUncertainty",
     "Effect",
     "FactorialAnalysis",
     "KeptAlternative",
@@ -36,9 +39,11 @@ __all__ = [
     "Outcomes",
     "Overlap",
     "ParetoFront",
+    "PosteriorOutcomes",
     "PriceStep",
     "RankReversal",
     "ResampledOutcomes",
+    "Rival",
     "SampledIndex",
     "SharedPart",
     "StakeholderAgreement",
@@ -50,6 +55,7 @@ __all__ = [
     "admitted_weights",
     "box_range",
     "changes_of_best",
+    "choice_uncertainty",
     "classes_of",
     "condition_masks",
     "factorial_effects",

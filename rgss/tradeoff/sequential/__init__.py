@@ -7,7 +7,8 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.tradeoff.sequential.evidence import SequentialEvidence
     from rgss.tradeoff.sequential.probability import probability_of_good_selection
-    from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, SequentialRule, next_batch
+    from rgss.tradeoff.sequential.rule import SequentialRule
+    from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, next_batch
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 

@@ -29,11 +29,11 @@ from enum import Enum
 
 import numpy as np
 
-from rgss.errors import TradeoffError
 from rgss.measures import Verdict
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
 from rgss.tradeoff.sequential.comparison import is_acceptable, is_beaten, is_infeasible, threshold_evidence
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
+from rgss.tradeoff.sequential.rule import SequentialRule, affordable_replicates, check_pilot
 
 _INFEASIBLE_SHARE, _ACCEPTED_SHARE, _BEATEN_SHARE = 0.1, 0.1, 0.8
 _RIVALS_SHARE = 0.9
@@ -49,52 +49,10 @@ class Reason(str, Enum):
 
     DECIDED = "decided"
     """The decision stands with the stated probability, and no verdict is worth more replicates."""
+    BUDGET = "budget"
+    """The budget of trials has no room for what is still open."""
     CAP = "cap"
     """Alternatives that may be the best have as many replicates as are allowed."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SequentialRule:
-    """When to go on and when to stop.
-
-    Attributes:
-        error_rate: α: probability that the decision is called decided and is wrong; and, of each
-            verdict that is not inconclusive, that it is wrong.
-        margin: Difference of value that is practically none: the indifference zone.
-        slack: Share of a threshold by which it may be missed before it matters to the decision.
-        pilot: Replicates that every alternative gets.
-        batch: Replicates that are added at a look.
-        cap: Most replicates of an alternative.
-        verdict_cap: Most replicates of an alternative that only its verdicts need.
-
-    Raises:
-        TradeoffError: A number is out of its range.
-    """
-
-    error_rate: float = 0.05
-    margin: float = 0.05
-    slack: float = 0.1
-    pilot: int = 8
-    batch: int = 4
-    cap: int = 200
-    verdict_cap: int = 16
-
-    def __post_init__(self) -> None:
-        if not 0.0 < self.error_rate < 1.0:
-            raise TradeoffError(f"an error rate of {self.error_rate:g} is none", hint="give one such as 0.05")
-        for name, number in (("margin", self.margin), ("slack", self.slack)):
-            if not (math.isfinite(number) and 0.0 <= number < 1.0):
-                raise TradeoffError(f"the {name} is {number:g}", hint="give a number from 0 to 1, such as 0.05")
-        if self.pilot < 2 or self.batch < 1:
-            raise TradeoffError(
-                f"a pilot of {self.pilot} and batches of {self.batch} replicates are too small",
-                hint="give a pilot of at least 2 and batches of at least 1",
-            )
-        if self.cap < self.pilot or not 0 <= self.verdict_cap <= self.cap:
-            raise TradeoffError(
-                f"a cap of {self.cap}, one for verdicts of {self.verdict_cap} and a pilot of {self.pilot} do not agree",
-                hint="the cap is the largest of the three",
-            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,6 +120,7 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     pilot = {each: rule.pilot for each, ran in zip(ids, evidence.replicates, strict=True) if ran < rule.pilot}
     progress = replace(progress, looks=progress.looks + 1)
     if pilot and evidence.observed:
+        check_pilot(rule, len(ids))
         return Allocation(replicates=pilot, progress=progress)
     if not progress.rivals:
         progress = replace(progress, rivals=_rivals(evidence, rule.slack))
@@ -182,10 +141,12 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
             most = rule.verdict_cap
         if ran < most:
             wanted[variant] = min(ran + rule.batch, most)
-    if wanted and evidence.observed:
-        return Allocation(replicates=wanted, progress=progress)
+    affordable = affordable_replicates(evidence, rule, wanted, first=chosen)
+    if affordable and evidence.observed:
+        return Allocation(replicates=affordable, progress=progress)
+    ended = Reason.BUDGET if wanted and evidence.observed else Reason.CAP
     return Decided(
-        reason=Reason.DECIDED if decided else Reason.CAP,
+        reason=Reason.DECIDED if decided else ended,
         variant=chosen,
         contenders=contenders,
         verdicts=_verdicts(evidence, progress),

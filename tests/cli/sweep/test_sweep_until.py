@@ -8,7 +8,7 @@ import rgss.decision.until_decided as until
 from rgss.evidence import RunFailure, RunFailureKind
 from rgss.measures import Verdict
 from rgss.sweep.results import LostTrials, SweepResult
-from rgss.tradeoff.sequential.sequential import Reason, SequentialRule
+from rgss.tradeoff.sequential import Reason, SequentialRule
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,8 @@ def test_the_page_says_what_the_document_says(page):
     assert f"moving {nearest['moved']:.3f} of weight lets {variants_text(nearest['variants'])} win" in text
     assert re.search(rf"^C_total +0\.25 +{interval['low']:.3f} +{interval['high']:.3f} ", text, re.MULTILINE)
     assert f"may be off by ±{100 * document['robustness']['costs']['factor']:.2f} %" in text
-    assert f"{changes['acceptability']['iterations']:,} draws of all weights and all 10 resamples" in text
+    assert f"{changes['acceptability']['iterations']:,} draws of all weights and of the evidence" in text
+    assert document["conclusion"]["headline"] in text
 
 
 def test_the_document_is_the_decision_with_more(page):

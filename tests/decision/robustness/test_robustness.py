@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rgss.assessment.measuring import measure_variants
-from rgss.decision.choosing import choose, trade_problem
+from rgss.decision.choosing import choose, proportion_measures, trade_problem
 from rgss.decision.robustness.assumptions import assumption_findings
 from rgss.decision.robustness.cost_box import cost_box
 from rgss.decision.robustness.effect_findings import leading_factors
@@ -22,8 +22,8 @@ from rgss.motion import SOURCE_PLANNERS
 from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
 from rgss.tradeoff import Aim, Comparison, ElicitedInterval, Lexicographic
 from rgss.tradeoff.problem.evidence_table import tabulated
-from rgss.tradeoff.problem.resampling import bootstrap
 from rgss.tradeoff.robustness.pareto import Support
+from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 from rgss.tradeoff.robustness.prices import changes_of_best, step_at
 
 
@@ -311,29 +311,25 @@ def test_the_document_is_plain_and_complete(found, shipped):
 
 
 def test_noise_by_hand(shipped, measured, found):
-    """The first-rank acceptability of a variant at fixed weights is the probability of its resamples."""
-    indices = found.weighting.acceptability
-    best = int(np.nanargmax(indices.first))
-    resamples = bootstrap(3, draws=1, generator=np.random.default_rng(0))
-    weights = indices.central_weights[best]
+    """The probability of being best is counted over posterior draws, drawn here once more and ranked one by one."""
+    one = found.weighting.uncertainty
     problem = trade_problem(shipped, measured)
-    functions = [problem.value_function(measure) for measure in found.measures]
-    table = tabulated(problem.alternatives)
-    probability = 0.0
-    for counts, share in zip(resamples.counts, resamples.probabilities, strict=True):
-        draw = np.repeat(np.arange(3), counts)
-        totals = np.zeros(72)
-        meets = np.ones(72, dtype=bool)
-        for weight, function in zip(weights, functions, strict=True):
-            samples = table.replicates(function.measure).values
-            drawn = samples[:, draw] if samples.shape[1] == 3 else samples
-            known = np.isfinite(drawn)
-            means = np.where(known.any(axis=1), np.where(known, drawn, 0).sum(axis=1) / known.sum(axis=1).clip(1), 0)
-            totals += weight * np.array([function.value_at(float(mean)) for mean in means])
-            meets &= known.any(axis=1)
-            for threshold in problem.thresholds:
-                if threshold.measure == function.measure:
-                    meets &= np.array([threshold.is_met_by(float(mean)) for mean in means])
-        probability += share * bool(meets[best] and totals[best] >= totals[meets].max() - 1e-9)
+    drawn = PosteriorOutcomes.of(
+        problem, tabulated(problem.alternatives), proportion_measures(shipped), generator=np.random.default_rng(5)
+    )
+    best = np.zeros(72)
+    for values, feasible in zip(drawn.outcomes.values, drawn.outcomes.feasible, strict=True):
+        totals = [
+            float(value @ found.weights) if there else -1.0 for value, there in zip(values, feasible, strict=True)
+        ]
+        best += [total >= 0.0 and total >= max(totals) - 1e-9 for total in totals]
+    # Two sets of 1,000 draws.
+    assert one.best == pytest.approx(best / len(drawn.outcomes.values), abs=0.07)
+    assert one.good >= one.best[one.chosen]
 
-    assert indices.confidence[best] == pytest.approx(probability, abs=1e-9)
+
+def test_the_error_of_first_is_that_of_another_study_and_not_of_the_draws(found):
+    errors, indices = found.weighting.first_errors, found.weighting.acceptability
+    best = int(np.nanargmax(indices.first))
+    assert errors[best] > 5.0 * indices.rank_errors[best, 0]
+    assert (errors >= indices.rank_errors[:, 0]).all()

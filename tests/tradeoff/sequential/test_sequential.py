@@ -8,7 +8,8 @@ from rgss.measures import Verdict
 from rgss.tradeoff import Alternative, ChanceBound, Comparison, Lexicographic
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.probability import probability_of_good_selection
-from rgss.tradeoff.sequential.sequential import Allocation, Decided, Progress, Reason, SequentialRule, next_batch
+from rgss.tradeoff.sequential.rule import SequentialRule
+from rgss.tradeoff.sequential.sequential import Allocation, Decided, Progress, Reason, next_batch
 
 RULE = SequentialRule(batch=20, cap=400, verdict_cap=108)
 
@@ -85,6 +86,30 @@ def test_exact_ties_end_at_the_cap_with_the_smallest_id(replicate):
     answer, counts, _ = replicate(drawn({7: 0.97, 4: 0.97}), {7: 0.5, 4: 0.5}, rule)
     assert (answer.reason, answer.variant, answer.contenders) == (Reason.CAP, 4, (4, 7))
     assert counts == {4: 100, 7: 100}
+
+
+def test_the_budget_ends_what_the_cap_would_not(replicate):
+    rule = SequentialRule(batch=20, cap=400, budget=100)
+    answer, counts, _ = replicate(drawn({1: 0.95, 2: 0.95, 3: 0.95}), {1: 0.5, 2: 0.5, 3: 0.5}, rule)
+    assert answer.reason is Reason.BUDGET
+    assert sum(counts.values()) == 100
+    # The choice comes first where a look has room for a part only.
+    assert counts[answer.variant] == max(counts.values())
+
+
+def test_a_budget_with_room_to_spare_changes_nothing(replicate):
+    rows, worths = drawn({1: 0.99, 2: 0.99, 3: 0.3}), {1: 0.5, 2: 0.9, 3: 1.0}
+    free, counts, _ = replicate(rows, worths)
+    bound, same, _ = replicate(rows, worths, SequentialRule(batch=20, cap=400, verdict_cap=108, budget=1200))
+    assert (bound.reason, bound.variant, same) == (free.reason, free.variant, counts)
+
+
+def test_a_budget_below_the_pilot_is_refused(evidence_of):
+    evidence = evidence_of({1: [1.0], 2: [1.0]}, {1: 0.5, 2: 0.5})
+    with pytest.raises(
+        TradeoffError, match="a budget of 15 trials is less than the pilot of 8 replicates of 2 variants"
+    ):
+        next_batch(evidence, SequentialRule(budget=15), Progress())
 
 
 def test_exact_ties_are_settled_by_the_margin_where_the_cap_allows(replicate):
@@ -172,14 +197,29 @@ def test_decisions_and_verdicts_are_wrong_at_most_as_often_as_stated(replicate):
     assert wrong_verdicts <= 0.05 * verdicts
 
 
-def test_the_probability_is_that_of_a_sample_of_two_betas(evidence_of):
+def test_the_probability_is_that_of_a_population_of_two_betas(evidence_of):
     rows = {1: np.repeat([1.0, 0.0], [57, 3]), 2: np.repeat([0.0, 1.0], [12, 48])}
     evidence = evidence_of(rows, {1: 0.5, 2: 0.5})
     found = probability_of_good_selection(evidence, 1, margin=0.0, seed=3, draws=20_000)
-    from scipy.stats import beta
+    from scipy import integrate, stats
+    from scipy.special import betaln
 
-    # The second is never feasible, so that all hangs on the first one's threshold.
-    assert found == pytest.approx(beta.sf(0.9, 57.5, 3.5), abs=0.02)
+    # The second is never feasible, so that all hangs on the first one's threshold: integrated over the
+    # population's mean and the share by which it draws a single trial.
+    def likelihood(share: float, mean: float) -> float:
+        strength = share / (1.0 - share)
+        one, other = mean * strength, (1.0 - mean) * strength
+        fit = sum(betaln(one + k, other + 60 - k) - betaln(one, other) for k in (57, 48))
+        return float(np.exp(fit + 60.0) / np.sqrt(mean * (1.0 - mean)))
+
+    def above(share: float, mean: float) -> float:
+        strength = share / (1.0 - share)
+        return likelihood(share, mean) * stats.beta.sf(0.9, 57 + mean * strength, 3 + (1.0 - mean) * strength)
+
+    box = ((0.01, 0.99), (0.01, 0.99))
+    whole = integrate.nquad(likelihood, box, opts={"epsrel": 1e-3})[0]
+    expected = integrate.nquad(above, box, opts={"epsrel": 1e-3})[0] / whole
+    assert found == pytest.approx(expected, abs=0.02)
 
 
 @pytest.mark.parametrize(

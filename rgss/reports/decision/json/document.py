@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.json.conclusion import conclusion_to_json
 from rgss.reports.decision.json.decision import checks_to_json, decision_to_json
 from rgss.reports.decision.json.elicitation import elicitation_to_json
 from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
@@ -51,6 +52,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         }
         for one in made.readings
     ]
+    document["conclusion"] = conclusion_to_json(made)
     document["robustness"] = None if made.robustness is None else robustness_to_json(made.robustness.analysis)
     document["sensitivity"] = None if made.sensitivity is None else sensitivity_to_json(made.sensitivity)
     document["elicitation"] = elicitation_to_json(made.elicited, made.elicited_by)

@@ -38,7 +38,7 @@ def robustness_to_json(found: Robustness) -> Plain:
     """
     return {
         "weights": dict(zip(found.measures, found.weights.tolist(), strict=True)),
-        "noise": {"resamples": found.resamples, "all_resamples": found.all_resamples},
+        "noise": {"draws": found.draws, "resamples": found.resamples, "all_resamples": found.all_resamples},
         "pareto": None if Part.PARETO in found.not_computed else _front(found),
         "weight_changes": None if found.weighting is None else _weighting(found, found.weighting),
         "assumptions": None if Part.ASSUMPTIONS in found.not_computed else assumptions_to_json(found),
@@ -127,7 +127,7 @@ def _weighting(found: Robustness, weighting: WeightRobustness) -> Plain:
         ],
         "acceptability": None
         if weighting.acceptability is None
-        else _acceptability(found, weighting.acceptability, with_noise=weighting.with_noise),
+        else _acceptability(found, weighting, weighting.acceptability),
     }
 
 
@@ -148,17 +148,17 @@ def _regions(found: Robustness, regions: Sequence[WeightRegion]) -> list[Plain]:
     ]
 
 
-def _acceptability(found: Robustness, indices: Acceptability, *, with_noise: bool) -> Plain:
+def _acceptability(found: Robustness, weighting: WeightRobustness, indices: Acceptability) -> Plain:
     return {
         "iterations": indices.iterations,
         "drawn_by": indices.drawn_by.value,
-        "with_noise": with_noise,
+        "with_noise": weighting.with_noise,
         "alternatives": [
             {
                 "variant": variant,
                 "ranks": {str(rank): float(share) for rank, share in enumerate(indices.ranks[row], start=1) if share},
                 "first": float(indices.first[row]),
-                "first_error": float(indices.rank_errors[row, 0]),
+                "first_error": float(np.asarray(weighting.first_errors, dtype=np.float64)[row]),
                 "unranked": float(indices.unranked[row]),
                 "central_weights": _by_measure(found, indices.central_weights[row]),
                 "confidence": _finite(float(indices.confidence[row])),

@@ -75,21 +75,21 @@ def _row(members: list[Contender]) -> list[str]:
 
 
 def _legend(found: RobustnessFindings, weighting: WeightRobustness, indices: Acceptability) -> Iterator[str]:
-    analysis = found.analysis
     bounded = "the elicited weights" if weighting.elicited else "all weights"
-    noise = (
-        f"and {'all ' if analysis.all_resamples else ''}{analysis.resamples} resamples of the replicates"
-        if weighting.with_noise
-        else "alone (without noise)"
-    )
-    error = max(float(indices.rank_errors[:, 0].max()), 1e-4)
+    noise = "and of the evidence" if weighting.with_noise else "alone (without noise)"
+    error = max((one.first_error for one in found.contenders), default=0.0)
     shares = max((region.share_error for region in weighting.regions or ()), default=0.0)
     counted = f" (counted, ± {shares:.2g})" if shares else ""
     yield f"weights: share of {bounded} at which they are best by the evidence as it is{counted}"
-    yield f"first: share of {indices.iterations:,} draws of {bounded} {noise} in which none is better (± {error:.2g})"
+    yield (
+        f"first: share of {indices.iterations:,} draws of {bounded} {noise} in which none is better "
+        f"(another study of this size: ± {max(error, 1e-4):.2g})"
+    )
     if indices.drawn_by is Drawing.HIT_AND_RUN:
         yield "(weights are drawn by random walks, hit-and-run: uniform up to an error that is tested, not proven)"
-    yield "confidence: probability that they are best at their own typical weights; feasible: in how many draws"
+    yield "confidence: probability that they are best at their own typical weights"
+    if weighting.with_noise:
+        yield f"feasible: probability that they meet every requirement, by {found.analysis.draws:,} posterior draws"
     yield from (
         "In other words,",
         *(f"  {meaning}" for meaning in (WEIGHTS_MEANING, FIRST_MEANING, CONFIDENCE_MEANING)),

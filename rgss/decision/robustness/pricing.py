@@ -1,0 +1,46 @@
+"""Price of each requirement of a study: what its limit costs."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.decision.robustness.findings import RequirementPrice
+from rgss.tradeoff import AdditiveValue, TradeProblem
+from rgss.tradeoff.problem import Comparison, EvidenceTable
+from rgss.tradeoff.programs import condition_column, orderings_of, weighted_values
+from rgss.tradeoff.robustness import condition_masks, price_list
+
+
+def requirement_prices(problem: TradeProblem, table: EvidenceTable) -> tuple[RequirementPrice, ...]:
+    """The price of each demand: the best value at every limit of it.
+
+    Args:
+        problem: The trade-off.
+        table: The alternatives.
+    """
+    totals = weighted_values(problem, table)
+    masks = condition_masks(problem, table)
+    known = ~np.isnan(totals)
+
+    orderings = orderings_of(problem.program, problem, table)
+
+    def best_of(among: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        return orderings(among).best(among)
+
+    found = []
+    for place, condition in enumerate(problem.conditions):
+        others = np.logical_and.reduce([known, *(mask for other, mask in enumerate(masks) if other != place)])
+        found.append(
+            RequirementPrice(
+                condition=condition,
+                steps=price_list(
+                    condition_column(condition, table),
+                    totals,
+                    others,
+                    at_least=condition.sense is Comparison.AT_LEAST,
+                    best_of=None if isinstance(problem.program, AdditiveValue) else best_of,
+                ),
+            )
+        )
+    return tuple(found)

@@ -1,0 +1,121 @@
+"""What the evidence shows of every design: feasible, infeasible or open, by its verdicts."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.assessment import VariantMeasures, requirements_with_criteria
+from rgss.measures import Verdict, judge
+from rgss.studies import Project
+
+
+class Feasibility(str, Enum):
+    """What the evidence shows of a design under all requirements that a measure decides."""
+
+    FEASIBLE = "feasible"
+    """Every verdict is met."""
+    INFEASIBLE = "infeasible"
+    """Some verdict is not met."""
+    OPEN = "open"
+    """No verdict is not met, and some is inconclusive, stale or not run."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DesignStanding:
+    """Verdicts on one design.
+
+    Attributes:
+        variant: Its id.
+        met: Ids of the requirements that are shown to be met.
+        open: Ids of those whose verdict is inconclusive.
+        missed: Ids of those that are shown not to be met.
+        not_run: Ids of those without evidence that holds now, and of those that no measure decides.
+        undecided: Ids of those that a measure decides, and that are open or without evidence.
+    """
+
+    variant: int
+    met: tuple[str, ...]
+    open: tuple[str, ...]
+    missed: tuple[str, ...]
+    not_run: tuple[str, ...]
+    undecided: tuple[str, ...]
+
+    @property
+    def feasibility(self) -> Feasibility:
+        """Feasible, infeasible or open; requirements that no measure decides do not count."""
+        if self.missed:
+            return Feasibility.INFEASIBLE
+        return Feasibility.OPEN if self.undecided else Feasibility.FEASIBLE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Conclusion:
+    """What the evidence shows of a study's designs.
+
+    Attributes:
+        standings: The verdicts on each design, by ascending id.
+        chosen: The verdicts on the chosen design; None if nothing is chosen.
+        unmeasured: Ids of the system requirements that no measure decides.
+    """
+
+    standings: tuple[DesignStanding, ...]
+    chosen: DesignStanding | None
+    unmeasured: tuple[str, ...]
+
+    def count(self, feasibility: Feasibility) -> int:
+        """The number of designs of which the evidence shows this."""
+        return sum(one.feasibility is feasibility for one in self.standings)
+
+    @property
+    def open_by(self) -> tuple[str, ...]:
+        """Ids of the requirements that leave designs open, those of the most designs first."""
+        counted = Counter(
+            requirement
+            for one in self.standings
+            if one.feasibility is Feasibility.OPEN
+            for requirement in one.undecided
+        )
+        return tuple(sorted(counted, key=lambda requirement: (-counted[requirement], requirement)))
+
+
+def conclusion_of(project: Project, measured: Sequence[VariantMeasures], chosen: int | None) -> Conclusion:
+    """The verdicts on every design, counted.
+
+    Args:
+        project: The project, under the suppositions if there are any.
+        measured: Every variant with its estimates.
+        chosen: Id of the chosen variant; None if nothing is chosen.
+    """
+    decided = {one.id for one in requirements_with_criteria(project)}
+    unmeasured = tuple(one.id for one in project.requirements.system if one.id not in decided)
+    standings = tuple(_standing(project, entry, unmeasured) for entry in measured)
+    return Conclusion(
+        standings=standings,
+        chosen=next((one for one in standings if one.variant == chosen), None),
+        unmeasured=unmeasured,
+    )
+
+
+def _standing(project: Project, entry: VariantMeasures, unmeasured: tuple[str, ...]) -> DesignStanding:
+    found: dict[Verdict, list[str]] = {verdict: [] for verdict in Verdict}
+    for requirement in requirements_with_criteria(project):
+        if requirement.criterion is None:
+            continue
+        # Judged anew, for suppositions move thresholds and estimates.
+        stale = entry.verdicts.get(requirement.id) is Verdict.STALE
+        verdict = judge(requirement.criterion, entry.estimates[requirement.criterion.measure], stale=stale)
+        if verdict is Verdict.NOT_RUN and entry.records:
+            verdict = Verdict.INCONCLUSIVE
+        found[verdict].append(requirement.id)
+    without = (*found[Verdict.NOT_RUN], *found[Verdict.STALE])
+    return DesignStanding(
+        variant=entry.variant.id,
+        met=tuple(found[Verdict.MET]),
+        open=tuple(found[Verdict.INCONCLUSIVE]),
+        missed=tuple(found[Verdict.NOT_MET]),
+        not_run=(*without, *unmeasured),
+        undecided=(*found[Verdict.INCONCLUSIVE], *without),
+    )

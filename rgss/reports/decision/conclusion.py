@@ -1,0 +1,107 @@
+"""Sentences on what the evidence shows: standing of the choice, its probability, ties, more replicates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.decision.study_decision import Feasibility, RobustnessFindings, StudyDecision
+from rgss.reports.decision.words import ids_text, variants_text
+from rgss.trace.views import share_in_words
+from rgss.tradeoff.robustness import ChoiceUncertainty, Rival
+
+MOST_TIES = 4
+"""So many groups of tied variants are named."""
+
+
+def headline(made: StudyDecision) -> str:
+    """What is chosen, and whether the choice and the others are shown to meet every requirement.
+
+    Args:
+        made: The decision.
+    """
+    found, count = made.conclusion, len(made.conclusion.standings)
+    shown = found.count(Feasibility.FEASIBLE)
+    open_, infeasible = found.count(Feasibility.OPEN), found.count(Feasibility.INFEASIBLE)
+    by = f" ({', '.join(found.open_by)})" if found.open_by else ""
+    counts = (
+        f"{shown} of {count} {'is' if shown == 1 else 'are'} shown to meet every requirement; "
+        f"{open_} {'is' if open_ == 1 else 'are'} open{by}, {infeasible} infeasible."
+    )
+    if made.decision.chosen is None or found.chosen is None:
+        return f"No variant is chosen: none meets every requirement by its estimates; {counts}"
+    words = {
+        Feasibility.FEASIBLE: "is chosen and shown to meet every requirement",
+        Feasibility.OPEN: "is chosen by its estimates, which do not show yet that it meets every requirement",
+        Feasibility.INFEASIBLE: "is chosen by its estimates, but shown to miss a requirement",
+    }[found.chosen.feasibility]
+    return f"Variant {made.decision.chosen} {words}: {counts}"
+
+
+def standing_sentence(made: StudyDecision) -> str:
+    """The verdicts on the choice, counted, with the ids of those that are open and missed; empty without a choice.
+
+    Args:
+        made: The decision.
+    """
+    chosen = made.conclusion.chosen
+    if chosen is None:
+        return ""
+    parts = [f"{len(chosen.met)} met"]
+    for ids, word in ((chosen.open, "open"), (chosen.missed, "missed")):
+        named = f" ({', '.join(ids)})" if ids else ""
+        parts.append(f"{len(ids)} {word}{named}")
+    unmeasured = len(made.conclusion.unmeasured)
+    why = f" ({unmeasured} of them decided by no measure)" if unmeasured else ""
+    return f"Requirements of variant {chosen.variant}: {'; '.join(parts)}; {len(chosen.not_run)} not run{why}."
+
+
+def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
+    """The probability of the choice, what is tied with it, and what more replicates are worth.
+
+    Args:
+        made: The decision.
+    """
+    found = made.robustness
+    weighting = None if found is None else found.analysis.weighting
+    if found is None or weighting is None or weighting.uncertainty is None:
+        return
+    one = weighting.uncertainty
+    best, feasible = float(one.best[one.chosen]), float(one.feasible[one.chosen])
+    yield (
+        f"Probability that variant {made.decision.chosen} is feasible and best: {share_in_words(best)}; that it is "
+        f"feasible: {share_in_words(feasible)}; that no variant is feasible: {share_in_words(one.none_feasible)}."
+    )
+    yield from _ties(found, one)
+    gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains)
+    yield (
+        f"Expected gain of value by more replicates of every variant: {gains}; by perfect knowledge: {one.perfect:.4f}."
+    )
+
+
+def _ties(found: RobustnessFindings, one: ChoiceUncertainty) -> Iterator[str]:
+    groups: dict[tuple[object, ...], list[Rival]] = {}
+    for rival in one.rivals:
+        key = (round(rival.probability, 3), rival.within_margin, rival.replicates, rival.measure)
+        groups.setdefault(key, []).append(rival)
+    if not groups:
+        yield "No other variant is tied with it."
+        return
+    for members in list(groups.values())[:MOST_TIES]:
+        yield _tie(found, members)
+    rest = [rival.row for members in list(groups.values())[MOST_TIES:] for rival in members]
+    if rest:
+        yield f"Tied with less probability: variants {ids_text(found.variants(tuple(rest)))}."
+
+
+def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
+    rival = members[0]
+    names = variants_text(found.variants(tuple(one.row for one in members)))
+    why = "within the practical margin, " if rival.within_margin else ""
+    tied = f"Tied: {names} ({why}as good with a probability of {share_in_words(rival.probability)})"
+    if not any(found.analysis.feasible[one.row] for one in members):
+        return f"{tied}; not feasible by the estimates, which more replicates could change."
+    if rival.measure is None:
+        return f"{tied}; no estimate differs, so that only a measure that tells them apart breaks the tie."
+    if rival.replicates is None:
+        return f"{tied}; they differ most in {rival.measure}, and no number of replicates worth running parts them."
+    return f"{tied}; they differ most in {rival.measure}; about {rival.replicates} replicates would part them."

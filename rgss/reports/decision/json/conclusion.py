@@ -1,0 +1,66 @@
+"""What the evidence shows, as plain values for JSON; docs/robustness.md describes them."""
+
+from __future__ import annotations
+
+from rgss.decision.study_decision import DesignStanding, Feasibility, StudyDecision
+from rgss.reports.decision.conclusion import headline
+
+Plain = dict[str, object]
+
+
+def conclusion_to_json(made: StudyDecision) -> Plain:
+    """Turn what the verdicts and the posterior draws show into plain values.
+
+    Args:
+        made: The decision.
+    """
+    found = made.conclusion
+    return {
+        "headline": headline(made),
+        "counts": {kind.value: found.count(kind) for kind in Feasibility},
+        "open_by": list(found.open_by),
+        "unmeasured": list(found.unmeasured),
+        "chosen": None if found.chosen is None else _standing(found.chosen),
+        "variants": [{"variant": one.variant, "feasibility": one.feasibility.value} for one in found.standings],
+        "uncertainty": _uncertainty(made),
+    }
+
+
+def _standing(one: DesignStanding) -> Plain:
+    return {
+        "variant": one.variant,
+        "feasibility": one.feasibility.value,
+        "met": list(one.met),
+        "open": list(one.open),
+        "missed": list(one.missed),
+        "not_run": list(one.not_run),
+    }
+
+
+def _uncertainty(made: StudyDecision) -> Plain | None:
+    weighting = None if made.robustness is None else made.robustness.analysis.weighting
+    if made.robustness is None or weighting is None or weighting.uncertainty is None:
+        return None
+    one, variants = weighting.uncertainty, made.robustness.analysis.variants
+    return {
+        "best_and_feasible": float(one.best[one.chosen]),
+        "feasible": float(one.feasible[one.chosen]),
+        "within_margin": one.good,
+        "none_feasible": one.none_feasible,
+        "variants": [
+            {"variant": variant, "best": float(best), "feasible": float(feasible)}
+            for variant, best, feasible in zip(variants, one.best, one.feasible, strict=True)
+        ],
+        "ties": [
+            {
+                "variant": variants[rival.row],
+                "probability": rival.probability,
+                "within_margin": rival.within_margin,
+                "replicates": rival.replicates,
+                "measure": rival.measure,
+            }
+            for rival in one.rivals
+        ],
+        "expected_gains": [{"replicates": count, "gain": gain} for count, gain in one.gains],
+        "perfect_knowledge": one.perfect,
+    }

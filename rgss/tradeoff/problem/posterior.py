@@ -1,0 +1,223 @@
+"""Posterior draws of measures that are observed in replicates, joint over alternatives that share seeds.
+
+Alternatives are taken as draws from one population whose spread is learnt from them (Gelman et al.,
+"Bayesian Data Analysis", chapter 5): the best of many estimates is too good on average, and more so the
+fewer replicates there are. What their trials have in common stays so: replicate k of every alternative
+has the same seed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.tradeoff.problem.alternatives import Array
+
+_POOL_DRAWS = 2_000
+_LEAST_RATIO = 0.02
+_LEAST_SPREAD = 0.02
+_STRENGTHS = 2.0 ** np.arange(-1, 8)
+_MEANS = np.linspace(0.005, 0.995, 67)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ObservedRows:
+    """Replicates of one measure.
+
+    Attributes:
+        values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
+        is_proportion: Whether each is 0 or 1.
+    """
+
+    values: Array
+    is_proportion: bool
+
+
+def posterior_means(observed: Sequence[ObservedRows], *, draws: int, generator: np.random.Generator) -> list[Array]:
+    """Posterior draws of the true mean of each measure.
+
+    Args:
+        observed: The replicates of each measure, of the same n alternatives.
+        draws: How many draws.
+        generator: Where randomness comes from.
+
+    Returns:
+        Draws of each measure, shape (draws, n); NaN where no replicate of an alternative is known.
+    """
+    if not observed:
+        return []
+    groups = alike_groups(observed)
+    most = max(one.values.shape[1] for one in observed)
+    shared = generator.standard_normal((draws, most))
+    weights = generator.standard_gamma(1.0, size=(draws, most))
+    return [
+        _proportions(one.values, groups, weights, generator)
+        if one.is_proportion
+        else _means(one.values, shared, generator)
+        for one in observed
+    ]
+
+
+def alike_groups(observed: Sequence[ObservedRows]) -> NDArray[np.intp]:
+    """The group of each alternative, shape (n,), that shares the trials behind its proportions.
+
+    Alternatives are alike where no replicate of a proportion, and none of some mean, tells them
+    apart: planning limits that never bind, or tool speeds of the same plans. Equal proportions alone
+    say nothing, for they are often equal by chance.
+    """
+    count = len(observed[0].values)
+    proportions = [one for one in observed if one.is_proportion]
+    means = [one for one in observed if not one.is_proportion]
+    group = np.arange(count)
+    for mean in means:
+        seen: dict[bytes, int] = {}
+        for row in range(count):
+            rows = [one.values[row] for one in (*proportions, mean)]
+            first = seen.setdefault(b"".join(np.ascontiguousarray(each).tobytes() for each in rows), row)
+            if group[first] != group[row]:
+                group[group == group[row]] = group[first]
+    return np.unique(group, return_inverse=True)[1]
+
+
+def _same_rows(values: Array) -> NDArray[np.intp]:
+    """The group of each row, shape (n,), of rows that are equal to the last bit."""
+    seen: dict[bytes, int] = {}
+    return np.array([seen.setdefault(np.ascontiguousarray(row).tobytes(), len(seen)) for row in values], dtype=np.intp)
+
+
+def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator) -> Array:
+    """Draws of proportions: beta-binomial, with the population's mean and strength drawn from their posterior.
+
+    A success and a failure more, with random weights, are what the population adds to the seeds' own:
+    with exponential weights of the seeds the proportion has its beta posterior exactly.
+    """
+    known = ~np.isnan(values)
+    draws = len(weights)
+    _, first = np.unique(groups, return_index=True)
+    successes = np.where(known, values, 0.0).sum(axis=1)[first]
+    trials = known.sum(axis=1)[first]
+    mean, strength = _populations(successes, trials, draws, generator)
+    shape = (draws, len(first))
+    more = generator.standard_gamma(np.broadcast_to((mean * strength)[:, None], shape))[:, groups]
+    less = generator.standard_gamma(np.broadcast_to(((1.0 - mean) * strength)[:, None], shape))[:, groups]
+    used = weights[:, : values.shape[1]]
+    won = used @ np.where(known, values, 0.0).T + more
+    total = used @ known.T.astype(np.float64) + more + less
+    return np.where(known.any(axis=1) & (total > 0.0), won / np.maximum(total, 1e-300), np.nan)
+
+
+def _populations(
+    successes: Array, trials: NDArray[np.int64], draws: int, generator: np.random.Generator
+) -> tuple[Array, Array]:
+    """The mean and the strength of the population of proportions in each draw, from their posterior on a grid.
+
+    The mean has Jeffreys's prior. The share by which a single trial is drawn to the mean, s / (1 + s)
+    of the strength s, is uniform: the strength's density is 1 / (1 + s)².
+    """
+    from scipy.special import betaln
+
+    mean, strength = np.meshgrid(_MEANS, _STRENGTHS, indexing="ij")
+    one, other = (mean * strength)[..., None], ((1.0 - mean) * strength)[..., None]
+    fit = betaln(one + successes, other + (trials - successes)) - betaln(one, other)
+    # On a grid of the strength's logarithm its density has the strength as a factor.
+    prior = np.log(strength) - 2.0 * np.log1p(strength) - 0.5 * np.log(mean * (1.0 - mean))
+    heights = fit.sum(axis=-1) + prior
+    chances = np.exp(heights - heights.max()).ravel()
+    picked = generator.choice(chances.size, size=draws, p=chances / chances.sum())
+    return mean.ravel()[picked], strength.ravel()[picked]
+
+
+def _means(values: Array, shared: Array, generator: np.random.Generator) -> Array:
+    """Draws of means, by pivots with pooled noise, drawn to the population's centre as far as noise asks for it.
+
+    Where all values are positive noise is a factor and the population is one of logarithms.
+    """
+    known = ~np.isnan(values)
+    counts = known.sum(axis=1)
+    draws = len(shared)
+    found = np.full((draws, len(values)), np.nan)
+    rows = np.flatnonzero(counts)
+    if not len(rows):
+        return found
+    some, there, counts = values[rows], known[rows], counts[rows]
+    positive = bool((some[there] > 0.0).all())
+    means = np.where(there, some, 0.0).sum(axis=1) / counts
+    noise = np.where(there, some / means[:, None] - 1.0 if positive else some - means[:, None], 0.0)
+    _, first, group = np.unique(_same_rows(some), return_index=True, return_inverse=True)
+    pool = _pooled_noise(noise[first], there[first], counts[first])
+    scores = _scores(noise, shared[:, : values.shape[1]], group, generator)
+    centres = np.log(means) if positive else means
+    moved = np.empty((draws, len(rows)))
+    shift, variance = np.empty(len(rows)), np.empty(len(rows))
+    for count in np.unique(counts):
+        at = counts == count
+        sums = pool[generator.integers(0, len(pool), size=(_POOL_DRAWS, int(count)))].mean(axis=1)
+        pivots = -np.log(np.maximum(1.0 + sums, _LEAST_RATIO)) if positive else -sums
+        pivots.sort()
+        # The pivot falls where the observed mean is high.
+        moved[:, at] = _at_scores(pivots, -scores[:, at])
+        shift[at], variance[at] = pivots.mean(), pivots.var()
+    drawn = _shrunk(centres, moved, shift, variance * _own_share(noise[first], there[first]), first, generator)
+    found[:, rows] = np.exp(drawn) if positive else drawn
+    return found
+
+
+def _pooled_noise(noise: Array, known: NDArray[np.bool_], counts: NDArray[np.int64]) -> Array:
+    """Deviations from their means of all alternatives together, as wide as they are from the true means."""
+    several = counts > 1
+    if not several.any():
+        return np.zeros(1)
+    wider = np.sqrt(counts[several] / (counts[several] - 1.0))[:, None]
+    return np.asarray((noise[several] * wider)[known[several]], dtype=np.float64)
+
+
+def _scores(noise: Array, shared: Array, group: NDArray[np.intp], generator: np.random.Generator) -> Array:
+    """Standard normal scores of the alternatives, shape (draws, n), correlated as their noise over the seeds is."""
+    own = generator.standard_normal((len(shared), int(group.max()) + 1))[:, group]
+    length = np.sqrt((noise**2).sum(axis=1))
+    unit = noise / np.where(length > 0.0, length, 1.0)[:, None]
+    return np.where(length > 0.0, shared @ unit.T, own)
+
+
+def _at_scores(ordered: Array, scores: Array) -> Array:
+    """The quantiles of ordered values at standard normal scores."""
+    from scipy.special import ndtr
+
+    place = ndtr(scores) * (len(ordered) - 1)
+    below = np.minimum(place.astype(np.intp), len(ordered) - 2)
+    part = place - below
+    return np.asarray(ordered[below] * (1.0 - part) + ordered[below + 1] * part, dtype=np.float64)
+
+
+def _own_share(noise: Array, known: NDArray[np.bool_]) -> float:
+    """The share of the noise's variance that alternatives do not have in common, seed by seed."""
+    count = len(noise)
+    total = float((noise**2).sum())
+    if count < 2 or total == 0.0:
+        return 1.0
+    number = known.sum(axis=0)
+    common = noise.sum(axis=0) / np.maximum(number, 1)
+    rest = float((np.where(known, noise - common, 0.0) ** 2).sum())
+    return min(1.0, rest * count / (count - 1) / total)
+
+
+def _shrunk(
+    centres: Array, moved: Array, shift: Array, variance: Array, first: NDArray[np.intp], generator: np.random.Generator
+) -> Array:
+    """Draws about the population's centre: estimates, drawn towards it by the share of noise in their spread."""
+    count = len(first)
+    if count < 2 or not variance.any():
+        return centres + moved
+    places = centres + shift
+    spread = float(places[first].var(ddof=1))
+    drawn = spread * generator.chisquare(count - 1, size=(len(moved), 1)) / (count - 1)
+    between = np.maximum(drawn - variance[first].mean(), _LEAST_SPREAD * drawn)
+    share = between / np.maximum(between + variance, 1e-300)
+    precision = 1.0 / np.maximum(between + variance[first], 1e-300)
+    total = precision.sum(axis=1, keepdims=True)
+    centre = (precision * places[first]).sum(axis=1, keepdims=True) / total
+    centre = centre + generator.standard_normal((len(moved), 1)) / np.sqrt(total)
+    return np.asarray(centre + share * (places - centre) + np.sqrt(share) * (moved - shift), dtype=np.float64)

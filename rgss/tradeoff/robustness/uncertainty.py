@@ -1,0 +1,173 @@
+"""Uncertainty of a choice at the stated weights: probability of being best, ties, value of more replicates."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.tradeoff.problem import TIE_TOLERANCE, Array
+from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
+
+TIE_PROBABILITY = 0.05
+"""An alternative that is as good as the choice with at least this probability is tied by noise."""
+
+MOST_MORE = 100_000
+"""More replicates than this are not counted out."""
+
+_Z = 1.6448536269514722
+"""The one-sided 95 % quantile of the normal distribution."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rival:
+    """An alternative that the evidence does not separate from the choice.
+
+    Attributes:
+        row: Its row.
+        probability: Posterior probability that it is feasible and worth at least as much as the choice.
+        within_margin: Whether its estimated value is within the practical margin of the choice's.
+        replicates: Replicates in all with which their difference would exceed its noise; None where
+            no number does, for they do not differ or a demand decides.
+        measure: The measure in whose value they differ most by the estimates; None where they do not differ.
+    """
+
+    row: int
+    probability: float
+    within_margin: bool
+    replicates: int | None
+    measure: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ChoiceUncertainty:
+    """What the evidence leaves open of a choice at the stated weights.
+
+    Attributes:
+        chosen: Row of the choice.
+        best: Probability that each alternative is feasible and none feasible is better, shape (n,).
+        feasible: Probability that each is feasible, shape (n,).
+        good: Probability that the choice is feasible and within the practical margin of the best.
+        none_feasible: Probability that nothing is feasible.
+        rivals: What is tied with the choice, by falling probability.
+        gains: Expected gain of value by so many more replicates of every alternative.
+        perfect: Expected gain by perfect knowledge.
+    """
+
+    chosen: int
+    best: Array
+    feasible: Array
+    good: float
+    none_feasible: float
+    rivals: tuple[Rival, ...]
+    gains: tuple[tuple[int, float], ...]
+    perfect: float
+
+
+def choice_uncertainty(
+    found: PosteriorOutcomes,
+    chosen: int,
+    *,
+    margin: float,
+    replicates: int,
+    estimated: NDArray[np.bool_],
+    single: Array,
+    more: tuple[int, ...] = (1, 10),
+) -> ChoiceUncertainty:
+    """The uncertainty of a choice.
+
+    Args:
+        found: Posterior draws of the evidence.
+        chosen: Row of the choice.
+        margin: The practical margin of values.
+        replicates: Replicates that the estimates come from.
+        estimated: Which alternatives are feasible by their estimates, shape (n,).
+        single: Their single values by their estimates, shape (n, m).
+        more: Numbers of more replicates that are valued.
+    """
+    feasible = found.outcomes.feasible
+    totals = np.where(feasible, np.nan_to_num(found.totals), -np.inf)
+    highest = totals.max(axis=1, keepdims=True)
+    best = feasible & (totals >= highest - TIE_TOLERANCE)
+    own = feasible[:, chosen]
+    # What cannot be chosen is worth nothing.
+    worth = np.where(feasible, totals, 0.0)
+    return ChoiceUncertainty(
+        chosen=chosen,
+        best=best.mean(axis=0),
+        feasible=feasible.mean(axis=0),
+        good=float((own & (totals[:, chosen] >= highest[:, 0] - margin - TIE_TOLERANCE)).mean()),
+        none_feasible=float((~feasible.any(axis=1)).mean()),
+        rivals=_rivals(found, chosen, margin, replicates, estimated, single),
+        gains=tuple((count, _expected_gain(worth, count / (replicates + count))) for count in more),
+        perfect=_expected_gain(worth, 1.0),
+    )
+
+
+def _expected_gain(worth: Array, share: float) -> float:
+    """Expected gain of choosing after more evidence, by matched moments.
+
+    The mean after m more replicates varies as the draws do, narrower by √(m / (n + m)) (Heath,
+    Manolopoulou and Baio, "Efficient Monte Carlo estimation of the expected value of sample
+    information using moment matching", 2018); with a share of 1 it is the value of perfect information.
+
+    Args:
+        worth: Value of each alternative in each draw, shape (b, n).
+        share: m / (n + m).
+    """
+    means = worth.mean(axis=0)
+    moved = means + math.sqrt(share) * (worth - means)
+    return max(0.0, float(moved.max(axis=1).mean() - means.max()))
+
+
+def _rivals(
+    found: PosteriorOutcomes,
+    chosen: int,
+    margin: float,
+    replicates: int,
+    estimated: NDArray[np.bool_],
+    single: Array,
+) -> tuple[Rival, ...]:
+    feasible = found.outcomes.feasible
+    totals = found.totals
+    weighting = found.preferences.weighting
+    weights = np.array([weighting.weights[measure] for measure in weighting.deciding_measures])
+    rivals = []
+    for row in range(len(found.table)):
+        if row == chosen:
+            continue
+        both = np.nan_to_num(totals[:, row] - totals[:, chosen], nan=-np.inf)
+        ahead = feasible[:, row] & (~feasible[:, chosen] | (both >= -TIE_TOLERANCE))
+        probability = float(ahead.mean())
+        gaps = weights * (single[row] - single[chosen])
+        difference = float(gaps.sum())
+        near = bool(estimated[row]) and abs(difference) <= margin + TIE_TOLERANCE
+        if not near and probability < TIE_PROBABILITY:
+            continue
+        known = np.isfinite(both)
+        spread = float(both[known].std()) if known.any() else math.nan
+        rivals.append(
+            Rival(
+                row=row,
+                probability=probability,
+                within_margin=near,
+                replicates=_replicates_needed(difference, spread, replicates) if estimated[row] else None,
+                measure=_widest(weighting.deciding_measures, gaps),
+            )
+        )
+    return tuple(sorted(rivals, key=lambda one: -one.probability))
+
+
+def _replicates_needed(difference: float, spread: float, replicates: int) -> int | None:
+    """Replicates with which a difference is 1.645 of its standard errors, which fall with their root."""
+    if not math.isfinite(spread) or not math.isfinite(difference) or abs(difference) <= TIE_TOLERANCE:
+        return None
+    needed = math.ceil(replicates * (_Z * spread / abs(difference)) ** 2)
+    return None if needed > MOST_MORE else max(needed, replicates)
+
+
+def _widest(measures: tuple[str, ...], gaps: Array) -> str | None:
+    known = np.nan_to_num(np.abs(gaps))
+    return measures[int(known.argmax())] if len(known) and known.max() > TIE_TOLERANCE else None

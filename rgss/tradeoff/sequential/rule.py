@@ -1,0 +1,96 @@
+"""The rule of replication until decided: error rate, margin, and how many replicates it may take."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rgss.errors import TradeoffError
+from rgss.tradeoff.sequential.evidence import SequentialEvidence
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SequentialRule:
+    """When to go on and when to stop.
+
+    Attributes:
+        error_rate: α: probability that the decision is called decided and is wrong; and, of each
+            verdict that is not inconclusive, that it is wrong.
+        margin: Difference of value that is practically none: the indifference zone.
+        slack: Share of a threshold by which it may be missed before it matters to the decision.
+        pilot: Replicates that every alternative gets.
+        batch: Replicates that are added at a look.
+        cap: Most replicates of an alternative.
+        verdict_cap: Most replicates of an alternative that only its verdicts need.
+        budget: Most replicates of all alternatives together; None for no such limit.
+
+    Raises:
+        TradeoffError: A number is out of its range.
+    """
+
+    error_rate: float = 0.05
+    margin: float = 0.05
+    slack: float = 0.1
+    pilot: int = 8
+    batch: int = 4
+    cap: int = 200
+    verdict_cap: int = 16
+    budget: int | None = None
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.error_rate < 1.0:
+            raise TradeoffError(f"an error rate of {self.error_rate:g} is none", hint="give one such as 0.05")
+        for name, number in (("margin", self.margin), ("slack", self.slack)):
+            if not (math.isfinite(number) and 0.0 <= number < 1.0):
+                raise TradeoffError(f"the {name} is {number:g}", hint="give a number from 0 to 1, such as 0.05")
+        if self.pilot < 2 or self.batch < 1:
+            raise TradeoffError(
+                f"a pilot of {self.pilot} and batches of {self.batch} replicates are too small",
+                hint="give a pilot of at least 2 and batches of at least 1",
+            )
+        if self.cap < self.pilot or not 0 <= self.verdict_cap <= self.cap:
+            raise TradeoffError(
+                f"a cap of {self.cap}, one for verdicts of {self.verdict_cap} and a pilot of {self.pilot} do not agree",
+                hint="the cap is the largest of the three",
+            )
+
+
+def check_pilot(rule: SequentialRule, count: int) -> None:
+    """Make sure that the budget has room for the pilot.
+
+    Args:
+        rule: The rule.
+        count: The number of alternatives.
+
+    Raises:
+        TradeoffError: It has not.
+    """
+    if rule.budget is not None and rule.pilot * count > rule.budget:
+        raise TradeoffError(
+            f"a budget of {rule.budget} trials is less than the pilot of {rule.pilot} replicates of {count} variants",
+            hint=f"give a budget of at least {rule.pilot * count}, or a smaller pilot",
+        )
+
+
+def affordable_replicates(
+    evidence: SequentialEvidence, rule: SequentialRule, wanted: Mapping[int, int], *, first: int | None
+) -> Mapping[int, int]:
+    """The replicates that the budget has room for: the choice's, then those of the others by ascending id.
+
+    Args:
+        evidence: The evidence so far.
+        rule: The rule.
+        wanted: The number that each of some alternatives should have in all.
+        first: The choice.
+    """
+    if rule.budget is None:
+        return wanted
+    left = rule.budget - int(evidence.replicates.sum())
+    found = {}
+    for variant in sorted(wanted, key=lambda each: (each != first, each)):
+        more = min(left, wanted[variant] - int(evidence.replicates[evidence.table.row_of(variant)]))
+        if more > 0:
+            found[variant] = more + int(evidence.replicates[evidence.table.row_of(variant)])
+            left -= more
+    return found

@@ -1,0 +1,157 @@
+"""What the evidence shows of designs: feasible, infeasible or open, and the sentences on it."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import pytest
+
+from rgss.assessment.measuring import measure_variants
+from rgss.decision.choosing import trade_problem
+from rgss.decision.robustness import robustness
+from rgss.decision.study_decision import Conclusion, DesignStanding, Feasibility, decide_study
+from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
+from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
+from rgss.tradeoff.robustness import Rival
+
+
+@pytest.fixture(scope="module")
+def measured(shipped, filled, record_of):
+    store = filled(shipped, lambda spec: record_of(spec, planning_s=0.5 + 0.01 * spec.variant + 0.1 * spec.seed))
+    return measure_variants(shipped, store)
+
+
+@pytest.fixture(scope="module")
+def made(shipped, measured):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(robustness, "ITERATIONS", 200)
+        return decide_study(shipped, measured, evidence="evidence.sqlite")
+
+
+def standing(variant: int, **ids: tuple[str, ...]) -> DesignStanding:
+    empty = dict.fromkeys(("met", "open", "missed", "not_run", "undecided"), ())
+    return DesignStanding(variant=variant, **{**empty, **ids})
+
+
+def concluded(made, *standings: DesignStanding):
+    chosen = next((one for one in standings if one.variant == made.decision.chosen), None)
+    return dataclasses.replace(made, conclusion=Conclusion(standings=standings, chosen=chosen, unmeasured=("SYS-1",)))
+
+
+@pytest.mark.parametrize(
+    ("ids", "feasibility"),
+    [
+        ({"met": ("A",)}, Feasibility.FEASIBLE),
+        ({"met": ("A",), "not_run": ("SYS-1",)}, Feasibility.FEASIBLE),
+        ({"met": ("A",), "open": ("B",), "undecided": ("B",)}, Feasibility.OPEN),
+        ({"not_run": ("B",), "undecided": ("B",)}, Feasibility.OPEN),
+        ({"open": ("B",), "missed": ("A",), "undecided": ("B",)}, Feasibility.INFEASIBLE),
+    ],
+)
+def test_a_design_is_feasible_only_where_every_verdict_is_met(ids, feasibility):
+    assert standing(1, **ids).feasibility is feasibility
+
+
+@pytest.mark.verifies("SYS-037")
+def test_three_replicates_leave_the_choice_open(made, measured):
+    """All succeed; neither a share of 0.9 nor a mean time is shown by three trials."""
+    found = made.conclusion
+    assert found.chosen.open == ("SYS-005", "SYS-024", "SYS-033")
+    assert set(found.chosen.met) == {"SYS-004", "SYS-009", "SYS-012"}
+    assert found.chosen.feasibility is Feasibility.OPEN
+    assert sum(found.count(kind) for kind in Feasibility) == len(measured)
+    assert found.count(Feasibility.FEASIBLE) == 0
+    by_verdict = {
+        entry.variant.id: any(verdict.value == "not_met" for verdict in entry.verdicts.values()) for entry in measured
+    }
+    for one in found.standings:
+        assert (one.feasibility is Feasibility.INFEASIBLE) is by_verdict[one.variant]
+
+
+def test_every_page_says_what_is_open(made):
+    sentence = headline(made)
+    assert "which do not show yet that it meets every requirement: 0 of 72 are shown" in sentence
+    assert "are open (SYS-005, SYS-024, SYS-033)" in sentence
+    assert sentence in list(decision_lines(made))
+    assert sentence in decision_section(made)
+    assert decision_part(made)["headline"] == sentence
+    document = trade_document(made)["conclusion"]
+    assert document["headline"] == sentence
+    assert document["counts"]["open"] == made.conclusion.count(Feasibility.OPEN)
+    assert document["chosen"]["open"] == ["SYS-005", "SYS-024", "SYS-033"]
+    shares = [one["best"] for one in document["uncertainty"]["variants"]]
+    assert document["uncertainty"]["best_and_feasible"] == max(shares)
+
+
+def test_the_headline_of_a_choice_that_is_shown_feasible(made):
+    chosen = made.decision.chosen
+    other = concluded(made, standing(chosen, met=("A",)), standing(9999, missed=("B",)))
+    assert headline(other) == (
+        f"Variant {chosen} is chosen and shown to meet every requirement: 1 of 2 is shown to meet every requirement; "
+        "0 are open, 1 infeasible."
+    )
+
+
+def test_the_headline_of_a_choice_that_is_shown_to_miss(made):
+    chosen = made.decision.chosen
+    other = concluded(made, standing(chosen, missed=("A",)), standing(9999, open=("B",), undecided=("B",)))
+    assert headline(other) == (
+        f"Variant {chosen} is chosen by its estimates, but shown to miss a requirement: 0 of 2 are shown to meet every "
+        "requirement; 1 is open (B), 1 infeasible."
+    )
+    assert standing_sentence(other) == (
+        f"Requirements of variant {chosen}: 0 met; 0 open; 1 missed (A); 0 not run (1 of them decided by no measure)."
+    )
+
+
+def test_without_a_choice_there_is_no_standing(made):
+    nothing = dataclasses.replace(
+        concluded(made, standing(9999, missed=("A",))), decision=dataclasses.replace(made.decision, chosen=None)
+    )
+    assert headline(nothing).startswith("No variant is chosen: none meets every requirement by its estimates; 0 of 1")
+    assert standing_sentence(nothing) == ""
+
+
+def with_rivals(made, *rivals: Rival):
+    weighting = made.robustness.analysis.weighting
+    uncertainty = dataclasses.replace(weighting.uncertainty, rivals=rivals)
+    analysis = dataclasses.replace(
+        made.robustness.analysis, weighting=dataclasses.replace(weighting, uncertainty=uncertainty)
+    )
+    return dataclasses.replace(made, robustness=dataclasses.replace(made.robustness, analysis=analysis))
+
+
+@pytest.mark.parametrize(
+    ("replicates", "measure", "words"),
+    [
+        (None, None, "no estimate differs, so that only a measure that tells them apart breaks the tie."),
+        (None, "t_e", "they differ most in t_e, and no number of replicates worth running parts them."),
+        (65, "t_e", "they differ most in t_e; about 65 replicates would part them."),
+    ],
+)
+def test_a_tie_says_what_could_break_it(made, replicates, measure, words):
+    row = int(made.robustness.analysis.feasible.argmax())
+    rival = Rival(row=row, probability=0.25, within_margin=True, replicates=replicates, measure=measure)
+    sentences = list(uncertainty_sentences(with_rivals(made, rival)))
+    name = made.robustness.analysis.variants[row]
+    assert sentences[1] == (
+        f"Tied: variant {name} (within the practical margin, as good with a probability of 25 %); {words}"
+    )
+
+
+def test_a_choice_without_ties_says_so(made):
+    assert list(uncertainty_sentences(with_rivals(made)))[1] == "No other variant is tied with it."
+
+
+def test_the_gain_by_more_replicates_grows_up_to_perfect_knowledge(made):
+    one = made.robustness.analysis.weighting.uncertainty
+    (_, once), (_, ten_times) = one.gains
+    assert 0.0 <= once <= ten_times <= one.perfect
+
+
+def test_a_study_may_ask_that_feasibility_is_shown(shipped, measured):
+    trade_off = dataclasses.replace(shipped.study.trade_off, shown_feasible=True)
+    strict = dataclasses.replace(shipped, study=dataclasses.replace(shipped.study, trade_off=trade_off))
+    problem = trade_problem(strict, measured)
+    assert {"S.low", "t_e.high", "t_p.high", "P_max"} <= {one.measure for one in problem.thresholds}
+    assert not problem.feasible_alternatives(at_most=100)
