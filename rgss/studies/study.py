@@ -169,7 +169,6 @@ def read_study(
     findings.extend(places.findings)
     if findings or trade_off is None:
         raise DocumentError(sorted(findings))
-    planning = entry.planning
     return StudyDefinition(
         id=entry.study,
         label=label,
@@ -179,17 +178,7 @@ def read_study(
         seed=entry.seed,
         replicates=entry.replicates,
         fidelity=Fidelity(entry.fidelity[-1]),
-        planning=PlanningChoice(
-            counted=planning.clock == "counted",
-            charge_per_check_s=planning.charge_per_check,
-            resolution_rad=planning.resolution,
-            simplification_checks=planning.simplification_checks,
-            simplification_limit_s=planning.simplification_limit,
-            clearance_m=planning.clearance,
-            planner=planning.planner or "",
-            time_limit_s=planning.time_limit,
-            moves=tuple(MoveKind(getattr(entry.moves, phase.value)) for phase in PLANNED_PHASES),
-        ),
+        planning=_planning_choice(entry),
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
         values=value_anchors(trade_off, places.quantity_of),
@@ -197,6 +186,21 @@ def read_study(
         screening=screening,
         regression=regression,
         until_decided=until_decided,
+    )
+
+
+def _planning_choice(entry: StudyDocument) -> PlanningChoice:
+    planning = entry.planning
+    return PlanningChoice(
+        counted=planning.clock == "counted",
+        charge_per_check_s=planning.charge_per_check,
+        resolution_rad=planning.resolution,
+        simplification_checks=planning.simplification_checks,
+        simplification_limit_s=planning.simplification_limit,
+        clearance_m=planning.clearance,
+        planner=planning.planner or "",
+        time_limit_s=planning.time_limit,
+        moves=tuple(MoveKind(getattr(entry.moves, phase.value)) for phase in PLANNED_PHASES),
     )
 
 
