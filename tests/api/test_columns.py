@@ -26,6 +26,8 @@ WRITE = (
     "p = Path('docs/api.md'); p.write_text(w(p.read_text()))\""
 )
 ENDINGS = {
+    "_m3": "m**3",
+    "_j": "J",
     "_m_s2": "m/s**2",
     "_m_s": "m/s",
     "_n_m": "N*m",
@@ -35,8 +37,6 @@ ENDINGS = {
     "_m": "m",
     "_s": "s",
     "_1": "1",
-    "_j": "J",
-    "_m3": "m**3",
 }
 
 

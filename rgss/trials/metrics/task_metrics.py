@@ -245,7 +245,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
         name="joint_work_j",
         unit="J",
-        meaning="mechanical work of the joints, the sum of ∫|τ q̇|dt: braking takes energy and none is recovered",
+        meaning="mechanical work of the joints, the sum of ∫abs(τ q̇)dt: braking takes energy and none is recovered",
         better=Direction.LOWER,
         trial=Aggregation.SUM,
         fidelities=WITH_TORQUES,

@@ -62,6 +62,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         if what_if is None
         else {
             **scenario_to_json(what_if.scenario),
+            "readings": [{"measure": one.measure, "alternative": one.alternative} for one in what_if.scenario.readings],
             "decision_before": decision_to_json(what_if.before.decision),
         }
     )

@@ -88,7 +88,6 @@ def scenario_to_json(scenario: Scenario) -> Plain:
         "rescaled": [_change(change) for change in scenario.rescaled],
         "dropped_variants": list(scenario.dropped),
         "simulated_with": list(scenario.simulated),
-        "readings": [{"measure": one.measure, "alternative": one.alternative} for one in scenario.readings],
     }
 
 
