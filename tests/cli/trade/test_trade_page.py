@@ -132,8 +132,9 @@ def test_the_document_is_described(page, rgss, with_evidence):
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
     # Below these, keys are ids of measures, factors, requirements or components.
     by_id = re.compile(
-        r"^(robustness|sensitivity)\.(weights|refused|costs\.(worst_corner|assumed)"
-        r"|.*\.(effective_weights|regrets|centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
+        r"^robustness\.(weights|refused|costs\.(worst_corner|assumed)"
+        r"|.*\.(centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
+        r"|^sensitivity\..*\.(effective_weights|regrets|weights)\..+$"
     )
     own = re.compile(r"^(robustness|sensitivity|what_if|fleet)\b")
     found = {key for key in keys_of(document) if (own.match(key) or "." not in key) and not by_id.match(key)}
