@@ -160,7 +160,7 @@ def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
     )
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
     whole = {"schema", "study", "double_counting", "shared_parts", "robustness", "fleet", "what_if"}
-    whole |= {"evidence", "screening"}
+    whole |= {"evidence", "screening", "sensitivity", "elicitation"}
 
     assert nothing.status == 1
     assert {key for key in found if key.split(".")[0].rstrip("[]") not in whole} == named
