@@ -271,7 +271,9 @@ def browser() -> Iterator[webdriver.Chrome]:
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     service = webdriver.ChromeService(_found("chromedriver"))
     driver = webdriver.Chrome(options=options, service=service)
-    driver.set_script_timeout(60)
+    # On a busy machine an audit takes minutes; the client gives up after two by itself.
+    driver.command_executor.client_config.timeout = 900
+    driver.set_script_timeout(900)
     yield driver
     driver.quit()
 

@@ -26,7 +26,7 @@ from tests.fixtures.processes import is_running, wait_until
 
 DOUBLES = Path(__file__).parents[1] / "doubles"
 GIB = 1024**3
-LIMITS = {"time_limit_s": 5.0, "memory_limit_bytes": 1 * GIB}
+LIMITS = {"time_limit_s": 600.0, "memory_limit_bytes": 1 * GIB}
 HINT = "every worker needs the same engines and the same rgss"
 
 
@@ -64,7 +64,7 @@ def digests_in(store):
 
 
 def test_a_cluster_goes_on_whatever_becomes_of_its_tasks(local, doubles, carried_out, troubles_of_tasks):
-    names = ["who", "die", "memory_limit", "exit", "fail", "refuse", "hang", "threads", "parent"]
+    names = ["who", "die", "memory_limit", "exit", "fail", "refuse", "threads", "parent"]
     with dask_cluster(local.scheduler_address, **LIMITS) as cluster:
         workers = cluster.workers(doubles.act)
         assert (workers.size, workers.free) == (2, 4)
@@ -78,10 +78,15 @@ def test_a_cluster_goes_on_whatever_becomes_of_its_tasks(local, doubles, carried
     assert ended["memory_limit"].result == GIB
     assert ended["threads"].result == "1"
     troubles = {name: each.trouble for name, each in ended.items() if each.trouble is not None}
-    assert troubles == {
-        **troubles_of_tasks,
-    }
+    assert troubles == {name: each for name, each in troubles_of_tasks.items() if name != "hang"}
     assert not is_running(ended["who"].result)
+
+
+def test_a_task_that_hangs_is_ended_at_its_limit(local, doubles, carried_out, troubles_of_tasks):
+    # Alone, for on a busy machine any task may take as long as this limit.
+    with dask_cluster(local.scheduler_address, time_limit_s=5.0, memory_limit_bytes=1 * GIB) as cluster:
+        ended = carried_out(cluster.workers(doubles.act), {"hang": ("hang",)})
+    assert ended["hang"].trouble == troubles_of_tasks["hang"]
 
 
 def test_a_task_that_costs_one_dask_worker_after_another_is_given_up(local, doubles, carried_out):
@@ -279,7 +284,7 @@ def test_an_address_that_needs_certificates_is_refused_without_them():
 def test_a_memory_limit_that_is_too_low_is_the_same_error_as_here(threads):
     with (
         pytest.raises(SimulationError, match=r"^a worker process cannot start: .* \(is its memory limit too low\?\)$"),
-        dask_cluster(threads.scheduler_address, time_limit_s=2.0, memory_limit_bytes=1024),
+        dask_cluster(threads.scheduler_address, time_limit_s=600.0, memory_limit_bytes=1024),
     ):
         pytest.fail("it was accepted")
 
