@@ -215,6 +215,9 @@ def _weighting(
     problem, values, feasible, weights = posed.problem, posed.values, posed.feasible, posed.weights
     admitted = admitted_weights(problem)
     outcomes: OutcomeSource = Outcomes.certain(values, feasible) if posterior is None else posterior.outcomes
+    regions = parts.compute(
+        Part.REGIONS, lambda: winning_regions(values, feasible, admitted, generator=generator), None
+    )
     acceptability = parts.compute(
         Part.ACCEPTABILITY, lambda: smaa2(outcomes, admitted, iterations=ITERATIONS, generator=generator), None
     )
@@ -227,9 +230,7 @@ def _weighting(
         uncertainty = parts.compute(Part.UNCERTAINTY, lambda: posed.uncertainty(posterior, chosen), None)
     return WeightRobustness(
         elicited=not admitted.is_simplex,
-        regions=parts.compute(
-            Part.REGIONS, lambda: winning_regions(values, feasible, admitted, generator=generator), None
-        ),
+        regions=regions,
         shifts=parts.compute(Part.NEAREST, lambda: weight_shifts(values, feasible, weights, among=admitted), None),
         ranges=parts.compute(Part.RANGES, lambda: weight_ranges(values, feasible, weights, chosen), None),
         acceptability=acceptability,

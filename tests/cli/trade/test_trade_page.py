@@ -137,7 +137,7 @@ def test_the_document_is_described(page, rgss, with_evidence):
         r"|.*\.(centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
         r"|^sensitivity\..*\.(effective_weights|regrets|weights)\..+$"
     )
-    own = re.compile(r"^(robustness|sensitivity|what_if|fleet|model_gaps|readings)\b")
+    own = re.compile(r"^(conclusion|robustness|sensitivity|what_if|fleet|model_gaps|readings)\b")
     found = {key for key in keys_of(document) if (own.match(key) or "." not in key) and not by_id.match(key)}
 
     # Both ends of a bent function have the same keys.
@@ -160,7 +160,7 @@ def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
         (REPOSITORY / "docs" / "trade_off.md").read_text(encoding="utf-8").split("## The decision as a document", 1)[1]
     )
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
-    whole = {"schema", "study", "double_counting", "shared_parts", "robustness", "fleet", "what_if"}
+    whole = {"schema", "study", "double_counting", "shared_parts", "conclusion", "robustness", "fleet", "what_if"}
     whole |= {"evidence", "screening", "model_gaps", "readings", "sensitivity", "elicitation"}
 
     assert nothing.status == 1
