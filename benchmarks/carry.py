@@ -19,7 +19,7 @@ from rgss.studies.project import Project, load_project
 from rgss.trials.execution import Execution
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.pieces.input_digests import TrialSpec
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell

@@ -17,7 +17,7 @@ from rgss.evidence import PlanOutcome
 from rgss.motion import PlanningClock
 from rgss.scenes import Box, Cylinder, Pose, Scene, SceneBody, load_gripper_file, load_scene
 from rgss.trials import PlanningSettings
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.workcell import Workcell
 
 REPOSITORY = Path(__file__).resolve().parents[1]

@@ -24,7 +24,7 @@ from planner_scenes import random_cells
 from rgss.evidence import PlanOutcome
 from rgss.motion import SOURCE_PLANNERS, Objective, OnUnverified, PlannerSettings, PlanningClock, available_planners
 from rgss.trials import PlanningSettings
-from rgss.trials.plan import PlannedMove, plan_task
+from rgss.trials.planning import PlannedMove, plan_task
 from rgss.trials.workcell import Workcell
 
 RANGES_RAD = (0.3, 0.6, 1.0, 1.5, 2.13)

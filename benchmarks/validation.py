@@ -22,7 +22,7 @@ from rgss.studies.project import Project, load_project
 from rgss.trials.execution import Execution
 from rgss.trials.pieces.input_digests import TrialSpec
 from rgss.trials.pieces.run import Pieces
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell

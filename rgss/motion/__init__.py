@@ -4,16 +4,10 @@ from rgss.motion.blending import BlendedPath, SmoothPath, blend
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.limits import MotionLimits
 from rgss.motion.paths import JointPath, path_length, segment_states
+from rgss.motion.planner_settings import Objective, OnUnverified, PlannerSettings
 from rgss.motion.planner_table import OmplPlanner, ParameterType, PlannerParameter, ompl_planners
-from rgss.motion.planners import (
-    SOURCE_PLANNERS,
-    Objective,
-    PlannerSettings,
-    available_planners,
-    refusal_of,
-    takes_objective,
-)
-from rgss.motion.planning import OnUnverified, plan
+from rgss.motion.planners import SOURCE_PLANNERS, available_planners, refusal_of, takes_objective
+from rgss.motion.planning import plan
 from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory

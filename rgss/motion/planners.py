@@ -1,10 +1,8 @@
-"""Planners as data: an OMPL planner with its parameters and its objective."""
+"""Planners of OMPL that can be run here."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from enum import Enum
 from functools import lru_cache
 from types import MappingProxyType
 
@@ -29,50 +27,6 @@ _REFUSED: Mapping[str, str] = MappingProxyType(
         "STRRTstar": "it needs a space of states with time",
     }
 )
-
-
-class Objective(str, Enum):
-    """Cost of a path that a planner keeps low.
-
-    The cost of a state is charged like a validity check; a path length is not, for it needs no query of the scene.
-    """
-
-    PATH_LENGTH = "path_length"
-    CLEARANCE = "clearance"
-    MECHANICAL_WORK = "mechanical_work"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlannerSettings:
-    """A planner with its parameters.
-
-    Attributes:
-        algorithm: Its class in ``ompl.geometric``.
-        parameters: Name in OMPL's parameter set and value in SI of each parameter that is set, by name; OMPL's own
-            default for every other.
-        objective: The cost that it keeps low; OMPL's own default if None.
-    """
-
-    algorithm: str
-    parameters: tuple[tuple[str, float], ...] = ()
-    objective: Objective | None = None
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "parameters", tuple(sorted(self.parameters)))
-
-    def with_parameter(self, name: str, value: float) -> PlannerSettings:
-        """The same planner with another value of a parameter.
-
-        Args:
-            name: Its name in OMPL's parameter set.
-            value: The value in SI.
-        """
-        return replace(self, parameters=tuple({**dict(self.parameters), name: value}.items()))
-
-    @property
-    def has_no_cost(self) -> bool:
-        """Whether it is a TRRT that accepts every transition, and so a RRT by another name."""
-        return self.algorithm == "TRRT" and self.objective is None
 
 
 @lru_cache(maxsize=1)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,8 @@ from rgss.evidence.records import PlanOutcome
 from rgss.motion.clock import ClockKind, PlanningClock
 from rgss.motion.engine import load_engine
 from rgss.motion.paths import JointPath
-from rgss.motion.planners import PlannerSettings, available_planners, refusal_of
+from rgss.motion.planner_settings import OnUnverified, PlannerSettings
+from rgss.motion.planners import available_planners, refusal_of
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
 from rgss.motion.search import search
 from rgss.motion.simplification import shorten
@@ -27,13 +27,6 @@ Vector = NDArray[np.float64]
 _SEARCH_STREAM = 1
 _SIMPLIFICATION_STREAM = 2
 _REPAIR_STREAM = 3
-
-
-class OnUnverified(str, Enum):
-    """Use of a path that is not valid at the resolution of its verification."""
-
-    FAIL = "fail"
-    REPAIR = "repair"
 
 
 def plan(

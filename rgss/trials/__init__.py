@@ -7,13 +7,11 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.trials.conditions import DrawnValue, drawn_values
     from rgss.trials.filming import Film
-    from rgss.trials.goal_reasons import Obstacle
     from rgss.trials.impact import ClosingImpact, closing_impact
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
     from rgss.trials.move_kinds import MoveKind
-    from rgss.trials.plan import PlannedMove, TaskPlan
-    from rgss.trials.planner_searches import searches_of
+    from rgss.trials.planning import Obstacle, PlannedMove, TaskPlan, searches_of
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.second_engine import mujoco_settings
     from rgss.trials.settings import PlanningSettings, TrialSettings

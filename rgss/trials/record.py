@@ -19,7 +19,7 @@ from rgss.evidence import (
 from rgss.trials.conditions import conditions_of
 from rgss.trials.metrics import METRICS, Aggregation, Direction, MetricDescriptor
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.trial_spec import TrialSpec
 
 _PLANNING_FAILURES = {
@@ -128,7 +128,9 @@ def _not_planned(phase: Phase) -> PlanningRecord:
 
 
 def _limit_detail(planned: PlannedMove, spec: TrialSpec) -> str:
-    return f"{spec.planner} found no path in {spec.planning_limit_s:g} s ({planned.checks} validity checks)"
+    return (
+        f"{spec.planned_by.algorithm} found no path in {spec.planning_limit_s:g} s ({planned.checks} validity checks)"
+    )
 
 
 def _metrics(

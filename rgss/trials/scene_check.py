@@ -9,8 +9,7 @@ from enum import Enum
 
 from rgss.kinematics import Overlap, Solid, overlaps
 from rgss.scenes import Box, GripperGeometry, Pose, Scene, Shape, Waypoint
-from rgss.trials.goal_reasons import GoalReason
-from rgss.trials.plan import unserved_waypoints
+from rgss.trials.planning import GoalReason, unserved_waypoints
 from rgss.trials.workcell import Workcell
 
 TOUCHING_M = 1e-3

@@ -9,7 +9,7 @@ from rgss.evidence import Failure, Phase
 from rgss.motion import JointPath, MotionLimits, TimingOutcome, Trajectory, time_move
 from rgss.trials.conditions import conditions_of
 from rgss.trials.path_quality import PathQuality, path_quality
-from rgss.trials.plan import TaskPlan
+from rgss.trials.planning import TaskPlan
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
 from rgss.trials.trial_spec import TrialSpec

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from statistics import mean
 
 import pytest
+from scipy.stats import binom
 
 from rgss.assessment.measuring import measure_variants, require_complete, requirements_with_criteria
 from rgss.errors import EvidenceError
 from rgss.measures import Verdict
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of
-
-Z_95 = 1.959963984540054
 
 
 @pytest.fixture(scope="module")
@@ -60,18 +58,19 @@ def test_times_by_the_equations(measured):
 
 
 @pytest.mark.verifies("SYS-037")
-def test_success_is_a_proportion_with_wilsons_interval(measured):
+def test_success_is_a_proportion_with_the_interval_of_clopper_and_pearson(measured):
     for entry in measured:
         successes, trials = (2, 3) if entry.variant.id % 5 == 0 else (3, 3)
-        share = successes / trials
-        spread = 1 + Z_95**2 / trials
-        centre = (share + Z_95**2 / (2 * trials)) / spread
-        half = Z_95 / spread * math.sqrt(share * (1 - share) / trials + Z_95**2 / (4 * trials**2))
         estimate = entry.estimates["S"]
 
-        assert (estimate.value, estimate.n) == (share, trials)
-        assert estimate.low == pytest.approx(centre - half)
-        assert estimate.high == pytest.approx(min(centre + half, 1.0))
+        assert (estimate.value, estimate.n) == (successes / trials, trials)
+        # Each limit is the share at which so many successes, or so few, have a probability of 2.5 %.
+        assert binom.sf(successes - 1, trials, estimate.low) == pytest.approx(0.025)
+        assert (
+            estimate.high == 1.0
+            if successes == trials
+            else binom.cdf(successes, trials, estimate.high) == (pytest.approx(0.025))
+        )
         assert entry.estimates["S_mean"].value == pytest.approx((successes + (trials - successes) * 3 / 8) / trials)
 
 

@@ -106,7 +106,7 @@ def test_a_model_that_some_variants_share_leaves_the_others(folder, edit, eviden
 )
 def test_other_code_and_engines(shipped, record_of, tmp_path, name, cause):
     found = {**versions(), name: "another"}
-    code = {"rgss.trials.plan": "another"} if cause is CODE_CHANGED else None
+    code = {"rgss.trials.planning.plan": "another"} if cause is CODE_CHANGED else None
     with EvidenceStore.open(tmp_path / "evidence.sqlite") as store:
         fill(store, shipped, record_of, key=elsewhere, found=found, code=code)
         measured = measure_variants(shipped, store)

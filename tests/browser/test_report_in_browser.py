@@ -161,7 +161,8 @@ def test_texts_are_shown_as_texts(reader, study, tmp_path):
             term["levels"] = [f"{HOSTILE} {level}" for level in term["levels"]]
     document["planning"]["planners"][0]["name"] = HOSTILE
     document["trials"]["failures"] = [HOSTILE] * len(document["trials"]["failures"])
-    document["decision"]["reasons"] = [HOSTILE]
+    lists = ("standing", "reasons", "cautions", "readings")
+    document["decision"] |= {key: [HOSTILE] for key in lists}
     document["provenance"]["files"].append([HOSTILE, HOSTILE])
     document["assumptions"].append({"where": HOSTILE, "about": HOSTILE, "why": HOSTILE})
     file = tmp_path / "report.html"
@@ -174,7 +175,10 @@ def test_texts_are_shown_as_texts(reader, study, tmp_path):
     assert reader.script("return document.querySelectorAll('img, main b').length") == 0
     assert reader.requests() == []
     assert reader.complaints() == []
-    assert reader.text(".reasons li") == visible(HOSTILE)
+    told = reader.script(
+        "return Array.from(document.querySelectorAll('#decision .reasons li')).map((one) => one.textContent)"
+    )
+    assert told == [visible(HOSTILE)] * len(lists)
     assert visible(HOSTILE) in reader.text("#variant-evidence")
     assert "<b>bold</b>" in reader.text("#planning-plot")
 

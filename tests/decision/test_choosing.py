@@ -86,8 +86,8 @@ def test_a_variant_that_fails_too_often_is_infeasible(shipped, measured):
 
 @pytest.mark.parametrize("statistic", [Statistic.LOW, Statistic.HIGH])
 def test_a_criterion_may_ask_for_an_end_of_the_interval(shipped, measured, statistic):
-    """Three successes of three: Wilson's interval is from 0.44 to 1."""
-    project = with_criterion(shipped, "SYS-024", statistic=statistic, threshold=0.4)
+    """Three successes of three: the interval of Clopper and Pearson is from 0.29 to 1."""
+    project = with_criterion(shipped, "SYS-024", statistic=statistic, threshold=0.25)
     problem = trade_problem(project, measured)
     (threshold,) = (each for each in problem.thresholds if each.requirement == "SYS-024")
     found = {each.variant: each.measures[threshold.measure] for each in problem.alternatives}
@@ -96,7 +96,7 @@ def test_a_criterion_may_ask_for_an_end_of_the_interval(shipped, measured, stati
     assert problem.alternatives[0].measures["S"] == measured[0].estimates["S"].value
     assert found == {entry.variant.id: getattr(entry.estimates["S"], statistic.value) for entry in measured}
     assert choose(project, measured).chosen == brute_force(project, measured)[0][0]
-    strict = with_criterion(shipped, "SYS-024", statistic=Statistic.LOW, threshold=0.5)
+    strict = with_criterion(shipped, "SYS-024", statistic=Statistic.LOW, threshold=0.3)
     assert choose(strict, measured).chosen is None
     assert brute_force(strict, measured) == []
 

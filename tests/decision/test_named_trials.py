@@ -17,8 +17,14 @@ def keys(project, seeds=None):
     return {key_of(spec) for spec in trial_specs(project, seeds=seeds)}
 
 
+def reference(studies):
+    """The reference study among those of the project."""
+    (found,) = (study for study in studies if study.file == STUDY)
+    return found
+
+
 def test_a_study_names_its_trials_and_their_pieces(folder):
-    (study,) = naming_studies(folder, {})
+    study = reference(naming_studies(folder, {}))
     project = load_project(folder)
     assert study.file == STUDY
     assert study.own.trials == keys(project)
@@ -30,7 +36,7 @@ def test_a_study_names_its_trials_and_their_pieces(folder):
 
 
 def test_other_fidelities_and_more_replicates_are_named_as_far_as_there_is_evidence(folder):
-    (study,) = naming_studies(folder, {"contact": {1, 2, 9, 0, 10_001}, "kinematic": {4}})
+    study = reference(naming_studies(folder, {"contact": {1, 2, 9, 0, 10_001}, "kinematic": {4}}))
     project = load_project(folder)
     named = keys(project) | keys(project, seeds=[9])
     # Seed 0 is before the study's first, and seed 10001 beyond the greatest number of replicates.
@@ -43,9 +49,9 @@ def test_other_fidelities_and_more_replicates_are_named_as_far_as_there_is_evide
 
 
 def test_an_edit_changes_what_is_named(folder, edit):
-    (before,) = naming_studies(folder, {})
+    before = reference(naming_studies(folder, {}))
     edit("scenes/restaurant.yaml", "mass: 0.25 kg", "mass: 0.26 kg")
-    (after,) = naming_studies(folder, {})
+    after = reference(naming_studies(folder, {}))
     assert not before.own.trials & after.own.trials
     # The plans know nothing of masses.
     assert len(before.own.pieces & after.own.pieces) > 0
@@ -56,8 +62,10 @@ def test_every_study_of_the_folder_is_asked(folder):
     other = text.replace("study: pick_place", "study: other").replace("seed: 1", "seed: 100")
     (folder / "studies/other.yaml").write_text(other, encoding="utf-8")
     studies = naming_studies(folder, {})
-    assert [study.file for study in studies] == ["studies/other.yaml", STUDY]
-    assert not studies[0].own.trials & studies[1].own.trials
+    files = sorted(path.relative_to(folder).as_posix() for path in (folder / "studies").glob("*.yaml"))
+    assert [study.file for study in studies] == files
+    (named,) = (study for study in studies if study.file == "studies/other.yaml")
+    assert not named.own.trials & reference(studies).own.trials
 
 
 def test_a_study_that_cannot_be_read_may_name_anything(folder, edit):
@@ -70,7 +78,8 @@ def test_a_study_that_cannot_be_read_may_name_anything(folder, edit):
 
 
 def test_a_project_without_a_study(folder):
-    (folder / STUDY).unlink()
+    for path in (folder / "studies").glob("*.yaml"):
+        path.unlink()
     with pytest.raises(DefinitionError) as caught:
         naming_studies(folder, {})
     assert str(caught.value) == "the project has no study (a study is a file studies/NAME.yaml)"

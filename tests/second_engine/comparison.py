@@ -11,7 +11,7 @@ from rgss.scenes import Scene
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 from rgss.trials.executing import execute
-from rgss.trials.plan import TaskPlan, plan_task
+from rgss.trials.planning import TaskPlan, plan_task
 from rgss.trials.record import assemble_record
 from rgss.trials.second_engine import mujoco_settings
 from rgss.trials.timing import TaskTiming, time_task

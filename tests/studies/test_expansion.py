@@ -8,6 +8,7 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.motion import ClockKind
+from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
 from rgss.studies.expansion import trial_settings, trial_specs
 from rgss.studies.project import load_project
 
@@ -58,7 +59,8 @@ def test_a_trial_has_the_values_of_its_design(shipped):
         assert spec.tool_speed_m_s == values["d7"]
         assert spec.planner == values["d8"]
         assert spec.planning_limit_s == values["d9"]
-        assert spec.scene is shipped.scene
+        assert spec.scene == replace(shipped.scene, uncertainty=NOTHING_UNCERTAIN)
+        assert spec.uncertainty == shipped.uncertainty
 
 
 def test_settings_are_the_studys_and_searches_as_long_as_the_longest_limit(folder, edit):

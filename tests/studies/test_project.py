@@ -125,7 +125,8 @@ def test_a_study_is_named_relative_to_the_project_or_to_here(folder, edit, monke
 
 
 def test_the_default_study_is_that_of_the_project_wherever_one_stands(folder, problems, shipped, monkeypatch):
-    (folder / STUDY).unlink()
+    for path in (folder / "studies").glob("*.yaml"):
+        path.unlink()
     monkeypatch.chdir(shipped.folder)
 
     assert problems() == [f"{STUDY}:1:1: error: no such file (check the name and --project) [document.missing]"]

@@ -315,11 +315,14 @@ def test_named_inputs_are_those_of_all_seeds_and_leave_out_what_is_none(shipped)
         "scene",
         "gripper",
         "planner",
+        "planner_settings",
         "planning_limit_s",
         "tool_speed_m_s",
         "settings",
+        "uncertainty",
+        "workload",
         "code",
     }
     assert "colour" not in repr(inputs.values)
     assert len(inputs.values["scene"]["robot"]["urdf"]) == 12
-    assert "rgss.trials.plan" in inputs.values["code"]
+    assert "rgss.trials.planning.plan" in inputs.values["code"]

@@ -78,6 +78,7 @@ def test_a_changed_design_names_the_pieces_and_every_value_that_differs(kinemati
         "phases[grasp].duration_s",
         "phases[place].duration_s",
         "phases[place].metrics.opening_s",
+        "metrics.attempt_time_s",
         "metrics.grasp_cycle_time_s",
         "metrics.motion_time_s",
         "metrics.task_time_s",

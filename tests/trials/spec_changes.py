@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rgss.evidence import PLANNED_PHASES
 from rgss.scenes import Box, Pose, SceneBody
+from rgss.trials.move_kinds import MoveKind
 
 
 def with_scene(spec, **changes):
@@ -37,6 +39,16 @@ def with_gripper(spec, **changes):
 
 def with_control(spec, **changes):
     return replace(spec, settings=replace(spec.settings, control=replace(spec.settings.control, **changes)))
+
+
+def with_planning(spec, **changes):
+    return replace(spec, settings=replace(spec.settings, planning=replace(spec.settings.planning, **changes)))
+
+
+def with_moves(spec, **kinds):
+    """Some moves of another kind than planned."""
+    moves = tuple(MoveKind(kinds.get(phase.value, "planned")) for phase in PLANNED_PHASES)
+    return with_planning(spec, moves=moves)
 
 
 def with_joint(spec, name, torque_n_m):

@@ -38,9 +38,9 @@ def test_without_uncertainty_all_is_as_the_files_say(spec_of):
     spec = spec_of(65)
     conditions = conditions_of(spec)
 
-    assert conditions.true_scene is spec.scene
-    assert conditions.perceived_scene is spec.scene
-    assert conditions.true_gripper is spec.gripper
+    assert conditions.true_scene == spec.scene
+    assert conditions.perceived_scene == spec.scene
+    assert conditions.true_gripper == spec.gripper
     assert (conditions.case, dict(conditions.draws), conditions.is_grip_known) == ("", {}, True)
 
 

@@ -13,23 +13,17 @@ from rgss.evidence import PLANNED_PHASES, Failure, Fidelity, Phase, PlanOutcome
 from rgss.kinematics import InverseKinematics
 from rgss.motion import ClockKind, PlanningClock
 from rgss.scenes import Waypoint, waypoint_poses
-from rgss.trials.direct_moves import direct_move
 from rgss.trials.move_kinds import MoveKind
 from rgss.trials.pieces import Pieces
 from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
-from rgss.trials.plan import plan_of
+from rgss.trials.planning import direct_move, plan_of
 from rgss.trials.workcell import cell_of
+
+from .spec_changes import with_moves
 
 pytestmark = pytest.mark.engine
 
 RESOLUTION_RAD = 0.01
-
-
-def with_moves(spec, **kinds):
-    """The trial with some moves of another kind."""
-    moves = tuple(MoveKind(kinds.get(phase.value, "planned")) for phase in PLANNED_PHASES)
-    settings = spec.settings
-    return replace(spec, settings=replace(settings, planning=replace(settings.planning, moves=moves)))
 
 
 @pytest.fixture(scope="module")

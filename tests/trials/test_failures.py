@@ -15,7 +15,7 @@ from rgss.scenes import Cylinder, Pose
 from rgss.trials import timing as timing_module
 from rgss.trials.pieces.input_digests import TrialSpec
 from rgss.trials.pieces.run import execute, run_trial
-from rgss.trials.plan import TaskPlan, plan_task
+from rgss.trials.planning import TaskPlan, plan_task
 from rgss.trials.record import assemble_record
 from rgss.trials.timing import TaskTiming, time_task
 from rgss.trials.workcell import Workcell
@@ -27,7 +27,9 @@ from .spec_changes import (
     with_cup_of,
     with_gripper,
     with_joint,
+    with_moves,
     with_place,
+    with_planning,
     with_slippery_slope,
     with_task,
     with_workpiece,
@@ -38,8 +40,33 @@ pytestmark = pytest.mark.engine
 
 TRIALS = {
     "a limit that no search keeps": (
-        lambda spec: replace(spec, planning_limit_s=0.01),
+        # The name that a study gives the planner is not in what trials share.
+        lambda spec: replace(spec, planner="quick", planning_limit_s=0.01),
         (Failure.PLANNING_LIMIT, Phase.MOVE_TO_GRASP, r"RRT found no path in 0\.01 s \(\d+ validity checks\)"),
+    ),
+    "a path that touches something between the states of the search": (
+        lambda spec: with_planning(spec, resolution_rad=2.0, verification_resolution_rad=0.005),
+        (
+            Failure.PATH_NOT_VERIFIED,
+            Phase.MOVE_TO_PLACE_APPROACH,
+            r"the path that was found after \d+ validity checks touches something between states 2 rad apart",
+        ),
+    ),
+    "a joint move past the coffee machine": (
+        lambda spec: with_moves(spec, move_to_place_approach="joint"),
+        (
+            Failure.MOVE_BLOCKED,
+            Phase.MOVE_TO_PLACE_APPROACH,
+            r"the straight line of the joints is blocked at \d+ % of the way: gripper_base is .* coffee_machine, .*",
+        ),
+    ),
+    "a straight move through the arm's own foot": (
+        lambda spec: with_place(with_moves(spec, move_to_place_approach="straight"), centre_m=(-0.7, 0.3, 0.9)),
+        (
+            Failure.MOVE_UNREACHABLE,
+            Phase.MOVE_TO_PLACE_APPROACH,
+            r"the straight line of the tool ends at \d+ % of the way: the arm does not reach .*",
+        ),
     ),
     "a cup out of reach": (
         lambda spec: with_cup_at(spec, 3.0, -0.3),
@@ -366,7 +393,7 @@ class StickyWorld(World):
     [(StuckWorld, "a finger is still 2.0 mm from open"), (StickyWorld, "1 fingers still touch the object")],
 )
 def test_a_hand_that_does_not_let_go_is_named(planned, monkeypatch, world, detail):
-    monkeypatch.setattr("rgss.trials.executing.World", world)
+    monkeypatch.setattr("rgss.physics.opening.World", world)
     record = planned.run_in(planned.spec)
 
     assert (record.failure, record.failed_phase) == (Failure.NOT_RELEASED, Phase.PLACE)

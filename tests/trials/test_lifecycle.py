@@ -14,7 +14,7 @@ from rgss.physics import TorqueArm
 from rgss.physics.engine import pybullet
 from rgss.trials.lifecycle import Simulation, SimulationState
 from rgss.trials.pieces.run import run_trial
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 
 pytestmark = pytest.mark.engine
 
@@ -47,7 +47,7 @@ def plan_once(monkeypatch, plans):
             plans[key] = plan_task(cell, planner, seed=seed, settings=settings)
         return plans[key]
 
-    monkeypatch.setattr("rgss.trials.plan.plan_task", cached)
+    monkeypatch.setattr("rgss.trials.planning.plan.plan_task", cached)
 
 
 @pytest.fixture
@@ -370,7 +370,9 @@ def test_a_trial_that_cannot_run_ends_the_simulation(trial):
 def test_what_fails_to_initialise_is_not_ready(trial, monkeypatch):
     simulation = Simulation(trial())
     with monkeypatch.context() as patch:
-        patch.setattr("rgss.trials.plan.plan_task", lambda *_, **__: (_ for _ in ()).throw(RuntimeError("no plan")))
+        patch.setattr(
+            "rgss.trials.planning.plan.plan_task", lambda *_, **__: (_ for _ in ()).throw(RuntimeError("no plan"))
+        )
         with pytest.raises(RuntimeError, match="no plan"):
             simulation.initialise()
     assert simulation.state is SimulationState.CREATED

@@ -22,7 +22,7 @@ from rgss.scenes import Pose
 from rgss.trials import timing
 from rgss.trials.execution import CARRYING, Execution
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
@@ -55,7 +55,7 @@ def walked(machine, fails_in=None, by=None):
     phases = []
     while here.kind not in (StateKind.FINAL, StateKind.FAILED):
         phases += [Phase(here.phase)] if here.phase else []
-        failure = by.value if phases and phases[-1] is fails_in else ""
+        failure = by.value if phases and phases[-1] is fails_in else None
         (way,) = (way for way in machine.transitions if (way.source, way.failure) == (here.id, failure))
         here = states[way.target]
     return phases, here.kind
@@ -171,7 +171,7 @@ def planning_failures(spec):
     found = set()
     results = run_program(ScriptedPlant(), REFERENCES)
     for phase in PLANNED_PHASES:
-        for outcome in (PlanOutcome.BUDGET_SPENT, PlanOutcome.INVALID_START, PlanOutcome.INVALID_GOAL):
+        for outcome in set(PlanOutcome) - {PlanOutcome.SOLVED, PlanOutcome.NOT_RUN}:
             record = assemble_record(spec, plan(**{phase.value: outcome}), {}, results)
             found.add((record.failed_phase, record.failure))
     return found

@@ -9,7 +9,7 @@ import pytest
 
 from rgss.evidence import Phase
 from rgss.trials.path_quality import manipulability, path_quality
-from rgss.trials.plan import plan_of
+from rgss.trials.planning import plan_of
 from rgss.trials.timing import timing_of
 from rgss.trials.workcell import cell_of
 

@@ -12,9 +12,7 @@ from rgss.motion import Objective, OnUnverified, PlannerSettings, available_plan
 from rgss.trials.code import versions
 from rgss.trials.pieces import digests_of, plan_from_json
 from rgss.trials.pieces.plan_json import plan_to_json
-from rgss.trials.plan import plan_of
-from rgss.trials.planner_searches import searches_of
-from rgss.trials.planning_costs import state_cost
+from rgss.trials.planning import plan_of, searches_of, state_cost
 from rgss.trials.workcell import cell_of
 
 pytestmark = pytest.mark.engine

@@ -9,7 +9,7 @@ import pytest
 from rgss.evidence import PLANNED_PHASES, PlanOutcome
 from rgss.motion import ClockKind, PlanningClock
 from rgss.studies.expansion import trial_specs
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.workcell import Workcell, workcell_of
 
 pytestmark = [pytest.mark.engine, pytest.mark.slow]

@@ -14,7 +14,7 @@ from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, PlanOutc
 from rgss.motion import PlanningClock
 from rgss.trials.metrics import METRICS
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.record import assemble_record
 
 CHARGE_S = 0.001

@@ -12,7 +12,7 @@ from rgss.evidence import Phase
 from rgss.physics import World
 from rgss.trials.execution import Execution
 from rgss.trials.pieces.run import run_trial
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -62,7 +63,7 @@ ONE_WORKLOAD = Workload()
 @lru_cache(maxsize=64)
 def _block(replicates: Sequence[int]) -> tuple[int, ...]:
     """The cases of a block of seeds in turn, spread as evenly as may be: next is the one that is most behind."""
-    total = sum(replicates)
+    total = int(math.fsum(replicates))
     counts = [0] * len(replicates)
     order = []
     for position in range(1, total + 1):

@@ -19,6 +19,7 @@ from rgss.tradeoff.problem.alternatives import Array
 _POOL_DRAWS = 2_000
 _LEAST_RATIO = 0.02
 _LEAST_SPREAD = 0.02
+_LEAST_OWN = 0.05
 _STRENGTHS = 2.0 ** np.arange(-1, 8)
 _MEANS = np.linspace(0.005, 0.995, 67)
 
@@ -99,7 +100,12 @@ def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, genera
     _, first = np.unique(groups, return_index=True)
     successes = np.where(known, values, 0.0).sum(axis=1)[first]
     trials = known.sum(axis=1)[first]
-    mean, strength = _populations(successes, trials, draws, generator)
+    # What befalls all alternatives in a seed tells none apart: only the rest is noise between them, which the
+    # population's strength is weighed against.
+    rates = (successes / np.maximum(trials, 1))[:, None]
+    own = max(_LEAST_OWN, _own_share(np.where(known[first], values[first] - rates, 0.0), known[first]))
+    mean, strength = _populations(successes / own, trials / own, draws, generator)
+    strength = strength * own
     shape = (draws, len(first))
     more = generator.standard_gamma(np.broadcast_to((mean * strength)[:, None], shape))[:, groups]
     less = generator.standard_gamma(np.broadcast_to(((1.0 - mean) * strength)[:, None], shape))[:, groups]
@@ -109,9 +115,7 @@ def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, genera
     return np.where(known.any(axis=1) & (total > 0.0), won / np.maximum(total, 1e-300), np.nan)
 
 
-def _populations(
-    successes: Array, trials: NDArray[np.int64], draws: int, generator: np.random.Generator
-) -> tuple[Array, Array]:
+def _populations(successes: Array, trials: Array, draws: int, generator: np.random.Generator) -> tuple[Array, Array]:
     """The mean and the strength of the population of proportions in each draw, from their posterior on a grid.
 
     The mean has Jeffreys's prior. The share by which a single trial is drawn to the mean, s / (1 + s)

@@ -84,7 +84,7 @@ class SourceTree:
         """Follow imports, wherever in a module they stand.
 
         Args:
-            entries: Modules of the package, such as ``rgss.trials.plan``, all of whose imports are followed;
+            entries: Modules of the package, such as ``rgss.trials.planning.plan``, all of whose imports are followed;
                 functions, such as ``rgss.trials.pieces.pieces:make_plan``, whose module counts as a whole, but of whose
                 imports only those are followed that the function uses, itself or through others of its module;
                 and modules with a colon and nothing behind it, which count without their imports.

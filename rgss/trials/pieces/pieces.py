@@ -23,7 +23,7 @@ from rgss.trials.pieces.input_digests import TrialDigests
 from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.pieces.timing_json import timing_from_json, timing_to_json
-from rgss.trials.plan import plan_of
+from rgss.trials.planning import plan_of
 from rgss.trials.record import assemble_record
 from rgss.trials.timing import timing_of
 from rgss.trials.trial_spec import TrialSpec

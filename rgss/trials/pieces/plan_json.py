@@ -10,7 +10,7 @@ from rgss.evidence import Phase, PlanOutcome, read_json
 from rgss.motion import PlanningClock
 from rgss.trials.pieces.float_array import Array, FloatArray
 from rgss.trials.pieces.plain_values import to_plain
-from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.planning import PlannedMove, TaskPlan
 
 _LARGEST_ARM = 16
 

@@ -13,7 +13,7 @@ from rgss.trials.monitors import StepObserver
 from rgss.trials.payload_bench import BenchSpec, PayloadResult, bench_of, run_bench
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.pieces.input_digests import TrialDigests, digests_of
-from rgss.trials.plan import TaskPlan, plan_of
+from rgss.trials.planning import TaskPlan, plan_of
 from rgss.trials.record import assemble_record
 from rgss.trials.timing import TaskTiming, timing_of
 from rgss.trials.trial_spec import TrialSpec

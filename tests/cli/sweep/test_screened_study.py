@@ -84,7 +84,8 @@ def test_a_cluster_screens_as_this_machine_does(rgss, asked, swept):
 
 def test_nothing_is_left_to_do(rgss, swept):
     assert rgss("sweep", "--dry-run", "--project", swept).output.startswith("10 trials: 0 to run, 10 from evidence.")
-    (row,) = rgss("evidence", "--json", "--project", swept).document["studies"]
+    rows = rgss("evidence", "--json", "--project", swept).document["studies"]
+    (row,) = [row for row in rows if row["study"] == STUDY]
     assert (row["trials"], row["with_evidence"], row["missing"]) == (10, 10, 0)
     assert "nothing to remove" in rgss("evidence", "gc", "--strict", "--project", swept).output
 

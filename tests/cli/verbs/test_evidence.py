@@ -39,6 +39,10 @@ def edit(folder, file, old, new):
     (folder / file).write_text(text.replace(old, new, 1), encoding="utf-8")
 
 
+def studies_of(folder):
+    return sorted(path.relative_to(folder).as_posix() for path in (folder / "studies").glob("*.yaml"))
+
+
 def count(folder):
     with EvidenceStore.open(folder / EVIDENCE) as store:
         return len(store)
@@ -53,7 +57,11 @@ def test_a_summary(rgss, with_evidence):
     assert first.endswith((" kB", " MB"))
     assert trials == "Trials: 216; 216 current (216 contact), 0 stale"
     assert pieces == "Pieces: 0"
-    assert rest[-1].split() == [STUDY, "contact", "216", "216", "0", "0"]
+    rows = [line.split() for line in rest if line.startswith("studies/")]
+    assert sorted(row[0] for row in rows) == studies_of(with_evidence)
+    assert [STUDY, "contact", "216", "216", "0", "0"] in rows
+    # What was put there is of the default study, and nothing of another one.
+    assert {row[3] for row in rows if row[0] != STUDY} <= {"0"}
 
 
 def test_a_summary_of_stale_evidence_and_of_failures(rgss, spoilt):
@@ -75,16 +83,16 @@ def test_a_summary_of_stale_evidence_and_of_failures(rgss, spoilt):
 
     document = rgss("evidence", "--json", "--project", spoilt).document
     assert (document["trials"], document["current"], document["stale"]) == (216, {}, {"contact": 216})
-    assert document["studies"] == [
-        {
-            "study": STUDY,
-            "fidelity": "contact",
-            "trials": 216,
-            "with_evidence": 0,
-            "missing": 216,
-            "failures_of_the_run": 1,
-        }
-    ]
+    (told_of,) = [one for one in document["studies"] if one["study"] == STUDY]
+    assert told_of == {
+        "study": STUDY,
+        "fidelity": "contact",
+        "trials": 216,
+        "with_evidence": 0,
+        "missing": 216,
+        "failures_of_the_run": 1,
+    }
+    assert sorted(one["study"] for one in document["studies"]) == studies_of(spoilt)
     assert {one["kind"] for one in document["failures_of_the_run"]} == {"timed_out", "crashed"}
 
 

@@ -112,10 +112,10 @@ def test_another_result_is_a_finding_that_says_what_changed(capsys, folder):
     assert replay(folder, TRIAL) == 1
     lines = capsys.readouterr().out.splitlines()
     assert lines[1] == "  other inputs than then: execution, trial"
-    assert lines[2] == "6 values differ:"
+    assert lines[2] == "7 values differ:"
     assert lines[3].split() == ["value", "then", "now"]
     assert lines[5].split()[0] == "phases[grasp].duration_s"
-    assert len(lines) == 11
+    assert len(lines) == 12
 
 
 @pytest.mark.engine
@@ -126,7 +126,7 @@ def test_another_result_as_json(capsys, folder):
     assert found["same"] is False
     assert found["digest_then"] != found["digest_now"]
     assert found["changed_inputs"] == ["execution", "trial"]
-    assert len(found["differences"]) == 6
+    assert len(found["differences"]) == 7
     assert all(set(change) == {"name", "then", "now", "deviation"} for change in found["differences"])
     assert found["agreement"] == "different"
 

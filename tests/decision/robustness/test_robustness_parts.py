@@ -23,7 +23,7 @@ FUNCTIONS = {
     Part.ACCEPTABILITY: "smaa2",
     Part.ASSUMPTIONS: "assumption_findings",
     Part.COSTS: "cost_box",
-    Part.PRICES: "price_list",
+    Part.PRICES: "requirement_prices",
     Part.REVERSALS: "rank_reversals",
     Part.EFFECTS: "study_effects",
 }

@@ -74,6 +74,10 @@ def test_every_printed_name_is_taken(monkeypatch, shipped, measured, study):
             text, unit = f"{numbers[name].value * 1.01!r}", numbers[name].unit
         elif name in demands:
             text, unit = f"{demands[name].value * 1.01!r}", demands[name].unit
+        elif name.startswith("value."):
+            _, measure, end = name.split(".")
+            (valued,) = (one for one in project.study.values if one.measure == measure)
+            text, unit = f"{getattr(valued, end) * 1.01!r}", project.measures.measure(measure).unit
         else:
             text, unit = "0.3", "1"
         scenario = suppose(project, [f"{name}={text} {unit if unit != '1' else ''}".rstrip()])

@@ -93,8 +93,8 @@ def test_every_behaviour_is_drawn_with_all_that_it_has(shipped, drawings):
         if one.kind is BehaviourKind.USE_CASE:
             assert all(squeezed(text) in words["use-cases"] for text in (one.id, one.name, *one.actors)), one.id
         if one.flow is not None:
-            named = [node.text for node in one.flow.nodes] + [node.does for node in one.flow.nodes if node.does]
-            named += [edge.guard for edge in one.flow.edges]
+            named = [said for node in one.flow.nodes for said in (node.text, node.does) if said]
+            named += [edge.guard for edge in one.flow.edges if edge.guard]
             assert [text for text in named if squeezed(text) not in words[f"activity-{one.id}"]] == [], one.id
         if one.interaction is not None:
             named = [*one.interaction.lifelines, *(message.text for message in one.interaction.messages)]
@@ -104,7 +104,7 @@ def test_every_behaviour_is_drawn_with_all_that_it_has(shipped, drawings):
         if one.machine is not None:
             named = [state.name for state in one.machine.states if state.name]
             named += [state.does for state in one.machine.states if state.does]
-            named += [way.guard for way in one.machine.transitions] + [way.failure for way in one.machine.transitions]
+            named += [said for way in one.machine.transitions for said in (way.guard, way.failure) if said]
             assert [text for text in named if squeezed(text) not in words[f"states-{one.id}"]] == [], one.id
 
 

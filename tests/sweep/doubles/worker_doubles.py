@@ -21,7 +21,7 @@ from rgss.trials.pieces.input_digests import TrialDigests
 from rgss.trials.pieces.pieces import Task, TrialTask, make_piece, record_of, tasks_of
 from rgss.trials.pieces.plan_json import plan_to_json
 from rgss.trials.pieces.timing_json import timing_to_json
-from rgss.trials.plan import PlannedMove, TaskPlan
+from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.timing import TaskTiming
 
 FOLDER = "WORKER_DOUBLES_FOLDER"

@@ -144,5 +144,5 @@ def test_a_symbol_touches_the_measures_that_use_it(model, tmp_path, story):
 
 
 def test_an_id_that_is_not_there(model, story):
-    with pytest.raises(DefinitionError, match="'SYS-9' is no id"):
+    with pytest.raises(DefinitionError, match="'SYS-9' is not an id"):
         impact_of(model, story.evidence(), "SYS-9")

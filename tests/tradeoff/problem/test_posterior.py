@@ -92,3 +92,17 @@ def test_intervals_of_means_cover_the_truth_over_a_population(sigma):
         low, high = np.quantile(drawn, [0.05, 0.95], axis=0)
         covered.append(((low <= truth) & (truth <= high)).mean())
     assert 0.84 <= np.mean(covered) <= 0.97
+
+
+def test_luck_that_all_share_draws_the_best_less_to_the_population():
+    # The same successes, once nested seed by seed and once in seeds of their own.
+    nested = np.array([[1.0] * won + [0.0] * (16 - won) for won in range(4, 16)])
+    generator = np.random.default_rng(5)
+    apart = np.array([generator.permutation(row) for row in nested])
+
+    def best(values):
+        rows = [ObservedRows(values=values, is_proportion=True)]
+        (found,) = posterior_means(rows, draws=4_000, generator=np.random.default_rng(6))
+        return float(found[:, -1].mean())
+
+    assert best(apart) + 0.02 < best(nested) < 15 / 16

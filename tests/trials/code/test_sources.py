@@ -331,4 +331,6 @@ def test_every_engine_has_its_version_told(piece):
 
 def test_the_code_of_trials_is_that_of_all_pieces():
     assert {*code_of_trials()} == {module for piece in ENTRIES for module in source_of(piece).modules}
-    assert code_of_trials()["rgss.trials.plan"] == own_sources().module_digest("rgss.trials.plan")[:12]
+    assert (
+        code_of_trials()["rgss.trials.planning.plan"] == own_sources().module_digest("rgss.trials.planning.plan")[:12]
+    )

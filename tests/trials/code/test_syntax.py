@@ -187,7 +187,7 @@ def test_a_function_counts_with_the_imports_that_it_uses(package):
         tree.closure_of(["pack.entry:gone"])
 
 
-SPEED = "tool_speed_m_s=spec.tool_speed_m_s"
+SPEED = "conditions_of(spec).tool_speed_m_s"
 
 
 @pytest.mark.parametrize(
@@ -200,7 +200,7 @@ SPEED = "tool_speed_m_s=spec.tool_speed_m_s"
         ("trials/pieces/run.py", "Begin with no pieces.", "Begin with nothing at all.", set()),
         ("trials/metrics/task_metrics.py", "how many states the task has", "number of phases", set()),
         ("trials/metrics/task_metrics.py", "trial=Aggregation.LEAST", "trial=Aggregation.LAST", {"record"}),
-        ("trials/plan.py", "# The task is done as far as", "# It is done as far as", set()),
+        ("trials/planning/plan.py", "# The task is done as far as", "# It is done as far as", set()),
     ],
 )
 def test_a_change_of_the_code_reaches_the_pieces_that_run_it(tmp_path, file, old, new, pieces):

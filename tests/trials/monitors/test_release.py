@@ -16,7 +16,7 @@ from rgss.scenes import FORCE_WINDOW_S, LANDING_LIMIT_M_S, Pose
 from rgss.trials.execution import Execution
 from rgss.trials.monitors.drag_monitor import DragMonitor
 from rgss.trials.monitors.release_monitor import PlacedObjectMonitor, lowest_point_m
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task

@@ -12,7 +12,7 @@ from dataclasses import replace
 import pytest
 
 from rgss.evidence import Fidelity, PieceKind
-from rgss.motion import ClockKind, PlanningClock
+from rgss.motion import ClockKind, Objective, PlanningClock
 from rgss.scenes import Pose
 from rgss.scenes.robot import RobotFile
 from rgss.studies.expansion import trial_specs
@@ -55,6 +55,10 @@ def with_gripper(spec, **changes):
     return replace(spec, gripper=replace(spec.gripper, **changes))
 
 
+def with_planner(spec, **changes):
+    return replace(spec, planner_settings=replace(spec.planned_by, **changes))
+
+
 def with_settings(spec, part, **changes):
     return replace(spec, settings=replace(spec.settings, **{part: replace(getattr(spec.settings, part), **changes)}))
 
@@ -79,7 +83,10 @@ CHANGES = {
     "physics rate": (GRIPPED, lambda spec: with_settings(spec, "physics", rate_hz=480.0)),
     "solver iterations": (GRIPPED, lambda spec: with_settings(spec, "physics", solver_iterations=51)),
     "tool speed": (LATER, lambda spec: replace(spec, tool_speed_m_s=0.7)),
-    "planner": (PLANNED, lambda spec: replace(spec, planner="STRIDE")),
+    "name of the planner": (set(), lambda spec: replace(spec, planner="quick")),
+    "planner": (PLANNED, lambda spec: with_planner(spec, algorithm="STRIDE")),
+    "parameter of the planner": (PLANNED, lambda spec: with_planner(spec, parameters=(("range", 0.3),))),
+    "objective of the planner": (PLANNED, lambda spec: with_planner(spec, objective=Objective.CLEARANCE)),
     "seed": (PLANNED, lambda spec: replace(spec, seed=2)),
     "gripper's shape": (
         ALL,

@@ -11,7 +11,7 @@ import pytest
 
 from rgss.errors import EvidenceError, MotionError
 from rgss.evidence import Failure, Fidelity, Phase, Piece, PieceKind, record_digest
-from rgss.motion import PlanningClock
+from rgss.motion import PlannerSettings, PlanningClock
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.bench_json import bench_from_json, bench_to_json
 from rgss.trials.pieces.execution_json import execution_from_json, execution_to_json
@@ -21,7 +21,7 @@ from rgss.trials.pieces.pieces import PieceTask, TrialTask, make, make_piece, re
 from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.pieces.timing_json import timing_from_json, timing_to_json
-from rgss.trials.plan import TaskPlan, plan_task
+from rgss.trials.planning import TaskPlan, plan_task
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import workcell_of
 
@@ -147,9 +147,10 @@ def test_a_whole_trial_can_be_one_task(spec_of):
 
 @pytest.mark.engine
 def test_a_planner_that_is_not_there_is_an_error(spec_of):
-    task = PieceTask(digest="a" * 64, kind=PieceKind.PLAN, spec=replace(spec_of(65), planner="PRM"))
+    spec = replace(spec_of(65), planner_settings=PlannerSettings(algorithm="PRN"))
+    task = PieceTask(digest="a" * 64, kind=PieceKind.PLAN, spec=spec)
 
-    with pytest.raises(MotionError, match="unknown planner 'PRM'"):
+    with pytest.raises(MotionError, match="unknown planner 'PRN'"):
         make(task, {})
 
 

@@ -14,7 +14,7 @@ from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, record_d
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.pieces.run import Pieces, run_trial
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.workcell import Workcell
 
 pytestmark = pytest.mark.engine

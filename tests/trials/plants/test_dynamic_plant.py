@@ -13,7 +13,7 @@ from rgss.evidence import Failure, Fidelity, Phase, PhaseOutcome
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.trials.pieces.run import execute
-from rgss.trials.plan import plan_task
+from rgss.trials.planning import plan_task
 from rgss.trials.plants.dynamic_plant import ComputedTorque, DynamicPlant
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference, reference_of

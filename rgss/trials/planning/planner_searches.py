@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from rgss.trials.plan import TaskPlan, plan_task
+from rgss.trials.planning.plan import plan_task
+from rgss.trials.planning.planned_moves import TaskPlan
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import cell_of
 

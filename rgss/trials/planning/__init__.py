@@ -1,0 +1,30 @@
+"""Planning of a task: its moves, searched for or direct, and the reasons why a waypoint is not served."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.trials.planning.direct_moves import DirectMove, direct_move
+    from rgss.trials.planning.goal_reasons import GoalReason, Obstacle, reason_against
+    from rgss.trials.planning.plan import plan_of, plan_task, unserved_waypoints
+    from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
+    from rgss.trials.planning.planner_searches import searches_of
+    from rgss.trials.planning.planning_costs import state_cost
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "DirectMove",
+    "GoalReason",
+    "Obstacle",
+    "PlannedMove",
+    "TaskPlan",
+    "direct_move",
+    "plan_of",
+    "plan_task",
+    "reason_against",
+    "searches_of",
+    "state_cost",
+    "unserved_waypoints",
+]

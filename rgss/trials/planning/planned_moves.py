@@ -1,0 +1,87 @@
+"""Planned moves of a task, and what of them a planning limit leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from rgss.evidence import Phase, PlanOutcome
+from rgss.motion import ClockKind, PlanningClock
+from rgss.trials.reference import Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedMove:
+    """The planning of one move.
+
+    Attributes:
+        phase: The move.
+        outcome: How it ended.
+        checks: Validity checks of the search, of the verification of its path and of repairs.
+        simplification_checks: Validity checks of shortening the path.
+        search_time_s: Time of the search by the planning clock; what a limit is held against.
+        time_s: Planning time t_sp by the planning clock: search and simplification.
+        path_rad: The path's configurations (n, 6); None if there is none.
+        path_length_m: Length of the tool's path; None if there is none.
+        detail: What stands in the way, if the problem itself is ill posed or the path is not valid.
+        verification_checks: Those of `checks` that verified the path.
+        repairs: Motions of the path that were planned anew, because they were not valid.
+    """
+
+    phase: Phase
+    outcome: PlanOutcome
+    checks: int
+    simplification_checks: int
+    search_time_s: float
+    time_s: float
+    path_rad: Array | None
+    path_length_m: float | None
+    detail: str = ""
+    verification_checks: int = 0
+    repairs: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaskPlan:
+    """The five planned moves and the straight lift.
+
+    Attributes:
+        moves: The planned moves; those after a problem that is ill posed are missing.
+        lift_rad: Configurations (n, 6) of the straight lift; None if there is none.
+        clock: The clock that the searches were counted by.
+    """
+
+    moves: Mapping[Phase, PlannedMove]
+    lift_rad: Array | None
+    clock: PlanningClock
+
+    def move_within(self, phase: Phase, limit_s: float) -> PlannedMove:
+        """A move's planning as it would have been under a limit.
+
+        A search is a prefix of the same search with a longer limit, so the limit is read off it.
+
+        Args:
+            phase: The move.
+            limit_s: The planning limit; at most the one that the search was run with.
+        """
+        move = self.moves[phase]
+        if move.outcome in (PlanOutcome.INVALID_START, PlanOutcome.INVALID_GOAL):
+            return move
+        counted = self.clock.kind is ClockKind.COUNTED
+        budget = self.clock.checks_within(limit_s) if counted else move.checks
+        in_time = move.checks <= budget if counted else move.search_time_s <= limit_s
+        if move.outcome is not PlanOutcome.BUDGET_SPENT and in_time:
+            return move
+        return replace(
+            move,
+            outcome=PlanOutcome.BUDGET_SPENT,
+            checks=budget,
+            simplification_checks=0,
+            search_time_s=limit_s,
+            time_s=limit_s,
+            path_rad=None,
+            path_length_m=None,
+            detail="",
+            verification_checks=0,
+            repairs=0,
+        )
