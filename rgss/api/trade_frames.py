@@ -95,13 +95,15 @@ def acceptability_frame(found: Robustness) -> pd.DataFrame:
     Raises:
         TradeoffError: The weights were not analysed, or this could not be computed.
     """
-    indices = _computed(found, Part.ACCEPTABILITY, _weighting(found).acceptability)
+    weighting = _weighting(found)
+    indices = _computed(found, Part.ACCEPTABILITY, weighting.acceptability)
+    errors = indices.rank_errors[:, 0] if weighting.first_errors is None else weighting.first_errors
     rows = []
     for number, variant in enumerate(found.variants):
         row: Row = {
             "variant": variant,
             "first": float(indices.first[number]),
-            "first_error": float(indices.rank_errors[number, 0]),
+            "first_error": float(errors[number]),
             "unranked": float(indices.unranked[number]),
             "confidence": float(indices.confidence[number]),
         }

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rgss.studies.finding_suppression import without_consequences
     from rgss.studies.impact_check import impact_findings
     from rgss.studies.input_names import CODE, named_inputs
-    from rgss.studies.planner_section import planner_problem
+    from rgss.studies.planning import planner_problem
     from rgss.studies.project import (
         DEFAULT_STUDY,
         EVIDENCE,

@@ -17,8 +17,7 @@ from rgss.errors import QuantityError
 from rgss.findings import Finding
 from rgss.motion import available_planners
 from rgss.scenes import GripperFile, Robot
-from rgss.studies.planner_section import planner_problem, require_value
-from rgss.studies.planning_section import PlanningChoice
+from rgss.studies.planning import PlanningChoice, planner_problem, require_value
 from rgss.studies.trial_values import values_of
 
 GRIPPER = "gripper"

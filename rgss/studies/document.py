@@ -16,7 +16,7 @@ from rgss.documents import (
 )
 from rgss.findings import shown
 from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
-from rgss.studies.planning_section import PlanningEntry
+from rgss.studies.planning import PlanningEntry
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry

@@ -23,7 +23,7 @@ from rgss.scenes.uncertainty import (
     read_workload,
 )
 from rgss.studies.document import StudyDocument
-from rgss.studies.planning_section import PlanningChoice, read_planning
+from rgss.studies.planning import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression_section import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off

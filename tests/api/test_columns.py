@@ -64,7 +64,8 @@ def test_each_column_of_each_frame_is_described(study, name):
     frame = frame() if callable(frame) else frame
     known = described(name)
 
-    assert len(frame)
+    # The shipped study names no stakeholders; the columns are there all the same.
+    assert len(frame) or name == "stakeholders"
     assert list(frame.index.names) == [column.name for column in FRAMES[name].index]
     assert [column for column in frame.columns if not known.fullmatch(column)] == []
     for column in FRAMES[name].columns:
@@ -182,7 +183,7 @@ def test_the_example_of_the_page_runs(empty, monkeypatch):
 
     assert len(found["tried"]) == 4
     assert found["fastest"] in found["study"].trials.index
-    assert len(found["verdicts"]) == 4 * 6
+    assert len(found["verdicts"]) == 4 * 7
     assert found["trial"].success
 
 

@@ -12,7 +12,7 @@ from rgss.documents import Document, DocumentModel, Identifier, Metres, Radians,
 from rgss.evidence import PLANNED_PHASES
 from rgss.findings import Finding
 from rgss.motion import OnUnverified, PlannerSettings
-from rgss.studies.planner_section import PlannerField, planner_problem, read_planners
+from rgss.studies.planning.declared_planners import PlannerField, planner_problem, read_planners
 from rgss.trials import MoveKind
 
 

@@ -1,0 +1,19 @@
+"""The ``planning`` section of a study: clock, resolutions, limits, and the planners that it declares."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.studies.planning.declared_planners import planner_problem, require_value
+    from rgss.studies.planning.section import PlanningChoice, PlanningEntry, read_planning
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
+
+__all__ = [
+    "PlanningChoice",
+    "PlanningEntry",
+    "planner_problem",
+    "read_planning",
+    "require_value",
+]
