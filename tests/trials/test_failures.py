@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from rgss.errors import SimulationError
 from rgss.evidence import Failure, Phase, PhaseOutcome, PlanOutcome, TrialRecord
 from rgss.physics import World
 from rgss.scenes import Cylinder, Pose
@@ -399,8 +398,3 @@ def test_a_hand_that_does_not_let_go_is_named(planned, monkeypatch, world, detai
     assert (record.failure, record.failed_phase) == (Failure.NOT_RELEASED, Phase.PLACE)
     assert record.failure_detail == detail
     agrees_with_its_phases(record)
-
-
-def test_a_world_that_cannot_be_built_is_an_error(planned):
-    with pytest.raises(SimulationError, match="the workpiece cannot have the mass 0"):
-        planned.run_in(with_workpiece(planned.spec, mass_kg=0.0))

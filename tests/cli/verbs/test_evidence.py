@@ -373,31 +373,6 @@ def test_a_store_in_use_is_not_cleared_up(rgss, spoilt, monkeypatch):
     assert told.complaint.endswith(" open (wait until the sweep is done)")
 
 
-@pytest.mark.parametrize(
-    ("words", "complaint"),
-    [
-        (["nope"], "rgss evidence: argument ACTION: invalid choice: 'nope'"),
-        (["export"], "rgss evidence export: the following arguments are required: FILE"),
-        (["gc", "--apply", "--dry-run"], "rgss evidence gc: argument --dry-run: not allowed with argument --apply"),
-        (["verify", "--apply"], "rgss evidence verify: unrecognized arguments: --apply"),
-    ],
-)
-def test_words_that_are_not_understood(rgss, words, complaint):
-    told = rgss("evidence", *words)
-
-    assert (told.status, told.output) == (2, "")
-    assert told.complaint.startswith(complaint)
-
-
-@pytest.mark.parametrize("action", ["verify", "export", "gc"])
-def test_help_of_an_action(rgss, action):
-    told = rgss("evidence", action, "--help")
-
-    assert (told.status, told.errors) == (0, "")
-    assert told.output.startswith(f"usage: rgss evidence {action} ")
-    assert "--project DIR" in told.output
-
-
 def test_a_csv_file_is_one_that_spreadsheets_read(rgss, with_evidence, tmp_path):
     target = tmp_path / "trials.csv"
     rgss("evidence", "export", target, "--project", with_evidence)
