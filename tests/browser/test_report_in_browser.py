@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from itertools import permutations
 
 import pytest
 from selenium.webdriver.common.action_chains import ActionChains
@@ -97,18 +98,20 @@ def test_a_weight_ranks_the_variants_anew_as_the_figures_say(reader, page, study
     assert before == [variant for _, variant in ranked[:10]]
     assert reader.text("#weight-winner") == f"Variant {document['decision']['chosen']} stays the best."
 
-    place = next(index for index, one in enumerate(weighted) if one["id"] == "t_e")
-    cost = next(index for index, one in enumerate(weighted) if one["id"] == "C_total")
-    reader.driver.find_element(By.ID, f"weight-{place}").send_keys(Keys.END)
-    reader.driver.find_element(By.ID, f"weight-{cost}").send_keys(Keys.HOME)
-    raw = [one["weight"] for one in weighted]
-    raw[place], raw[cost] = 1.0, 0.0
-
-    def value(row):
+    def worth(row, raw):
         worths = [one["worth"][row] if isinstance(one["worth"], list) else one["worth"] for one in weighted]
         return sum(share / sum(raw) * worth for share, worth in zip(raw, worths, strict=True) if share)
 
-    expected = sorted((-round(value(row), 9), ids[row]) for row in range(len(ids)) if feasible[row])
+    def ranking(full, none):
+        raw = [1.0 if at == full else 0.0 if at == none else one["weight"] for at, one in enumerate(weighted)]
+        return sorted((-round(worth(row, raw), 9), ids[row]) for row in range(len(ids)) if feasible[row])
+
+    # A pair of weights, one at its end and one at 0, that changes the first place.
+    chosen = document["decision"]["chosen"]
+    full, none = next(pair for pair in permutations(range(len(weighted)), 2) if ranking(*pair)[0][1] != chosen)
+    expected = ranking(full, none)
+    reader.driver.find_element(By.ID, f"weight-{full}").send_keys(Keys.END)
+    reader.driver.find_element(By.ID, f"weight-{none}").send_keys(Keys.HOME)
     after = reader.rows("#ranking-table")
     assert [int(row[1]) for row in after] == [variant for _, variant in expected[:10]]
     assert [float(row[2]) for row in after] == pytest.approx([-one for one, _ in expected[:10]], abs=5e-5)

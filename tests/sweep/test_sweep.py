@@ -184,7 +184,7 @@ def test_an_edit_makes_anew_what_depends_on_it_and_nothing_else(shipped, folder,
 
 UNSEEN = {
     "a colour": ("scenes/restaurant.yaml", 'colour: "#6b625b"', 'colour: "#123456"'),
-    "the cost of a planner": ("designs/catalogue.yaml", "      value: 600 USD", "      value: 700 USD"),
+    "the price of a gripper": ("designs/catalogue.yaml", "      value: 5200 USD", "      value: 5300 USD"),
 }
 
 

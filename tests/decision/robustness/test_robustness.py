@@ -164,7 +164,7 @@ def test_all_costs_together(found, decision, winners):
     lost = decided(assumed + (box.range.corner - assumed) * 1.001)
     assert not set(decision.ties) & lost
     assert lost & of(found, box.range.overtaken_by) or not box.range.overtaken_by
-    assert box.unmoved == ("catalogue.rrt.cost",)
+    assert box.unmoved == ("catalogue.rrt.cost", "catalogue.trrt.cost", "catalogue.stride.cost")
 
 
 def test_prices_against_deciding_anew(found, shipped, winners):

@@ -162,7 +162,7 @@ def test_the_largest_swing_comes_first_and_every_input_is_there(wide, shipped):
     # Anchored on a requirement: it moves with the threshold.
     assert "value.t_e.worst" not in names
     assert all(bar.basis is RangeBasis.SHARE for bar in found.tornado.bars)
-    assert found.tornado.without_range == ("catalogue.rrt.cost",)
+    assert found.tornado.without_range == ("catalogue.rrt.cost", "catalogue.trrt.cost", "catalogue.stride.cost")
 
 
 def test_stated_and_elicited_ranges_are_taken(analysed):
