@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from rgss.designs import DesignSpace, DesignVariant
 from rgss.errors import DefinitionError
 from rgss.tradeoff import Incompatibility, LevelFactor, LevelSpace, LevelStructure, smallest_table
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 def level_structure(designs: DesignSpace, variants: Sequence[DesignVariant]) -> LevelStructure:
@@ -54,3 +59,25 @@ def level_structure(designs: DesignSpace, variants: Sequence[DesignVariant]) -> 
         space=space,
         levels={variant.id: tuple(variant.levels[factor] for factor in factors) for variant in variants},
     )
+
+
+def level_numbers(designs: DesignSpace, variants: Sequence[int]) -> NDArray[np.intp] | None:
+    """The level of each variant in each factor as a number, shape (variants, factors).
+
+    Args:
+        designs: The design space.
+        variants: Ids of variants.
+
+    Returns:
+        The numbers; None where designs are a sample of ranges, or a variant is none of the design space.
+    """
+    import numpy as np
+
+    factors = tuple(factor.id for factor in designs.factors)
+    if designs.sample is not None or not factors:
+        return None
+    levels = {number: row for number, row, _ in designs.combinations()}
+    if not levels.keys() >= set(variants):
+        return None
+    columns = [np.unique([levels[one][factor] for one in variants], return_inverse=True)[1] for factor in factors]
+    return np.column_stack(columns)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import proportion_measures, trade_problem
+from rgss.decision.level_structure import level_numbers
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
@@ -106,7 +107,11 @@ def replicate_until_decided(
         verdicts=answer.verdicts,
         trials=wanted,
         probability=probability_of_good_selection(
-            evidence, answer.variant, margin=rule.margin, seed=project.study.seed
+            evidence,
+            answer.variant,
+            margin=rule.margin,
+            seed=project.study.seed,
+            levels=level_numbers(project.designs, evidence.table.variants.tolist()),
         ),
         looks=progress.looks,
         rule=rule,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import proportion_measures, trade_problem
+from rgss.decision.level_structure import level_numbers
 from rgss.decision.robustness.assumptions import AssumptionFinding, assumption_findings
 from rgss.decision.robustness.cost_box import CostBox, cost_box
 from rgss.decision.robustness.effect_findings import StudyEffects
@@ -202,7 +203,8 @@ def _posterior(
     """Posterior draws of the evidence; None where nothing was observed twice."""
     if max((int(samples.ran.sum(axis=1).max()) for samples in table.samples.values()), default=0) < FEWEST_REPLICATES:
         return None
-    return PosteriorOutcomes.of(problem, table, proportion_measures(project), generator=generator)
+    levels = level_numbers(project.designs, table.variants.tolist())
+    return PosteriorOutcomes.of(problem, table, proportion_measures(project), generator=generator, levels=levels)
 
 
 def _weighting(

@@ -1,9 +1,9 @@
 """Posterior draws of measures that are observed in replicates, joint over alternatives that share seeds.
 
 Alternatives are taken as draws from one population whose spread is learnt from them (Gelman et al.,
-"Bayesian Data Analysis", chapter 5): the best of many estimates is too good on average, and more so the
-fewer replicates there are. What their trials have in common stays so: replicate k of every alternative
-has the same seed.
+"Bayesian Data Analysis", chapter 5), factor by factor of their design: the best of many estimates is too
+good on average, and more so the fewer replicates there are; but what a factor plainly does is no luck.
+What their trials have in common stays so: replicate k of every alternative has the same seed.
 """
 
 from __future__ import annotations
@@ -15,13 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.problem.alternatives import Array
+from rgss.tradeoff.problem.population import drawn_with_population, joint_draws
+from rgss.tradeoff.problem.proportion_population import proportion_population
 
 _POOL_DRAWS = 2_000
 _LEAST_RATIO = 0.02
-_LEAST_SPREAD = 0.02
 _LEAST_OWN = 0.05
-_STRENGTHS = 2.0 ** np.arange(-1, 8)
-_MEANS = np.linspace(0.005, 0.995, 67)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -37,13 +36,21 @@ class ObservedRows:
     is_proportion: bool
 
 
-def posterior_means(observed: Sequence[ObservedRows], *, draws: int, generator: np.random.Generator) -> list[Array]:
+def posterior_means(
+    observed: Sequence[ObservedRows],
+    *,
+    draws: int,
+    generator: np.random.Generator,
+    levels: NDArray[np.intp] | None = None,
+) -> list[Array]:
     """Posterior draws of the true mean of each measure.
 
     Args:
         observed: The replicates of each measure, of the same n alternatives.
         draws: How many draws.
         generator: Where randomness comes from.
+        levels: The level of each alternative in each factor of its design, as numbers of any kind,
+            shape (n, f); None where designs are not made of levels.
 
     Returns:
         Draws of each measure, shape (draws, n); NaN where no replicate of an alternative is known.
@@ -52,12 +59,15 @@ def posterior_means(observed: Sequence[ObservedRows], *, draws: int, generator: 
         return []
     groups = alike_groups(observed)
     most = max(one.values.shape[1] for one in observed)
-    shared = generator.standard_normal((draws, most))
-    weights = generator.standard_gamma(1.0, size=(draws, most))
+    inside = max(draws, joint_draws(len(groups)))
+    shared = generator.standard_normal((inside, most))
+    weights = generator.standard_gamma(1.0, size=(inside, most))
     return [
-        _proportions(one.values, groups, weights, generator)
-        if one.is_proportion
-        else _means(one.values, shared, generator)
+        (
+            _proportions(one.values, groups, weights, generator)
+            if one.is_proportion
+            else _means(one.values, levels, shared, generator)
+        )[:draws]
         for one in observed
     ]
 
@@ -90,52 +100,48 @@ def _same_rows(values: Array) -> NDArray[np.intp]:
 
 
 def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator) -> Array:
-    """Draws of proportions: beta-binomial, with the population's mean and strength drawn from their posterior.
+    """Draws of proportions: beta-binomial, from a population that is a mixture of beta distributions.
 
     A success and a failure more, with random weights, are what the population adds to the seeds' own:
     with exponential weights of the seeds the proportion has its beta posterior exactly.
     """
     known = ~np.isnan(values)
-    draws = len(weights)
-    _, first = np.unique(groups, return_index=True)
-    successes = np.where(known, values, 0.0).sum(axis=1)[first]
-    trials = known.sum(axis=1)[first]
+    found = np.full((len(weights), len(values)), np.nan)
+    rows = np.flatnonzero(known.any(axis=1))
+    if not len(rows):
+        return found
+    seen, there = np.where(known, values, 0.0)[rows], known[rows]
+    _, first, group = np.unique(groups[rows], return_index=True, return_inverse=True)
+    successes, trials = seen.sum(axis=1)[first], there.sum(axis=1)[first]
     # What befalls all alternatives in a seed tells none apart: only the rest is noise between them, which the
     # population's strength is weighed against.
-    rates = (successes / np.maximum(trials, 1))[:, None]
-    own = max(_LEAST_OWN, _own_share(np.where(known[first], values[first] - rates, 0.0), known[first]))
-    mean, strength = _populations(successes / own, trials / own, draws, generator)
+    rates = (successes / trials)[:, None]
+    own = max(_LEAST_OWN, _own_share(np.where(there[first], seen[first] - rates, 0.0), there[first]))
+    mean, strength = proportion_population(successes / own, trials / own, draws=len(weights), generator=generator)
     strength = strength * own
-    shape = (draws, len(first))
-    more = generator.standard_gamma(np.broadcast_to((mean * strength)[:, None], shape))[:, groups]
-    less = generator.standard_gamma(np.broadcast_to(((1.0 - mean) * strength)[:, None], shape))[:, groups]
+    more = generator.standard_gamma(mean * strength)[:, group]
+    less = generator.standard_gamma((1.0 - mean) * strength)[:, group]
     used = weights[:, : values.shape[1]]
-    won = used @ np.where(known, values, 0.0).T + more
-    total = used @ known.T.astype(np.float64) + more + less
-    return np.where(known.any(axis=1) & (total > 0.0), won / np.maximum(total, 1e-300), np.nan)
+    won = used @ seen.T + more
+    total = used @ there.T.astype(np.float64) + more + less
+    found[:, rows] = won / np.maximum(total, 1e-300)
+    return found
 
 
-def _populations(successes: Array, trials: Array, draws: int, generator: np.random.Generator) -> tuple[Array, Array]:
-    """The mean and the strength of the population of proportions in each draw, from their posterior on a grid.
-
-    The mean has Jeffreys's prior. The share by which a single trial is drawn to the mean, s / (1 + s)
-    of the strength s, is uniform: the strength's density is 1 / (1 + s)².
-    """
-    from scipy.special import betaln
-
-    mean, strength = np.meshgrid(_MEANS, _STRENGTHS, indexing="ij")
-    one, other = (mean * strength)[..., None], ((1.0 - mean) * strength)[..., None]
-    fit = betaln(one + successes, other + (trials - successes)) - betaln(one, other)
-    # On a grid of the strength's logarithm its density has the strength as a factor.
-    prior = np.log(strength) - 2.0 * np.log1p(strength) - 0.5 * np.log(mean * (1.0 - mean))
-    heights = fit.sum(axis=-1) + prior
-    chances = np.exp(heights - heights.max()).ravel()
-    picked = generator.choice(chances.size, size=draws, p=chances / chances.sum())
-    return mean.ravel()[picked], strength.ravel()[picked]
+def _own_share(noise: Array, known: NDArray[np.bool_]) -> float:
+    """The share of the noise's variance that alternatives do not have in common, seed by seed."""
+    count = len(noise)
+    total = float((noise**2).sum())
+    if count < 2 or total == 0.0:
+        return 1.0
+    number = known.sum(axis=0)
+    common = noise.sum(axis=0) / np.maximum(number, 1)
+    rest = float((np.where(known, noise - common, 0.0) ** 2).sum())
+    return min(1.0, rest * count / (count - 1) / total)
 
 
-def _means(values: Array, shared: Array, generator: np.random.Generator) -> Array:
-    """Draws of means, by pivots with pooled noise, drawn to the population's centre as far as noise asks for it.
+def _means(values: Array, levels: NDArray[np.intp] | None, shared: Array, generator: np.random.Generator) -> Array:
+    """Draws of means, by pivots with pooled noise, drawn to the population as far as noise asks for it.
 
     Where all values are positive noise is a factor and the population is one of logarithms.
     """
@@ -155,7 +161,6 @@ def _means(values: Array, shared: Array, generator: np.random.Generator) -> Arra
     scores = _scores(noise, shared[:, : values.shape[1]], group, generator)
     centres = np.log(means) if positive else means
     moved = np.empty((draws, len(rows)))
-    shift, variance = np.empty(len(rows)), np.empty(len(rows))
     for count in np.unique(counts):
         at = counts == count
         sums = pool[generator.integers(0, len(pool), size=(_POOL_DRAWS, int(count)))].mean(axis=1)
@@ -163,8 +168,13 @@ def _means(values: Array, shared: Array, generator: np.random.Generator) -> Arra
         pivots.sort()
         # The pivot falls where the observed mean is high.
         moved[:, at] = _at_scores(pivots, -scores[:, at])
-        shift[at], variance[at] = pivots.mean(), pivots.var()
-    drawn = _shrunk(centres, moved, shift, variance * _own_share(noise[first], there[first]), first, generator)
+    drawn = drawn_with_population(
+        centres + moved,
+        group,
+        None if levels is None else levels[rows],
+        seeds=int(np.median(counts)),
+        generator=generator,
+    )
     found[:, rows] = np.exp(drawn) if positive else drawn
     return found
 
@@ -194,34 +204,3 @@ def _at_scores(ordered: Array, scores: Array) -> Array:
     below = np.minimum(place.astype(np.intp), len(ordered) - 2)
     part = place - below
     return np.asarray(ordered[below] * (1.0 - part) + ordered[below + 1] * part, dtype=np.float64)
-
-
-def _own_share(noise: Array, known: NDArray[np.bool_]) -> float:
-    """The share of the noise's variance that alternatives do not have in common, seed by seed."""
-    count = len(noise)
-    total = float((noise**2).sum())
-    if count < 2 or total == 0.0:
-        return 1.0
-    number = known.sum(axis=0)
-    common = noise.sum(axis=0) / np.maximum(number, 1)
-    rest = float((np.where(known, noise - common, 0.0) ** 2).sum())
-    return min(1.0, rest * count / (count - 1) / total)
-
-
-def _shrunk(
-    centres: Array, moved: Array, shift: Array, variance: Array, first: NDArray[np.intp], generator: np.random.Generator
-) -> Array:
-    """Draws about the population's centre: estimates, drawn towards it by the share of noise in their spread."""
-    count = len(first)
-    if count < 2 or not variance.any():
-        return centres + moved
-    places = centres + shift
-    spread = float(places[first].var(ddof=1))
-    drawn = spread * generator.chisquare(count - 1, size=(len(moved), 1)) / (count - 1)
-    between = np.maximum(drawn - variance[first].mean(), _LEAST_SPREAD * drawn)
-    share = between / np.maximum(between + variance, 1e-300)
-    precision = 1.0 / np.maximum(between + variance[first], 1e-300)
-    total = precision.sum(axis=1, keepdims=True)
-    centre = (precision * places[first]).sum(axis=1, keepdims=True) / total
-    centre = centre + generator.standard_normal((len(moved), 1)) / np.sqrt(total)
-    return np.asarray(centre + share * (places - centre) + np.sqrt(share) * (moved - shift), dtype=np.float64)

@@ -56,6 +56,7 @@ class PosteriorOutcomes:
         proportions: Collection[str],
         *,
         generator: np.random.Generator,
+        levels: NDArray[np.intp] | None = None,
         draws: int = DRAWS,
     ) -> PosteriorOutcomes:
         """Draw the evidence of a table.
@@ -67,11 +68,13 @@ class PosteriorOutcomes:
             table: The evidence.
             proportions: The measures that are shares of trials.
             generator: Where randomness comes from.
+            levels: The level of each alternative in each factor of its design, shape (n, f), in the
+                table's order; None where designs are not made of levels.
             draws: How many draws; fewer where their values would not fit in memory.
         """
         size = max(1, len(table) * len(preferences.weighting.deciding_measures))
         draws = min(draws, max(FEWEST_DRAWS, _MOST_VALUES // size))
-        drawn = _drawn(table, proportions, draws, generator)
+        drawn = _drawn(table, proportions, levels, draws, generator)
         replicates = max((samples.values.shape[1] for samples in table.samples.values()), default=0)
         picks = generator.integers(0, max(replicates, 1), size=(draws, replicates))
         values, feasible = _evaluated(preferences, table, drawn, picks)
@@ -121,7 +124,11 @@ class PosteriorOutcomes:
 
 
 def _drawn(
-    table: EvidenceTable, proportions: Collection[str], draws: int, generator: np.random.Generator
+    table: EvidenceTable,
+    proportions: Collection[str],
+    levels: NDArray[np.intp] | None,
+    draws: int,
+    generator: np.random.Generator,
 ) -> dict[str, Array]:
     """Draws of the columns that are observed in trials; an end of an interval moves as its estimate does."""
     observed = [measure for measure in table.measures if measure in table.samples and not _is_end(measure, table)]
@@ -129,7 +136,8 @@ def _drawn(
         ObservedRows(values=_known(table.samples[measure]), is_proportion=measure in proportions)
         for measure in observed
     ]
-    drawn = dict(zip(observed, posterior_means(rows, draws=draws, generator=generator), strict=True))
+    found = posterior_means(rows, draws=draws, generator=generator, levels=levels)
+    drawn = dict(zip(observed, found, strict=True))
     for measure in table.measures:
         if measure in table.samples and _is_end(measure, table):
             base = measure.rpartition(".")[0]

@@ -12,7 +12,7 @@ from rgss.tradeoff.problem import TIE_TOLERANCE, Array
 from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 
 TIE_PROBABILITY = 0.05
-"""An alternative that is as good as the choice with at least this probability is tied by noise."""
+"""An alternative that is as good as the choice with at least this probability, one of them being feasible, is tied."""
 
 MOST_MORE = 100_000
 """More replicates than this are not counted out."""
@@ -27,7 +27,9 @@ class Rival:
 
     Attributes:
         row: Its row.
-        probability: Posterior probability that it is feasible and worth at least as much as the choice.
+        probability: Posterior probability, given that it or the choice is feasible, that it is and is worth
+            at least as much as the choice if that is feasible too. Where neither is, nothing is to be chosen
+            between them.
         within_margin: Whether its estimated value is within the practical margin of the choice's.
         replicates: Replicates in all with which their difference would exceed its noise; None where
             no number does, for they do not differ or a demand decides.
@@ -140,7 +142,8 @@ def _rivals(
             continue
         both = np.nan_to_num(totals[:, row] - totals[:, chosen], nan=-np.inf)
         ahead = feasible[:, row] & (~feasible[:, chosen] | (both >= -TIE_TOLERANCE))
-        probability = float(ahead.mean())
+        either = int((feasible[:, row] | feasible[:, chosen]).sum())
+        probability = float(ahead.sum()) / either if either else 0.0
         gaps = weights * (single[row] - single[chosen])
         difference = float(gaps.sum())
         near = bool(estimated[row]) and abs(difference) <= margin + TIE_TOLERANCE

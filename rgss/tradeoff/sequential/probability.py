@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.tradeoff.problem import ObservedRows, posterior_means
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
@@ -12,26 +13,34 @@ DRAWS = 2_000
 
 
 def probability_of_good_selection(
-    evidence: SequentialEvidence, chosen: int | None, *, margin: float, seed: int, draws: int = DRAWS
+    evidence: SequentialEvidence,
+    chosen: int | None,
+    *,
+    margin: float,
+    seed: int,
+    levels: NDArray[np.intp] | None = None,
+    draws: int = DRAWS,
 ) -> float:
     """The posterior probability that nothing feasible is worth more than the choice by the margin.
 
     The draws are those of `rgss.tradeoff.problem.posterior_means`: the alternatives are a
-    population whose spread is learnt from them, noise is pooled, and what trials of the same seed
-    have in common stays so.
+    population whose spread is learnt from them, factor by factor, noise is pooled, and what trials of
+    the same seed have in common stays so.
 
     Args:
         evidence: The evidence.
         chosen: The choice; None that there is nothing feasible.
         margin: The difference of value that is practically none.
         seed: Seed of the draws.
+        levels: The level of each alternative in each factor of its design, shape (n, f), in the order of
+            the evidence's table; None where designs are not made of levels.
         draws: How many.
 
     Returns:
         The share of the draws in which the choice is feasible and good, or nothing is feasible.
     """
     rows = [ObservedRows(values=one.values, is_proportion=one.is_proportion) for one in evidence.observed]
-    found = posterior_means(rows, draws=draws, generator=np.random.default_rng(seed))
+    found = posterior_means(rows, draws=draws, generator=np.random.default_rng(seed), levels=levels)
     values = np.tile(evidence.fixed_value, (draws, 1))
     feasible = np.tile(evidence.fixed_met, (draws, 1))
     for one, drawn in zip(evidence.observed, found, strict=True):
