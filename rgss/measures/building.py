@@ -167,6 +167,12 @@ class _Builder:
         for index, symbol in enumerate(self._entries.inputs):
             kinds[symbol.id] = Kind(dimension=dimension(symbol.unit), length=symbol.length)
             self._check_unit(("inputs", index, "unit"), symbol.unit)
+            if symbol.of_design and not symbol.from_trial:
+                message = f"{symbol.source} is of the design as it is; 'of_design' is for values that trials compute"
+                location = ("inputs", index, "of_design")
+                self._findings.append(
+                    self._document.finding("measures.estimate", message, location, hint="remove 'of_design'")
+                )
         lengths: dict[str, int | None] = {}
         for name in order:
             entry = self._entries.measures[self._indices[name]]

@@ -55,6 +55,7 @@ def _of_input(symbol: InputSymbol) -> dict[str, Any]:
         "source": symbol.source,
         "unit": symbol.unit,
         "length": symbol.length,
+        **({"of_design": True} if symbol.of_design else {}),
     }
 
 

@@ -81,12 +81,16 @@ class Constant:
 
 
 class InputSymbol(DocumentModel):
-    """A symbol whose value comes from a design, a component or a trial; values arrive in SI."""
+    """A symbol whose value comes from a design, a component or a trial; values arrive in SI.
+
+    With ``of_design`` trials compute it from the design alone, without seed or draw, so that it is the same in all.
+    """
 
     id: Identifier
     source: Identifier
     unit: UnitText
     length: Annotated[int, Field(ge=1, le=1000)] | None = None
+    of_design: bool = False
     definition: Text
 
     @property

@@ -44,7 +44,8 @@ def evaluate(
     Raises:
         DefinitionError: A value of the design is missing or is a text; a measure is not
             defined for this design (a division by zero); a metric has not the shape declared; a
-            trial's value lies outside the bounds that its measure declares.
+            trial's value lies outside the bounds that its measure declares; trials differ in what
+            is declared to follow from the design.
     """
     design = design_values(measure_set, fixed=fixed, variant=variant)
     rows = [trial_values(measure_set, design=design, trial=trial) for trial in trials]
@@ -62,12 +63,33 @@ def evaluate(
             else [_summarised(measure, row) for row in counted]
         )
         known = [value for value in values if value is not None]
-        if rule.statistic is Estimator.PROPORTION:
+        if rule.statistic is Estimator.MEAN and _is_of_design(measure_set, measure):
+            estimates[measure.id] = _same(measure, known, variant)
+        elif rule.statistic is Estimator.PROPORTION:
             complete = sum(value >= COMPLETE for value in known)
             estimates[measure.id] = proportion_estimate(complete, len(known))
         else:
             estimates[measure.id] = _mean(measure, known, variant)
     return estimates
+
+
+def _is_of_design(measure_set: MeasureSet, measure: Measure) -> bool:
+    """Whether all that trials contribute to a measure follows from the design alone, by its declaration."""
+    below = measure_set.used[measure.id]
+    return all(symbol.of_design for symbol in measure_set.inputs if symbol.from_trial and symbol.id in below)
+
+
+def _same(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
+    """The one value of a measure that has neither seed nor draw: nothing is uncertain of it."""
+    if not known:
+        return Estimate.unknown(measure.unit)
+    if min(known) != max(known):
+        raise DefinitionError(
+            f"trials of variant {variant} give {measure.id} = {min(known):g} and {max(known):g} {measure.unit}, "
+            "though its inputs are declared to follow from the design",
+            hint="remove 'of_design' from the input in the measures file",
+        )
+    return Estimate(value=known[0], unit=measure.unit, low=known[0], high=known[0], n=len(known))
 
 
 def _mean(measure: Measure, known: Sequence[float], variant: int) -> Estimate:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
+from rgss.findings import Finding
 from rgss.measures import Estimate, MeasureSet, design_values, evaluate, ratio_values, trial_values
 
 Loader = Callable[..., MeasureSet]
@@ -122,6 +123,47 @@ def test_a_value_outside_the_declared_bounds_is_an_error(load_entries: Loader, e
     measures = load_entries(entry("x", "time", "s", estimate="{statistic: mean, over: all, most: 2 s}"))
     with pytest.raises(DefinitionError, match=r"variant 1 gives x = 3 s, outside the bounds that the measure declares"):
         estimates(measures, {"task_time_s": 3.0})
+
+
+def bench(load: Loader, more: str = "") -> MeasureSet:
+    """Measures of what a bench holds, of a time, and of both."""
+    rule = "definition: D., better: higher, kind: supplementary, name: N, estimate: {statistic: mean, over: all}"
+    return load(f"""\
+        title: Test
+        inputs:
+          - {{id: m, source: design.d2, unit: kg, {more} definition: Mass.}}
+          - {{id: held, source: trial.held_kg, unit: kg, of_design: true, definition: Mass that the bench holds.}}
+          - {{id: time, source: trial.task_time_s, unit: s, definition: Time.}}
+        measures:
+          - {{id: least, expression: "min(m, held / 2)", unit: kg, {rule}}}
+          - {{id: rate, expression: held / time, unit: kg/s, {rule}}}
+    """)
+
+
+def test_what_trials_compute_from_the_design_alone_is_exact(load: Loader) -> None:
+    found = estimates(bench(load), *[{"held_kg": 4.0, "task_time_s": 2.0 + each} for each in range(3)])
+    assert found["least"] == Estimate(value=2.0, unit="kg", low=2.0, high=2.0, n=3)
+    assert found["rate"].low < found["rate"].value < found["rate"].high
+    assert estimates(bench(load))["least"] == Estimate.unknown("kg")
+    assert estimates(bench(load), {"task_time_s": 1.0}, {"held_kg": 4.0})["least"].n == 1
+
+
+def test_trials_that_differ_in_what_is_of_the_design_are_an_error(load: Loader) -> None:
+    message = (
+        "trials of variant 1 give least = 1.5 and 2 kg, though its inputs are declared to follow from the design "
+        "(remove 'of_design' from the input in the measures file)"
+    )
+    with pytest.raises(DefinitionError) as caught:
+        estimates(bench(load), {"held_kg": 4.0}, {"held_kg": 3.0})
+    assert str(caught.value) == message
+
+
+def test_an_input_of_the_design_needs_no_word_of_it(
+    load: Loader, findings_of: Callable[..., tuple[Finding, ...]]
+) -> None:
+    (found,) = findings_of(lambda: bench(load, "of_design: true,"))
+    assert found.message == "design.d2 is of the design as it is; 'of_design' is for values that trials compute"
+    assert (found.rule, found.hint) == ("measures.estimate", "remove 'of_design'")
 
 
 def test_missing_values_of_the_design_are_named_together(load_entries: Loader, entry: Writer) -> None:

@@ -21,6 +21,8 @@ from rgss.tradeoff.problem.proportion_population import proportion_population
 _POOL_DRAWS = 2_000
 _LEAST_RATIO = 0.02
 _LEAST_OWN = 0.05
+_UNSEEN = 0.5
+"""Jeffreys's prior count of seeds that tell alternatives apart of which none did: one side of Beta(1/2, 1/2)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -121,6 +123,11 @@ def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, genera
     strength = strength * own
     more = generator.standard_gamma(mean * strength)[:, group]
     less = generator.standard_gamma((1.0 - mean) * strength)[:, group]
+    # Alternatives that no seed told apart may differ in seeds to come: each has half a seed of its own.
+    unseen = np.bincount(group)[group] > 1
+    shape = (len(weights), int(unseen.sum()))
+    more[:, unseen] += generator.standard_gamma(_UNSEEN / 2.0, size=shape)
+    less[:, unseen] += generator.standard_gamma(_UNSEEN / 2.0, size=shape)
     used = weights[:, : values.shape[1]]
     won = used @ seen.T + more
     total = used @ there.T.astype(np.float64) + more + less

@@ -41,8 +41,25 @@ def test_a_proportion_borrows_from_the_population():
 def test_alternatives_whose_trials_are_the_same_have_the_same_draws():
     successes, times = [[1.0, 1.0, 0.0, 1.0]] * 2, [[3.0, 4.0, np.nan, 5.0]] * 2
     share, time = draws_of(proportion(successes), mean(times))
-    assert np.array_equal(share[:, 0], share[:, 1])
     assert np.array_equal(time[:, 0], time[:, 1])
+    # What no seed told apart may differ in seeds to come, but hardly.
+    assert share[:, 0].mean() == pytest.approx(share[:, 1].mean(), abs=0.01)
+    assert 0.0 < np.abs(share[:, 0] - share[:, 1]).mean() < 0.5 * share[:, 0].std()
+
+
+def test_what_no_seed_told_apart_differs_the_less_the_more_seeds_there_are():
+    def apart(seeds):
+        (drawn,) = draws_of(proportion([[1.0] * seeds] * 2))
+        return drawn
+
+    def difference(seeds):
+        times = np.arange(1.0, seeds + 1.0).tolist()
+        drawn, _ = draws_of(proportion([[1.0, 0.0] * (seeds // 2)] * 2), mean([times] * 2))
+        return float((drawn[:, 0] - drawn[:, 1]).std())
+
+    assert difference(40) < 0.6 * difference(10)
+    # Without a mean that is the same they are not alike at all.
+    assert float((apart(10)[:, 0] - apart(10)[:, 1]).std()) > difference(10)
 
 
 def test_proportions_that_are_equal_by_chance_make_no_group():
