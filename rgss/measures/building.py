@@ -169,10 +169,9 @@ class _Builder:
             self._check_unit(("inputs", index, "unit"), symbol.unit)
             if symbol.of_design and not symbol.from_trial:
                 message = f"{symbol.source} is of the design as it is; 'of_design' is for values that trials compute"
-                location = ("inputs", index, "of_design")
-                self._findings.append(
-                    self._document.finding("measures.estimate", message, location, hint="remove 'of_design'")
-                )
+                at = ("inputs", index, "of_design")
+                found = self._document.finding("measures.estimate", message, at, hint="remove 'of_design'")
+                self._findings.append(found)
         lengths: dict[str, int | None] = {}
         for name in order:
             entry = self._entries.measures[self._indices[name]]
