@@ -33,7 +33,7 @@ def execute(
         spec: The trial.
         cell: Kinematics of the tool.
         timing: The trajectories.
-        observer: Looks on after every step in contact physics; the other fidelities have nothing to show.
+        observer: Callback after each step in contact physics; other fidelities do not call it.
         checkpoint: Called between two steps, which in the kinematic model are whole phases; it may wait,
             or end the task by raising.
 
