@@ -37,9 +37,7 @@ def sweep_study(
         SimulationError: Trials could not be made; what could is kept.
     """
     if jobs is not None and jobs < 0:
-        raise DefinitionError(
-            f"jobs must be at least 0, got {jobs}", hint="0 uses one process, one trial after another"
-        )
+        raise DefinitionError(f"{jobs} is no number of processes", hint="0 works in this process")
     runner = _Runner(project, jobs=(os.cpu_count() or 1) if jobs is None else jobs, on_trial=on_trial)
     with EvidenceStore.open(project.evidence) as store:
         sweep_in_stages(project, variants, store, lambda specs: runner.run(specs, store))

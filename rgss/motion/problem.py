@@ -80,7 +80,7 @@ class PlanResult:
         search_time_s: Time of the search by the planning clock.
         simplification_time_s: Time of the simplification by the planning clock.
         verification_checks: Those of `checks` that verified the path.
-        repairs: Motions of the path that were planned again, because they were not valid.
+        repairs: Motions of the path that were planned anew, because they were not valid.
     """
 
     outcome: PlanOutcome

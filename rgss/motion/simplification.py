@@ -136,7 +136,7 @@ class _CheckBudget:
         self._budget = self._limit
 
     def affords(self, checks: int) -> bool:
-        """True if a number of checks is left."""
+        """Whether a number of checks is left."""
         return self.spent + checks <= self._budget
 
     def are_valid(self, states: Vector) -> bool:

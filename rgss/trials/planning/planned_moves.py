@@ -25,7 +25,7 @@ class PlannedMove:
         path_length_m: Length of the tool's path; None if there is none.
         detail: The obstacle, if the problem itself is ill posed or the path is not valid.
         verification_checks: Those of `checks` that verified the path.
-        repairs: Motions of the path that were replanned, because they were not valid.
+        repairs: Motions of the path that were planned anew, because they were not valid.
     """
 
     phase: Phase
