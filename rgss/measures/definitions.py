@@ -91,7 +91,7 @@ class InputSymbol(DocumentModel):
 
     @property
     def from_trial(self) -> bool:
-        """Whether it differs from trial to trial."""
+        """True if it differs from trial to trial."""
         return self.source.startswith("trial.")
 
     @property
@@ -216,7 +216,7 @@ class Measure:
 
     @property
     def from_trials(self) -> bool:
-        """Whether it differs from trial to trial."""
+        """True if it differs from trial to trial."""
         return self.estimate is not None
 
 

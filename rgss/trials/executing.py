@@ -79,7 +79,7 @@ def execute(
 
 
 def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | None:
-    """What the robot knows of its grip; None where that is the truth."""
+    """The robot's estimate of its grip; None where the true values are known."""
     if conditions.is_grip_known:
         return None
     believed = conditions.scene.workpiece
