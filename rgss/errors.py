@@ -1,8 +1,8 @@
-"""The exception hierarchy: raised only where the caller cannot go on.
+"""Exception hierarchy; exceptions are raised only where the caller cannot continue.
 
 Expected outcomes (no path found, an object dropped) are enum values in records, and
 mistakes in a user's files are findings. Everything raised on purpose derives from
-`RgssError` and carries a hint that says how to mend it.
+`RgssError` and carries a hint on how to resolve it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ class RgssError(Exception):
 
     Attributes:
         message: What is wrong, in one line.
-        hint: How to mend it, in one line; empty when there is nothing to add.
+        hint: How to resolve it, in one line; empty when there is nothing to add.
     """
 
     def __init__(self, message: str, *, hint: str = "") -> None:
@@ -56,7 +56,7 @@ class DocumentError(RgssError):
 
 
 class DefinitionError(RgssError):
-    """Definitions that are each well formed contradict one another or name what is not there."""
+    """Well-formed definitions contradict one another or refer to something that does not exist."""
 
 
 class SimulationError(RgssError):

@@ -27,7 +27,7 @@ class Finding:
         rule: The id of the rule that is broken, such as ``document.unknown-key``.
         severity: Its severity.
         message: What is wrong, in one line.
-        hint: How to mend it, in one line; may be empty.
+        hint: How to resolve it, in one line; may be empty.
     """
 
     file: str

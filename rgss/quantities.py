@@ -69,7 +69,9 @@ def parse_quantity(text: str, unit: str) -> float:
     except OverflowError:
         raise QuantityError(f"{shown(text)} is too large", hint="give a number below 1e308") from None
     if exact and not value:
-        raise QuantityError(f"{shown(text)} is too small to be told from zero", hint="write 0 if zero is meant")
+        raise QuantityError(
+            f"{shown(text)} is too small to be distinguished from zero", hint="write 0 if zero is meant"
+        )
     return value
 
 
@@ -85,7 +87,7 @@ def conversion_factor(from_unit: str, to_unit: str) -> float:
 
 
 def same_dimension(unit: str, other: str) -> bool:
-    """Tell whether two units measure the same thing.
+    """True if two units have the same dimension.
 
     Raises:
         QuantityError: A unit is unknown.
@@ -133,7 +135,7 @@ def _unit(text: str) -> pint.Unit:
 
 @lru_cache(maxsize=512)
 def _measure_the_same(unit: str, other: str) -> bool:
-    """Tell whether two units measure the same thing, an angle being no pure number."""
+    """True if two units have the same dimension, where an angle differs from a pure number."""
     one, two = common_unit(unit), common_unit(other)
     if one is not None and two is not None:
         return one.roots == two.roots

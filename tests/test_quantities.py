@@ -81,7 +81,7 @@ def test_reading(text, unit, value):
         ("3 dBm", "W", "unit 'dBm' is not on a scale that starts at zero (use W)"),
         ("1e999 m", "m", "'1e999 m' is too large (give a number below 1e308)"),
         ("1e308 km", "m", "'1e308 km' is too large (give a number below 1e308)"),
-        ("1e-999 m", "m", "'1e-999 m' is too small to be told from zero (write 0 if zero is meant)"),
+        ("1e-999 m", "m", "'1e-999 m' is too small to be distinguished from zero (write 0 if zero is meant)"),
         ("1" * 61, "1", f"'{'1' * 59}…' is not a quantity (write a number, such as 0.5)"),
     ],
 )

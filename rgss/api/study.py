@@ -211,7 +211,7 @@ class Study:
             only: Which variants, as ``--only`` takes it: ids such as ``"1,5,60-72"``, filters such as
                 ``"planning.planner=RRT"`` or ``"robot.tool_speed <= 0.8 m/s"``; of several all must hold. All
                 variants by default.
-            jobs: Number of worker processes, one for each core by default; 0 for this process. A script
+            jobs: Number of worker processes, one for each core by default; 0 for one child process. A script
                 that uses others needs ``if __name__ == "__main__":``, for they import it.
             on_trial: Called after each trial with the number that is there and that of all.
 

@@ -79,7 +79,7 @@ def _part(rows: Sequence[Sequence[int]], count: int) -> list[int]:
 
     best: tuple[int, list[int]] | None = None
     for start in range(max(1, min(_MOST_STARTS, _WORK // (len(rows) * count)))):
-        # The first start takes the designs one by one, the others exchange what chance took.
+        # The first start takes the designs one by one, the others begin with a random part.
         first = [] if start == 0 else Random(start).sample(range(len(rows)), count)  # noqa: S311 - no secret
         found = _improved(len(rows), count, first, alike)
         if best is None or found < best:

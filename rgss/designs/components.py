@@ -14,7 +14,7 @@ from rgss.documents import STRICT, Document, Identifier, Text, UnitText
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourcedValue:
-    """A magnitude and what it rests on.
+    """A magnitude with its source or assumption.
 
     Attributes:
         value: The magnitude in SI (money in US dollars).

@@ -1,4 +1,4 @@
-"""The text of a constraint to its tree, with its units checked and every mistake at its place.
+"""Parser of constraints, with a check of units and every mistake at its place.
 
 The grammar, from the weakest binding to the strongest::
 
@@ -51,11 +51,11 @@ class ConstraintProblem(Exception):  # noqa: N818 - it never leaves the room: it
         rule: The id of the broken rule.
         offset: Where it is, in characters from the start of the text.
         message: What is wrong.
-        hint: How to mend it.
+        hint: How to resolve it.
     """
 
     def __init__(self, rule: str, offset: int, message: str, hint: str) -> None:
-        """Keep what is wrong."""
+        """Store the problem."""
         super().__init__(message)
         self.rule = rule
         self.offset = offset

@@ -45,7 +45,7 @@ class FactorModel(DocumentModel):
 
 
 class SampleModel(DocumentModel):
-    """How designs are sampled, instead of every combination being tried."""
+    """Sample of a design space, in place of the full factorial."""
 
     method: SamplingMethod
     size: int = Field(ge=1, le=65_536)

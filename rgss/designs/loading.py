@@ -44,7 +44,7 @@ def load_design_space(path: Path, catalogue: Catalogue, *, label: str | None = N
 
 
 class _SpaceReader:
-    """Keeps what is sound while it reads, so that one mistake does not hide the others."""
+    """Reader that keeps the sound parts, so that one mistake does not hide the others."""
 
     def __init__(self, document: Document, model: DesignSpaceModel, catalogue: Catalogue, lines: Sequence[str]) -> None:
         self._document = document
@@ -72,7 +72,7 @@ class _SpaceReader:
         self._findings += rules.findings
         self._findings += sample_findings(self._document, self._model)
         if self._findings and (self._model.sample is not None or any(factor.span for factor in factors)):
-            # Which points there are follows from every factor, so one mistake makes other designs.
+            # The points depend on every factor, so one mistake changes the designs.
             raise DocumentError(sorted(set(self._findings)))
         space = DesignSpace(
             parameters=parameters,

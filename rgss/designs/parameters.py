@@ -1,4 +1,4 @@
-"""Design parameters, and how their values are read and written."""
+"""Design parameters, and the reading and writing of their values."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _USUAL_UNITS = ("1", "rad", "rad/s", "rad/s**2", "Hz", "N", "N*m", "N/m", "Pa", 
 
 
 class ParameterKind(str, Enum):
-    """What the values of a design parameter are."""
+    """Kind of the values of a design parameter."""
 
     QUANTITY = "quantity"
     COUNT = "count"

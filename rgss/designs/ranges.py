@@ -1,4 +1,4 @@
-"""Reading ranges of factors, and how a space is sampled."""
+"""Reading of ranges of factors and of samples."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def read_span(
 
 
 def sample_findings(document: Document, model: DesignSpaceModel) -> Iterator[Finding]:
-    """Findings on how a space is sampled, or should be."""
+    """Findings on the sample of a space."""
     if model.sample is None:
         for index, factor in enumerate(model.factors):
             if factor.range is not None:

@@ -29,7 +29,7 @@ class RulesRead:
 
 
 class RuleReader:
-    """Reads the rules of one design space."""
+    """Reader of the rules of one design space."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""Sampled designs: some points of a space whose full product is too large, or has no end.
+"""Sampled designs: points of a space whose full factorial is too large or infinite.
 
 A point is a row of numbers from 0 to 1, one for each factor; each number chooses a level or a
 value. The rows are those of SciPy's quasi-Monte Carlo engines. Scrambled Sobol points (Owen 1998,
@@ -19,7 +19,7 @@ from rgss.designs.factors import Factor, Level
 
 
 class SamplingMethod(str, Enum):
-    """How points are spread over the unit cube."""
+    """Method of sampling the unit cube."""
 
     SOBOL = "sobol"
     LATIN_HYPERCUBE = "latin_hypercube"

@@ -16,8 +16,8 @@ from rgss.findings import Finding
 def selection_findings(space: DesignSpace, document: Document, model: DesignSpaceModel) -> Iterator[Finding]:
     """Findings for combinations without a component or with several for a role, each once.
 
-    Values with mistakes are not in the space, and say nothing here; with mistakes in the rules
-    nothing is said at all, for the rules might exclude what has no component.
+    Values with mistakes are not in the space, and are not checked here; with mistakes in the rules nothing is
+    checked, since the rules might exclude a combination without a component.
 
     Args:
         space: The sound part of a design space.

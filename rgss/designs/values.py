@@ -1,4 +1,4 @@
-"""Values of design parameters as they stand in files."""
+"""Values of design parameters in files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rgss.findings import Finding, shown
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ValueReader:
-    """Reads the values of named parameters.
+    """Reader of the values of named parameters.
 
     Attributes:
         parameters: The parameters by id.

@@ -1,4 +1,4 @@
-"""From the events of a YAML parser to plain data and the place of each part of it."""
+"""Composition of plain data, with the position of each part, from the events of a YAML parser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One text for one content, and its SHA-256: what evidence and variants are keyed by."""
+"""Canonical JSON and its SHA-256, the keys of evidence and variants."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DEEPEST_NESTING = 60
 
 
 def canonical_json(value: Any) -> str:
-    """Write plain data as the one JSON text that stands for it.
+    """Canonical JSON text of plain data.
 
     Keys are sorted, floats are written by ``repr`` (so that every bit of them counts, and
     ``1`` differs from ``1.0``), the text is pure ASCII and has no spaces. It depends on
@@ -48,7 +48,7 @@ def digest(value: Any) -> str:
 
 
 class _NoCanonicalFormError(Exception):
-    """A part has no canonical form; gathers where on its way up, so that sound data need not say where it is."""
+    """A part has no canonical form; its location is collected while it propagates."""
 
     def __init__(self, problem: str) -> None:
         super().__init__(problem)

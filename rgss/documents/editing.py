@@ -236,7 +236,7 @@ class _Editor:
         return self._lines_behind(end, [*apart, *entry_lines(edit.entry, node.start_mark.column)])
 
     def _lines_behind(self, end: int, lines: Sequence[str]) -> _Splice:
-        """Whole lines behind the line in which something ends."""
+        """Whole lines after the line in which something ends."""
         place = self._next_line(end)
         if self._text[:place].endswith("\n"):
             return _Splice(place, place, self._joined([*lines, ""]))

@@ -32,7 +32,7 @@ _DISK_FAILURES = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 class SourceOverwriteError(DefinitionError):
-    """An output would take the place of a file that a project reads."""
+    """An output would overwrite a source file of a project."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,7 +74,7 @@ def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]
             yield part
     except OSError as error:
         if isinstance(error, BrokenPipeError) and not is_standard_output(path):
-            # The reader of standard output may go; a pipe that was named has not got its content.
+            # The reader of standard output may close it; a named pipe has then not received its content.
             raise unwritable(path, error) from error
         # The user knows the output file, and not the temporary one beside it.
         if error.errno is not None:
@@ -109,7 +109,7 @@ def unwritable(path: Path, error: OSError) -> RgssError:
 
 
 def require_no_source(path: Path) -> None:
-    """Make sure, before any work is done, that an output would not take the place of a source.
+    """Check, before any work is done, that an output would not overwrite a source.
 
     Raises:
         SourceOverwriteError: The file is a source of a project.

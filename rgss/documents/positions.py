@@ -13,7 +13,7 @@ Position = tuple[int, int]
 
 
 Mark = int
-"""A position in one number: a file has hundreds of thousands, which the collector of garbage passes over so."""
+"""A position in one number: a file has hundreds of thousands, which the garbage collector then skips."""
 
 _COLUMN_BITS = 32
 
@@ -68,7 +68,7 @@ class _Positions(Mapping[Location, Position]):
 
         Args:
             places: The places.
-            end: Where the file ends; nothing stands after that.
+            end: Where the file ends.
         """
         self._places = places
         self._end = end

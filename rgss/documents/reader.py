@@ -1,6 +1,6 @@
 """A strict reading of YAML: plain data with the position of every key and value.
 
-Only the part of YAML that cannot surprise is accepted. Tags, anchors, aliases and merge keys
+Only an unambiguous subset of YAML is accepted. Tags, anchors, aliases and merge keys
 are refused, so no document can build an object or grow when it is read; duplicate keys are
 refused; ``yes``, ``on`` and ``1:30`` are texts, not truth values or sexagesimal numbers.
 """
@@ -40,7 +40,7 @@ class Document:
     keys: Mapping[Location, Position]
 
     def nearest(self, location: Sequence[str | int]) -> Location:
-        """The location of this document that is met on the way to another, passing over what it lacks."""
+        """Nearest location of this document around another one, skipping parts that it lacks."""
         found: Location = ()
         for part in location:
             if (*found, part) in self.values:
@@ -64,7 +64,7 @@ class Document:
             message: What is wrong.
             location: Keys and indices from the top, such as ``("bodies", 2, "mass")``; parts
                 that the document does not have are passed over.
-            hint: How to mend it.
+            hint: How to resolve it.
             severity: Its severity.
             at_key: Point at the key instead of its value.
         """

@@ -1,4 +1,4 @@
-"""Findings about a file as a whole text, before it has a meaning."""
+"""Findings about the text of a file, before it is parsed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def refusal(label: str, rule: str, message: str, position: tuple[int, int] = (1,
         rule: The broken rule, without ``document.``.
         message: What is wrong.
         position: Line and column.
-        hint: How to mend it.
+        hint: How to resolve it.
     """
     line, column = position
     return Finding(
@@ -37,11 +37,11 @@ def refusal(label: str, rule: str, message: str, position: tuple[int, int] = (1,
 
 
 def cut_short(label: str, findings: Sequence[Finding]) -> list[Finding]:
-    """The first findings of a file, in the order of their places, with a word on it if there are more."""
+    """First findings of a file, in the order of their places, with a note if there are more."""
     first = sorted(findings)[:MOST_PROBLEMS]
     if len(findings) > MOST_PROBLEMS:
         message = f"more than {MOST_PROBLEMS} problems; the first {MOST_PROBLEMS} are shown"
-        first.insert(0, refusal(label, "many", message, hint="mend these first"))
+        first.insert(0, refusal(label, "many", message, hint="correct these first"))
     return first
 
 

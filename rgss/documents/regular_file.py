@@ -1,4 +1,4 @@
-"""Opening a file that has an end: no folder, device or pipe, which could keep a program for ever or fill its memory."""
+"""Opening of regular files: not of folders, devices or pipes, which could block a program or fill its memory."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ def open_regular(path: Path) -> Iterator[BinaryIO]:
         OSError: It cannot be opened, or is something else than a regular file.
         ValueError: The path has a null character.
     """
-    # Without waiting: a pipe with nobody at its other end would keep this process for ever.
+    # Non-blocking: opening a pipe without a writer would block this process for ever.
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(descriptor, "rb") as file:
-        # Asked of what is open, which nobody can exchange any more.
+        # Checked on the open file, which cannot be exchanged any more.
         kind = os.fstat(descriptor).st_mode
         if stat.S_ISDIR(kind):
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))

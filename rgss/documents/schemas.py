@@ -1,7 +1,7 @@
 """The JSON Schema of a typed model, as editors want it.
 
-Editors check YAML against draft 7 and show the descriptions that they find. What pydantic derives
-from a model is brought into that form: names of classes are left out, fixed rows become what draft 7
+Editors check YAML against draft 7 and show the descriptions that they find. The schema that pydantic derives from a
+model is converted: names of classes are left out, fixed rows become what draft 7
 calls them, and every key gets the sentence that says what it means.
 """
 

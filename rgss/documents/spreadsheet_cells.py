@@ -1,4 +1,4 @@
-"""Texts for foreign programs: nothing that a spreadsheet computes, nothing that XML cannot hold."""
+"""Texts for other programs: no formulas for spreadsheets, no characters that XML does not allow."""
 
 from __future__ import annotations
 

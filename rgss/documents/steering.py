@@ -1,4 +1,4 @@
-"""Characters that steer who shows a text: controls, escapes, directions of writing; found and escaped.
+"""Detection and escaping of control characters: controls, escapes, directions of writing.
 
 They are legal in a text and invisible in it, and a terminal, a reviewer's page or a log viewer obeys
 them. `rgss.findings.printable` replaces them where a text is made for people; here they are escaped
@@ -20,7 +20,7 @@ _STEERING = re.compile(
 
 
 def steers(text: str) -> bool:
-    """True if a text has a character that steers who shows it.
+    """True if a text has a character that controls a terminal or the order of the shown text.
 
     Args:
         text: The text.

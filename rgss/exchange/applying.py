@@ -1,4 +1,4 @@
-"""Writing changes into the YAML files of a project: all of them, checked, or none."""
+"""Transactional changes of the YAML files of a project: all of them, checked, or none."""
 
 from __future__ import annotations
 
@@ -50,9 +50,9 @@ class FileChange:
 def planned(
     folder: Path, requirements: RequirementSet, changes: Sequence[ElementChange], *, remove: bool
 ) -> tuple[FileChange, ...]:
-    """Files as the changes make them; nothing is written.
+    """Files after the changes; nothing is written.
 
-    An element that is new stands behind the last of its kind, in the file of that.
+    A new element is inserted after the last one of its kind, in the same file.
 
     Args:
         folder: The project.
@@ -112,7 +112,7 @@ def rehearsed(
 
 
 def written(folder: Path, files: Sequence[FileChange]) -> None:
-    """Write the changes; if one file cannot be written, those before it get back what they held.
+    """Write the changes; if one file cannot be written, those before it are restored.
 
     Args:
         folder: The project.
@@ -201,7 +201,7 @@ def _homes(requirements: RequirementSet) -> dict[tuple[Part, str], str]:
     for element in requirements.elements:
         part, label = part_of(element), requirements.places[element.id].document.label
         homes[part, getattr(element, _GROUPS[part]).value] = homes[part, ""] = label
-    # Blocks and behaviours may stand in one file.
+    # One file may contain both blocks and behaviours.
     for part, other in ((Part.BLOCK, Part.BEHAVIOUR), (Part.BEHAVIOUR, Part.BLOCK)):
         if (other, "") in homes:
             homes.setdefault((part, ""), homes[other, ""])
@@ -209,7 +209,7 @@ def _homes(requirements: RequirementSet) -> dict[tuple[Part, str], str]:
 
 
 def _home(homes: Mapping[tuple[Part, str], str], change: ElementChange) -> str:
-    """The file that an element that is new belongs into."""
+    """The file in which a new element is inserted."""
     home = homes.get((change.part, change.entry[_GROUPS[change.part]]), homes.get((change.part, "")))
     if home is None:
         raise DefinitionError(f"there is no file for {change.id!r}", hint="begin one with one such element by hand")

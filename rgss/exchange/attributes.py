@@ -61,7 +61,7 @@ class Attribute:
     """One attribute of an element.
 
     Attributes:
-        name: What it is called in files of exchange.
+        name: Its name in files of exchange.
         path: The keys that lead to it in an entry of a YAML file.
         form: How it is written as one text.
         choices: What it chooses from; empty unless it is a choice.
@@ -168,4 +168,4 @@ ATTRIBUTES: Mapping[Part, tuple[Attribute, ...]] = MappingProxyType(
 MODELS: Mapping[Part, type[Element]] = MappingProxyType(
     {Part.STAKEHOLDER: StakeholderNeed, Part.SYSTEM: Requirement, Part.BLOCK: Block, Part.BEHAVIOUR: Behaviour}
 )
-"""What an entry of a YAML file must be."""
+"""Model of an entry of a YAML file."""

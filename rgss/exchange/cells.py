@@ -1,4 +1,4 @@
-"""Entries of YAML files to one text for each attribute, and back."""
+"""Conversion between entries of YAML files and one text for each attribute."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def cells_of(part: Part, entry: Mapping[str, Any]) -> dict[str, str]:
 
 
 def entry_of(part: Part, cells: Cells) -> dict[str, Any]:
-    """The entry that some texts stand for; what is empty is left out.
+    """Entry from the texts of its attributes; empty ones are left out.
 
     Args:
         part: What the entry is.

@@ -21,7 +21,7 @@ _PARTS: Mapping[type[Element], Part] = MappingProxyType({model: part for part, m
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Row:
-    """One element as a file says it.
+    """One element of a file.
 
     Attributes:
         part: What it is; None where the file does not say.
@@ -47,8 +47,7 @@ class Row:
 class Content:
     """Elements as a file says them.
 
-    Attributes:
-        rows: The elements, in the file's order.
+    Attributes: rows: The elements, in the file's order.
         measures: Id and definition of each measure.
         whole: Parts of which the file has every element, so that one that it lacks is gone.
         notes: What of the file is not taken over, since there is no place for it here.

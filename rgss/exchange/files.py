@@ -32,7 +32,7 @@ def problem(
         message: What is wrong.
         line: The line, or the row of a sheet.
         column: The column.
-        hint: How to mend it.
+        hint: How to resolve it.
         severity: An error makes the file unusable.
     """
     return Finding(
@@ -52,7 +52,7 @@ def refusal_of(findings: Sequence[Finding]) -> DocumentError:
     first = sorted(findings)[:MOST_PROBLEMS]
     if len(findings) > MOST_PROBLEMS:
         message = f"more than {MOST_PROBLEMS} problems; the first {MOST_PROBLEMS} are shown"
-        first.insert(0, problem(first[0].file, "many", message, hint="mend these first"))
+        first.insert(0, problem(first[0].file, "many", message, hint="correct these first"))
     return DocumentError(first)
 
 

@@ -1,4 +1,4 @@
-"""Refusal of unsafe XML before any other parser sees it: document types, entities, bottomless nesting."""
+"""Refusal of unsafe XML before any other parser reads it: document types, entities, unbounded nesting."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class _RefusedError(Exception):
 
 
 def require_plain_xml(content: bytes, file: str) -> None:
-    """Make sure that XML is well formed, in UTF-8 and without document type, entities and deep nesting.
+    """Require well-formed XML in UTF-8 without document type, entities and deep nesting.
 
     Nothing is expanded, fetched or built on the way.
 

@@ -30,7 +30,7 @@ class ClosureVerdict:
 
 
 def equilibrium(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None) -> ClosureVerdict:
-    """Tell whether contact forces other than zero can hold the object at rest without an outer load (eq. 3.1).
+    """True if contact forces other than zero can hold the object at rest without an outer load (eq. 3.1).
 
     Among all contact forces whose normal forces sum to 1 N, a first program finds the smallest net wrench; a second
     one, if that is zero, the most even squeeze. A contact without a share in any squeeze is not essential (sec.
@@ -52,7 +52,7 @@ def equilibrium(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | No
 
 
 def force_closure(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | None = None) -> ClosureVerdict:
-    """Tell whether contact forces can resist every wrench, if they may be as large as it takes (eq. 3.4).
+    """True if contact forces can resist every wrench, if they may be as large as it takes (eq. 3.4).
 
     The primitive wrenches positively span the space: they have full rank, and a combination with coefficients that are
     all above zero is zero (Lynch and Park, Modern Robotics, 2017, chapter 12; Murray, Li, Sastry 1994, chapter 5). The
@@ -74,7 +74,7 @@ def force_closure(grasp: Grasp, *, cone_edges: int = 8, plane_normal: Vector3 | 
 
 
 def form_closure(grasp: Grasp, *, plane_normal: Vector3 | None = None) -> ClosureVerdict:
-    """Tell whether the contacts' normals alone immobilise the object (sec. 3.3.2.1).
+    """True if the contacts' normals alone immobilise the object (sec. 3.3.2.1).
 
     This is form closure of first order: curvature, which can immobilise with fewer contacts, does not count. It is
     force closure without friction, and takes at least 7 contacts in space and 4 in a plane. The margin is that of
@@ -94,7 +94,7 @@ def wrench_resistance(
     cone_edges: int = 8,
     plane_normal: Vector3 | None = None,
 ) -> ClosureVerdict:
-    """Tell whether the fingers can hold the object against an outer load with the force they have (eq. 3.4).
+    """True if the fingers can hold the object against an outer load with the force they have (eq. 3.4).
 
     The program finds the greatest multiple of the load for which contact forces in the friction cones balance it, while
     the normal forces of the points of each finger sum to at most its limit.
@@ -178,7 +178,7 @@ def resistance(
 
 
 def positive_span(wrenches: Matrix) -> ClosureVerdict:
-    """Tell whether wrenches positively span their space; the margin is that of `force_closure`.
+    """True if wrenches positively span their space; the margin is that of `force_closure`.
 
     Args:
         wrenches: Shape (space, n), in newtons alone.

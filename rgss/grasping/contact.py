@@ -1,4 +1,4 @@
-"""A point at which a finger touches an object: where, along which normal, and what it can transmit."""
+"""Contact point of a finger and an object: position, normal, friction and kind."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class ContactPoint:
     tangent: Vector3 | None = None
 
     def __post_init__(self) -> None:
-        """Refuse what is not a contact.
+        """Validate the contact.
 
         Raises:
             DefinitionError: A number is not finite, the normal has not the length 1, a coefficient or the normal force
@@ -105,7 +105,7 @@ class ContactPoint:
 
     def tangents(self) -> tuple[Vector3, Vector3]:
         """Two unit vectors that make a right-handed frame with the normal before them."""
-        # In plain numbers, since a grasp asks for many of these and arrays of three are slow.
+        # In plain numbers, since a grasp needs many of these and arrays of three are slow.
         normal, towards = self.unit_normal(), self.tangent
         if towards is None:
             towards = (0.0, 0.0, 1.0) if abs(normal[2]) <= _NEARLY_VERTICAL else (1.0, 0.0, 0.0)

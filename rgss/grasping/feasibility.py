@@ -23,7 +23,7 @@ BALANCED = 1e-8
 
 
 def can_balance(wrenches: Matrix) -> bool:
-    """Tell whether some combination with coefficients from zero, which sum to 1, is zero.
+    """True if some combination with coefficients from zero, which sum to 1, is zero.
 
     Args:
         wrenches: Shape (space, n), in newtons alone.
@@ -37,7 +37,7 @@ def can_balance(wrenches: Matrix) -> bool:
 
 
 def positively_span(wrenches: Matrix) -> bool:
-    """Tell whether wrenches positively span their space.
+    """True if wrenches positively span their space.
 
     They do if they have full rank and -Σ w_i is a combination of them with coefficients c_i from zero: then
     Σ (1 + c_i) w_i = 0 with coefficients that are all above zero.

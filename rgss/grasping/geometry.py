@@ -1,4 +1,4 @@
-"""Verdicts and measures of a grasp by its geometry alone, whatever forces its contacts have just now."""
+"""Verdicts and measures of a grasp that depend on its geometry alone, not on its contact forces."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class GraspGeometry:
     """
 
     def __init__(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> None:
-        """Work out all but what takes a hull.
+        """Compute everything but the convex hull.
 
         Args:
             grasp: The grasp.
@@ -73,14 +73,14 @@ class GraspGeometry:
 
 
 class GraspGeometryCache:
-    """Remembers the geometry of the grasp that was analysed last.
+    """Cache of the geometry of the grasp that was analysed last.
 
     An object that is held does not move in the hand for most of the time: its contacts stay where they
-    are while their forces change, and only what depends on the forces needs to be worked out again.
+    are while their forces change, and only the quantities that depend on the forces are computed again.
     """
 
     def __init__(self) -> None:
-        """Remember nothing yet."""
+        """Start with an empty cache."""
         self._last: GraspGeometry | None = None
 
     def geometry(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> GraspGeometry:
@@ -122,6 +122,6 @@ def _verdicts(
         first, second, third = (Verdict(verdict.holds, verdict.margin) for verdict in found)
         return first, second, third
     closed = positively_span(edges.matrix)
-    # Wrenches that span their space balance; only the others need to be asked.
+    # Wrenches that span their space balance; only the others need to be checked.
     squeezed = closed or can_balance(edges.matrix)
     return Verdict(squeezed, None), Verdict(closed, None), Verdict(positively_span(normals), None)

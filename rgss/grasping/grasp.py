@@ -16,7 +16,8 @@ from rgss.grasping.contact import ContactPoint, Matrix, Vector3
 class Grasp:
     """The contacts on one object.
 
-    A torque is divided by the characteristic length wherever it stands beside a force, so that both are in newtons and
+    A torque is divided by the characteristic length wherever it is combined with a force, so that both are in newtons
+    and
     singular values, norms and balls of wrenches have a meaning. Every measure that mixes them depends on that length:
     compare grasps of one object with one length.
 
@@ -31,7 +32,7 @@ class Grasp:
     characteristic_length_m: float
 
     def __post_init__(self) -> None:
-        """Refuse what is not a grasp.
+        """Validate the grasp.
 
         Raises:
             DefinitionError: There is no contact, the centre of mass is not a point, or the length is not positive.

@@ -1,4 +1,4 @@
-"""The grasp map: which wrench on the object the contacts make."""
+"""Grasp map: from contact forces to the wrench on the object."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def grasp_map(grasp: Grasp, intensities: Sequence[Sequence[float]]) -> Wrench:
 
 def net_wrench(grasp: Grasp) -> Wrench:
     """The wrench of the contacts' present normal and friction forces about the centre of mass."""
-    # In plain numbers, as for the contacts' axes: it is asked for at every look at a grasp.
+    # In plain numbers, as for the contacts' axes: it is computed in every analysis of a grasp.
     ox, oy, oz = grasp.centre_of_mass_m
     fx = fy = fz = tx = ty = tz = 0.0
     for contact in grasp.contacts:
@@ -115,7 +115,7 @@ def primitive_wrenches(
 ) -> PrimitiveWrenches:
     """The edges of the friction cones, replaced by pyramids inside of them, as wrenches of unit normal force.
 
-    What a pyramid can resist the round cone can, so that verdicts err on the safe side; friction is at worst
+    The round cone resists whatever the pyramid resists, so that verdicts are conservative; friction is at worst
     cos(π / edges) of what it is, 0.92 for 8.
 
     Args:
@@ -223,7 +223,7 @@ def _check_plane(grasp: Grasp, plane_normal: Vector3) -> None:
 
 
 def plane_rows(plane_normal: Vector3) -> Matrix:
-    """Picks two forces in a plane and the torque about its normal out of a wrench, shape (3, 6)."""
+    """Selection matrix of two forces in a plane and the torque about its normal from a wrench, shape (3, 6)."""
     frame = ContactPoint(position_m=(0.0, 0.0, 0.0), normal=plane_normal).axes()
     rows = np.zeros((3, 6))
     rows[:2, :3], rows[2, 3:] = frame[1:], frame[0]

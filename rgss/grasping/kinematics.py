@@ -1,4 +1,4 @@
-"""Contact kinematics: how the gap between two moving bodies changes, and how they move along one another."""
+"""Contact kinematics: gap rate and relative tangential motion of two moving bodies."""
 
 from __future__ import annotations
 
@@ -189,7 +189,7 @@ def is_potential_contact(
     *,
     tolerance: float = 1e-6,
 ) -> bool:
-    """Tell whether two points are nearest points of their surfaces, as far as direction goes (eq. 2.11, 2.12).
+    """True if two points are nearest points of their surfaces, as far as direction goes (eq. 2.11, 2.12).
 
     The outward normals oppose one another and the line between the points is along them.
 

@@ -51,7 +51,8 @@ def grasp_polygon(grasp: Grasp, grasp_axis: Vector3 | None = None) -> GraspPolyg
     Raises:
         DefinitionError: The axis has no direction.
     """
-    # In plain numbers, as for the contacts' axes: a polygon has few corners and is asked for at every look at a grasp.
+    # In plain numbers, as for the contacts' axes: a polygon has few corners and is computed in every analysis of a
+    # grasp.
     corners = _finger_points(grasp)
     count = len(corners)
     x, y, z = (math.fsum(row) / count for row in zip(*corners, strict=True))

@@ -1,4 +1,4 @@
-"""Measures of how good a grasp is (sec. 3.4): from the grasp matrix, the grasp polygon, and the contact forces."""
+"""Quality measures of a grasp (sec. 3.4): from the grasp matrix, the grasp polygon, and the contact forces."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def of_ellipsoid(matrix: Matrix) -> tuple[float, float, float]:
 def q_gpri(polygon: GraspPolygon) -> float | None:
     """Regularity of the grasp polygon, Σ|θ_i - θ̄| / θ_max (eq. 3.9): from 0, regular, to 1, pressed into a line.
 
-    The corner of a finger that stands inside the others makes an angle above π, and the sum may exceed what a convex
+    The corner of a finger that lies inside the others makes an angle above π, and the sum may exceed what a convex
     polygon can have: it counts as 1.
 
     Returns:
@@ -75,7 +75,7 @@ def q_diff_m(polygon: GraspPolygon) -> float:
 
 
 def q_smw_n(grasp: Grasp, *, finger_force_limit_n: float, cone_edges: int = 8) -> float:
-    """Smallest maximum wrench (eq. 3.12, 3.13): what the grasp resists in its weakest direction, in newtons.
+    """Smallest maximum wrench (eq. 3.12, 3.13): the wrench resisted in the weakest direction, in newtons.
 
     Each finger's bounded wrench cone W_i has the normal force at most at the limit, and W is the convex hull of them,
     so the fingers share the limit of one. The measure is the radius of the largest ball about the origin in W, torques

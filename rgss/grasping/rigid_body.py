@@ -1,4 +1,4 @@
-"""Rigid-body measures (eq. 3.5): how far, how fast, how heavily loaded, with one length between turning and moving."""
+"""Rigid-body measures (eq. 3.5) of distance, velocity and load, with one characteristic length."""
 
 from __future__ import annotations
 

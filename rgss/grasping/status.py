@@ -1,4 +1,4 @@
-"""A contact in words: apart, touching or penetrating; rolling or slipping."""
+"""Contact status: apart, touching or penetrating; rolling or slipping."""
 
 from __future__ import annotations
 
@@ -68,10 +68,10 @@ class ContactStatus:
 
 
 def contact_status(motion: ContactMotion, tolerances: ContactTolerances | None = None) -> ContactStatus:
-    """Tell what a contact does.
+    """Status of a contact.
 
-    A contact lasts only while the gap and its derivatives are zero; the first of them that is not says where it is
-    going. An acceleration that is not known counts as zero.
+    A contact lasts only while the gap and its derivatives are zero; the first non-zero one gives the direction of its
+    change. An acceleration that is not known counts as zero.
     """
     limits = tolerances or ContactTolerances()
     state = ContactState.TOUCHING
@@ -105,7 +105,7 @@ def twist_tendency(
     finger_velocity_m_s: Vector3 = (0.0, 0.0, 0.0),
     tolerance_m_s: float = 1e-9,
 ) -> Tendency:
-    """Tell whether a twist of the object leaves a contact, keeps it, or would penetrate the finger.
+    """True if a twist of the object leaves a contact, keeps it, or would penetrate the finger.
 
     By the power of a unit force along the normal: tᵀW is at least the finger's speed along the normal for a motion that
     the finger permits (eq. 2.5 to 2.8); a resting finger demands tᵀW ≥ 0.

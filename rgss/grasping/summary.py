@@ -98,7 +98,7 @@ def analyse_grasp(
         with_strength: Whether to say what the grasp resists: the smallest maximum wrench, by a hull, and the load, by
             a linear program. Without margins and strength an analysis takes a few times less than with either.
         memory: What remembers the grasp that was analysed before this one, if the same grasp is looked at again and
-            again: what depends on the geometry alone is then worked out anew only where a contact has moved.
+            again: what depends on the geometry alone is then computed again only where a contact has moved.
 
     Raises:
         DefinitionError: The contacts, the limit, the axis, the length or the load make no sense, or a solver failed.

@@ -1,4 +1,4 @@
-"""Choice of the inverse kinematics' branch at each waypoint, so that the whole task moves least."""
+"""Choice of the inverse kinematics branch at each waypoint that minimises the joint travel of the task."""
 
 from __future__ import annotations
 

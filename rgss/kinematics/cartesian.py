@@ -18,7 +18,7 @@ Quaternion = tuple[float, float, float, float]
 
 
 class LineBreak(Enum):
-    """What ends a straight line of the tool on its way."""
+    """Reason for which a straight line of the tool ends early."""
 
     UNREACHABLE = "unreachable"
     BRANCH_ENDS = "branch_ends"

@@ -1,4 +1,4 @@
-"""Is a configuration free of collision? Arm, gripper and workpiece against the scene and themselves."""
+"""Collision checking of configurations: arm, gripper and workpiece against the scene and themselves."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _STOP_AT_FIRST, _FIND_ALL = True, False
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NearestPair:
-    """The two parts that are nearest to what they must not be.
+    """Pair of parts with the least distance beyond its clearance.
 
     Attributes:
         first: The link, body or workpiece of the one.
@@ -43,7 +43,7 @@ class NearestPair:
 
     @property
     def room_m(self) -> float:
-        """By how much the distance exceeds the clearance; negative where it falls short."""
+        """Distance less the clearance; negative where the clearance is violated."""
         return self.distance_m - self.clearance_m
 
 
@@ -117,7 +117,7 @@ class CollisionModel:
         self._manager = pinocchio.BroadPhaseManager_NaiveCollisionManager(self._model, self._geometry, self._state)
 
     def is_valid(self, q: Sequence[float] | Vector) -> bool:
-        """Tell whether a configuration keeps the joint ranges, touches nothing and keeps what it carries upright.
+        """True if a configuration keeps the joint ranges, touches nothing and keeps what it carries upright.
 
         Args:
             q: Joint angles in rad, shape (6,).

@@ -30,7 +30,7 @@ class Part:
     shape: Any
 
     def can_meet(self, other: Part) -> bool:
-        """Tell whether the two can come together: not when nothing moves between them, nor as neighbouring links."""
+        """True if the two can come together: not when nothing moves between them, nor as neighbouring links."""
         if self.joint == other.joint:
             return False
         if self.chain is None or other.chain is None:

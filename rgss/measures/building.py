@@ -1,4 +1,4 @@
-"""From the entries of a measures file to a consistent set of measures."""
+"""Construction of a consistent set of measures from the entries of a measures file."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class _Builder:
         return order, transitive_use({name: one.names for name, one in expressions.items()}, order)
 
     def _differs(self, used: frozenset[str], sound: set[str]) -> bool | None:
-        """Tell whether a measure of these symbols differs from trial to trial; None if that is unknown."""
+        """True if a measure of these symbols differs from trial to trial; None if that is unknown."""
         inputs = {entry.id: entry.source.startswith("trial.") for entry in self._entries.inputs}
         if any(inputs.get(name, False) for name in used):
             return True

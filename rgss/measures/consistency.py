@@ -1,4 +1,4 @@
-"""What must hold between the entries of a measures file, apart from its expressions."""
+"""Consistency checks between the entries of a measures file, except for expressions."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def check_roles(
     by_trial: Mapping[str, bool],
     lengths: Mapping[str, int | None],
 ) -> list[Finding]:
-    """Check that each measure says what its kind and its expression call for.
+    """Check that each measure has the keys that its kind and its expression require.
 
     Args:
         document: The positions.

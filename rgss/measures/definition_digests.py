@@ -1,4 +1,4 @@
-"""The digest of all that a measure's value is defined by."""
+"""Digest of the definition of a measure."""
 
 from __future__ import annotations
 

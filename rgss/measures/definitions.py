@@ -1,4 +1,4 @@
-"""What a measures file defines: constants, inputs, equations, assumptions and measures."""
+"""Definitions of a measures file: constants, inputs, equations, assumptions and measures."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NEVER_NEGATIVE = tuple(((name, 1.0),) for name in ("time", "mass", "currency"))
 
 
 class MeasureKind(str, Enum):
-    """What a measure is for: effectiveness is judged by stakeholders, performance by engineers."""
+    """Kind of a measure: effectiveness concerns stakeholders, performance concerns engineers."""
 
     EFFECTIVENESS = "moe"
     PERFORMANCE = "mop"
@@ -26,7 +26,7 @@ class MeasureKind(str, Enum):
 
 
 class Direction(str, Enum):
-    """Which values of a measure are better."""
+    """Preferred direction of a measure."""
 
     HIGHER = "higher"
     LOWER = "lower"
@@ -34,7 +34,7 @@ class Direction(str, Enum):
 
 
 class Estimator(str, Enum):
-    """How trial values become one value.
+    """Estimator of one value from trial values.
 
     A mean is the mean of the trials' values; a proportion is the share of trials whose value
     is complete, which is 1; a ratio is the sum of the numerators of a quotient over the sum of
@@ -54,7 +54,7 @@ class Population(str, Enum):
 
 
 class Summary(str, Enum):
-    """How the entries of a row become the one number that is estimated."""
+    """Reduction of a row to the one number that is estimated."""
 
     SUM = "sum"
     MEAN = "mean"
@@ -95,7 +95,7 @@ class InputSymbol(DocumentModel):
 
     @property
     def from_trial(self) -> bool:
-        """Whether it differs from trial to trial."""
+        """True if it differs from trial to trial."""
         return self.source.startswith("trial.")
 
     @property
@@ -215,12 +215,12 @@ class Measure:
 
     @property
     def is_never_negative(self) -> bool:
-        """Whether its unit is one of time, mass or money, of which no trial has less than none."""
+        """True if its unit is one of time, mass or money, so that no value is negative."""
         return dimension(self.unit) in _NEVER_NEGATIVE
 
     @property
     def from_trials(self) -> bool:
-        """Whether it differs from trial to trial."""
+        """True if it differs from trial to trial."""
         return self.estimate is not None
 
 
@@ -286,7 +286,7 @@ class MeasureSet:
         return tuple(symbol.source for symbol in self.inputs if symbol.id in used)
 
     def assumptions_of(self, id: str) -> tuple[Assumption, ...]:  # noqa: A002 - the domain's word
-        """The assumptions that a measure rests on, directly or not.
+        """The assumptions that a measure depends on, directly or not.
 
         Raises:
             DefinitionError: There is no such measure.

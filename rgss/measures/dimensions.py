@@ -1,4 +1,4 @@
-"""Dimensional analysis of expressions: do the units of an equation's two sides agree?"""
+"""Dimensional analysis of expressions: comparison of the units of an equation's two sides."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _BASE_UNITS: tuple[tuple[str, str], ...] = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Kind:
-    """What a value is.
+    """Kind of a value.
 
     Attributes:
         dimension: What it measures.

@@ -1,4 +1,4 @@
-"""Difference between what an equation gives of a measure and what the simulation shows."""
+"""Difference between the value of an equation and that of the simulation."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class ModelGap:
 
     @property
     def is_notable(self) -> bool:
-        """Whether they differ by more than a tenth of the equation's value."""
+        """True if they differ by more than a tenth of the equation's value."""
         return abs(self.relative) > NOTABLE
 
 

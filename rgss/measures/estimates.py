@@ -18,7 +18,7 @@ _DIGITS = 12
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Estimate:
-    """What is known of a measure of one variant.
+    """Estimate of a measure of one variant.
 
     Attributes:
         value: The value; None where no trial gave one.

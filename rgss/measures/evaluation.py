@@ -1,4 +1,4 @@
-"""From a design's values and its trials to the estimates of every measure."""
+"""Evaluation of every measure from a design's values and its trials."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def _mean(measure: Measure, known: Sequence[float], variant: int) -> Estimate:
                 hint="correct 'least' and 'most' of its estimate in the measures file",
             )
     least = measure.least
-    # One trial says nothing of a spread, so that only a declared bound gives it an interval.
+    # One trial has no variance, so that only a declared bound gives it an interval.
     if least is None and measure.is_never_negative and len(known) > 1 and min(known) >= 0.0:
         least = 0.0
     return mean_estimate(known, measure.unit, least=least, most=measure.most)

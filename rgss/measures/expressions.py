@@ -27,7 +27,7 @@ class ExpressionProblem:
         rule: The id of the broken rule.
         offset: Where it is, in characters from the start of the expression.
         message: What is wrong.
-        hint: How to mend it; may be empty.
+        hint: How to resolve it; may be empty.
     """
 
     rule: str

@@ -13,7 +13,7 @@ Value = float | None | tuple[float | None, ...]
 
 
 class Shape(Enum):
-    """What a function takes, and what it gives."""
+    """Shape of a function's argument and result."""
 
     ENTRY_BY_ENTRY = "entry by entry"
     REDUCTION = "reduction"

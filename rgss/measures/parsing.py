@@ -1,4 +1,4 @@
-"""The text of an expression to its tree, with every refused construct at its place."""
+"""Parser of expressions, with every refused construct at its place."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def _unreadable(text: str) -> ExpressionProblem | None:
 
 
 class _Reader:
-    """Turns Python's tree into ours; gathers problems and names on the way."""
+    """Converter of Python's tree into ours, which collects problems and names."""
 
     def __init__(self) -> None:
         self.problems: list[ExpressionProblem] = []

@@ -1,4 +1,4 @@
-"""Judging an estimate against a criterion."""
+"""Verdict of an estimate on a criterion."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class StaleCause(str, Enum):
 
 
 def meets(criterion: Criterion, value: float, unit: str) -> bool:
-    """Tell whether one value satisfies a criterion, whatever its statistic.
+    """True if one value satisfies a criterion, whatever its statistic.
 
     A value within `rgss.requirements.RELATIVE_TOLERANCE` of the threshold counts as equal to it.
 

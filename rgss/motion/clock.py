@@ -1,4 +1,4 @@
-"""The planning clock: what a search costs in time."""
+"""Planning clock: the time that a search costs."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rgss.errors import MotionError
 
 
 class ClockKind(str, Enum):
-    """How planning time is told."""
+    """Kind of a planning clock."""
 
     COUNTED = "counted"
     WALL = "wall"
@@ -20,13 +20,13 @@ class ClockKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningClock:
-    """Tells the time of a search.
+    """Clock of the planning time of a search.
 
     A counted clock charges the same time for each state-validity check, so that a seed gives the same
     result on any machine. A wall clock measures, and its results differ from run to run.
 
     Attributes:
-        kind: How the time is told.
+        kind: Kind of the clock.
         charge_s: What a counted clock charges for one check.
 
     Raises:
@@ -76,7 +76,7 @@ class PlanningClock:
         """Start the clock.
 
         Returns:
-            A function that tells the time in s since now, given the number of checks made since now.
+            A function that returns the time in s since the start, given the number of checks made since then.
         """
         if self.kind is ClockKind.COUNTED:
             return self.time_s

@@ -1,4 +1,4 @@
-"""The one place that loads OMPL, and the cure for its crash at exit."""
+"""Loading of OMPL, in this module alone, with a workaround for its crash at exit."""
 
 from __future__ import annotations
 

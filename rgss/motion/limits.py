@@ -1,4 +1,4 @@
-"""What a timed motion must keep."""
+"""Limits of a timed motion."""
 
 from __future__ import annotations
 

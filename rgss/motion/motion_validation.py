@@ -1,4 +1,4 @@
-"""Checks the straight motion between two states as OMPL does, with fewer crossings into the engine."""
+"""Validation of straight motions between two states as in OMPL, with fewer calls into the engine."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def motion_validator(
         """Straight motions of a real vector space, checked state by state."""
 
         def checkMotion(self, start: Any, end: Any, last_valid: Any = None) -> bool:  # noqa: N802 - the engine's name
-            """Tell whether a motion is valid; with a third argument, put into it how far it is."""
+            """True if a motion is valid; with a third argument, put into it how far it is."""
             pieces = space.validSegmentCount(start, end)
             if last_valid is not None:
                 return self._is_valid_until(start, end, pieces, last_valid)
@@ -72,7 +72,7 @@ def _states(start: Sequence[float], end: Sequence[float], fractions: Vector) -> 
 
 @lru_cache(maxsize=4096)
 def _rising(pieces: int) -> Vector:
-    """Where the states between two lie that cut a motion into pieces, shape (pieces - 1, 1), in order."""
+    """Fractions of the states that divide a motion into pieces, shape (pieces - 1, 1), in order."""
     fractions: Vector = (np.arange(1, max(1, pieces)) / max(1, pieces))[:, None]
     return fractions
 

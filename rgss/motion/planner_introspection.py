@@ -66,7 +66,7 @@ def _type_of(planner: Any, name: str, entry: dict[str, str]) -> ParameterType:
 
 
 def _keeps(planner: Any, name: str, text: str) -> bool:
-    """Whether a parameter has a fraction that is set; one of whole numbers is cut off."""
+    """True if a parameter keeps a fraction that is set; an integer parameter truncates it."""
     try:
         return bool(planner.params().setParam(name, text)) and planner.params()[name].getValue() == text
     except RuntimeError:  # a value that the setter refuses

@@ -1,6 +1,6 @@
 """Planner settings: an OMPL planner with its parameters and its objective, and the use of an unverified path.
 
-They are data, apart from the search that they are for: what only carries them along does not depend on OMPL.
+They are data: modules that only pass them on do not depend on OMPL.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class PlannerSettings:
 
     @property
     def has_no_cost(self) -> bool:
-        """Whether it is a TRRT that accepts every transition, and so a RRT by another name."""
+        """True for a TRRT that accepts every transition, and so is an RRT."""
         return self.algorithm == "TRRT" and self.objective is None
 
 

@@ -46,7 +46,7 @@ def refusal_of(name: str) -> str:
 
 
 def takes_objective(name: str) -> bool:
-    """Whether a planner depends on an optimisation objective.
+    """True if a planner depends on an optimisation objective.
 
     Args:
         name: One of `available_planners`.

@@ -1,4 +1,4 @@
-"""What is to be planned, and how the planning of it ended."""
+"""Planning problem of a move, and the result of its planning."""
 
 from __future__ import annotations
 
@@ -58,13 +58,13 @@ class PlanningProblem:
         return self.resolution_rad if given is None else given
 
     def in_range(self, state: tuple[float, ...]) -> bool:
-        """Tell whether a state keeps the planning ranges."""
+        """True if a state keeps the planning ranges."""
         return all(low <= value <= high for low, value, high in zip(self.lower_rad, state, self.upper_rad, strict=True))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PlanResult:
-    """How the planning of one move ended.
+    """Result of the planning of one move.
 
     A search is *solved within* a budget when the number of checks at its solution, those of verifying and
     repairing its path included, is at most the budget; otherwise the budget counts as spent to its end. A search

@@ -132,7 +132,7 @@ class _CheckBudget:
             self._budget = min(self._search_budget, self._limit - self._kept_back)
 
     def search_is_over(self) -> None:
-        """Give free what was kept back."""
+        """Release the checks that were kept back."""
         self._budget = self._limit
 
     def affords(self, checks: int) -> bool:
@@ -140,7 +140,7 @@ class _CheckBudget:
         return self.spent + checks <= self._budget
 
     def are_valid(self, states: Vector) -> bool:
-        """Whether all states are valid, which lie between valid ones; checked in order up to the first that is not.
+        """True if all states, which lie between valid ones, are valid; checked in order up to the first invalid one.
 
         Raises:
             _BudgetSpentError: The budget or the time ends before that is known.
@@ -225,7 +225,7 @@ def _random_shortcuts(
 
 
 def _arc_lengths(path: Vector) -> list[float]:
-    """How far each corner is from the first along the path."""
+    """Arc length of each corner from the first one along the path."""
     steps = np.linalg.norm(np.diff(path, axis=0), axis=1).tolist()
     return list(itertools.accumulate(steps, initial=0.0))
 

@@ -32,7 +32,7 @@ _POLYGON_INRADIUS = math.cos(math.pi / 16)
 
 
 class TimingOutcome(str, Enum):
-    """How the timing of a path ended."""
+    """Outcome of the timing of a path."""
 
     TIMED = "timed"
     IN_COLLISION = "in_collision"
@@ -41,10 +41,10 @@ class TimingOutcome(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TimedMove:
-    """How the timing of one move ended.
+    """Result of the timing of one move.
 
     Attributes:
-        outcome: How it ended.
+        outcome: The outcome.
         trajectory: The motion; None unless it could be timed.
         blended: Corners of the path that are rounded.
         stops: Corners of the path at which the motion comes to rest.
@@ -219,7 +219,7 @@ def _along_and_across(at: PathDerivatives) -> tuple[Vector, Vector]:
 
 
 def _verify(grid: Vector, rates: Vector, fine: PathDerivatives, limits: MotionLimits) -> tuple[float, float, float]:
-    """By what factor must the motion slow down? And the peak speed and acceleration of the tool."""
+    """Factor by which the motion must slow down, and the peak speed and acceleration of the tool."""
     squares = rates**2
     accelerations = np.diff(squares) / (2 * np.diff(grid))
     # Both ends of a cell belong to it, as the acceleration jumps from cell to cell.

@@ -1,4 +1,4 @@
-"""What planning and timing need to know about a robot; kinematics provides it, trials introduce them."""
+"""Interfaces of a robot for planning and timing, which the kinematics implements."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 
 class StateValidity(Protocol):
-    """Tells valid configurations from invalid ones."""
+    """Validity of configurations."""
 
     def is_valid(self, q: Sequence[float] | NDArray[np.float64]) -> bool:
-        """Tell whether a configuration is valid.
+        """True if a configuration is valid.
 
         Args:
             q: Joint angles in rad, shape (n,).
@@ -23,7 +23,7 @@ class StateValidity(Protocol):
 
 @runtime_checkable
 class BatchValidity(StateValidity, Protocol):
-    """Tells the first invalid one of many configurations faster than one after another."""
+    """Validity of many configurations at once, faster than one after another."""
 
     def first_invalid_between(self, qs: NDArray[np.float64]) -> int | None:
         """Index of the first invalid configuration; None if all are valid.
@@ -35,7 +35,7 @@ class BatchValidity(StateValidity, Protocol):
 
 
 def first_invalid_between(validity: StateValidity) -> Callable[[NDArray[np.float64]], int | None]:
-    """What finds the first invalid one of configurations (n, joints) that lie between two valid ones."""
+    """Function that finds the first invalid one of configurations (n, joints) between two valid ones."""
     if isinstance(validity, BatchValidity):
         return validity.first_invalid_between
 
@@ -50,7 +50,7 @@ StateCost = Callable[[Sequence[float]], float]
 
 
 class ToolKinematics(Protocol):
-    """Where the tool centre is and how it moves."""
+    """Position and Jacobian of the tool centre."""
 
     def tool_position(self, qs: ArrayLike) -> NDArray[np.float64]:
         """Positions of the tool centre in m, shape (n, 3), for joint angles in rad, shape (n, 6)."""

@@ -15,7 +15,7 @@ from rgss.motion.validity import StateValidity, first_invalid_between
 Vector = NDArray[np.float64]
 
 Replan = Callable[[Vector, Vector, int, int], tuple[Vector | None, int]]
-"""Plans a motion anew: its ends, its number, the checks so far; its corners, if any, and the checks that it took."""
+"""Replanning of a motion: its ends, its number, the checks so far; its corners, if any, and the checks that it took."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -23,12 +23,12 @@ class Verification:
     """Result of the verification of a path.
 
     Attributes:
-        corners: Corners of the path in rad, shape (n, joints), with the motions that were planned anew.
-        is_valid: Whether every state is valid; False also where a motion could not be planned anew.
-        gave_up: Whether a motion could not be planned anew within the budget.
+        corners: Corners of the path in rad, shape (n, joints), with the replanned motions.
+        is_valid: Whether every state is valid; False also where a motion could not be replanned.
+        gave_up: Whether a motion could not be replanned within the budget.
         checks: Validity checks of the verification.
-        repair_checks: Validity checks of planning motions anew.
-        repairs: Motions that were planned anew.
+        repair_checks: Validity checks of replanning.
+        repairs: Number of replanned motions.
     """
 
     corners: Vector
@@ -42,7 +42,7 @@ class Verification:
 def verified(
     corners: Vector, validity: StateValidity, *, resolution_rad: float, replan: Replan | None = None
 ) -> Verification:
-    """Check the motions of a path at a resolution, and plan those anew that are not valid.
+    """Check the motions of a path at a resolution, and replan those that are not valid.
 
     Motions are checked in order, each by halving. A motion that touches something between its ends is replaced by
     a path between the same ends which is searched for at the same resolution, and so needs no check of its own.
@@ -51,7 +51,7 @@ def verified(
         corners: Corners of the path in rad, shape (n, joints); every corner is valid.
         validity: Tells valid states from invalid ones.
         resolution_rad: Greatest Euclidean distance in joint space between two checked states.
-        replan: Plans a motion anew; None ends the verification at the first that is not valid.
+        replan: Replans a motion; None ends the verification at the first that is not valid.
     """
     find = first_invalid_between(validity)
     kept, checks, repair_checks, repairs = [corners[:1]], 0, 0, 0

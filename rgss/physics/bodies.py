@@ -48,7 +48,7 @@ def add_body(
 def _shape(engine: Any, client: int, shape: Shape) -> int:
     sizes = shape.size_m if isinstance(shape, Box) else (shape.radius_m, shape.height_m)
     if not all(0.0 < size < math.inf for size in sizes):
-        # The engine takes some of these without a word and prints about the others.
+        # The engine accepts some of these silently and prints messages about the others.
         raise SimulationError(f"a body cannot have the sizes {sizes}", hint="give lengths greater than zero")
     if isinstance(shape, Box):
         half = [size / 2 for size in shape.size_m]

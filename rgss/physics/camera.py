@@ -111,7 +111,7 @@ class Camera:
         """Draw the scene.
 
         Args:
-            posture: How everything that moves stands.
+            posture: Posture of everything that moves.
         """
         stage = self._stage
         stage.take(posture)
@@ -119,7 +119,7 @@ class Camera:
         lens = self._lens(target)
         reach = min(_ARM_REACH_M, 1.2 * self._view.distance_m)
         light = Light(target, reach_m=reach, resolution=640, tolerance_m=0.005)
-        # What stands still is drawn once, where the camera stands still too.
+        # Fixed bodies are drawn once, if the camera is fixed too.
         if self._background is None or self._view.follows_tool:
             self._background = self._draw_background(lens, light)
         background = self._background

@@ -11,7 +11,7 @@ from rgss.scenes import Pose
 
 
 class ContactReader:
-    """Sorts the engine's contact points of one world by who touches whom."""
+    """Reader of the engine's contact points of one world, sorted by the touching bodies."""
 
     def __init__(
         self,
@@ -25,7 +25,7 @@ class ContactReader:
         scene_names: Mapping[int, str],
         centre_of_mass_m: float = 0.0,
     ) -> None:
-        """Say what the engine's numbers stand for.
+        """Register the engine's numbers of bodies and links.
 
         Args:
             engine: The engine's module.

@@ -1,4 +1,4 @@
-"""The world of a contact trial as the task program and its monitors see it, whatever engine is behind it."""
+"""Interface of the world of a contact trial for the task program and its monitors, for any engine."""
 
 from __future__ import annotations
 
@@ -73,13 +73,13 @@ class ContactWorld(Protocol):
         """Joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step."""
 
     def finger_travel_m(self) -> tuple[float, ...]:
-        """How far each finger has closed from its open end."""
+        """Travel of each finger from its open end."""
 
     def workpiece_pose(self) -> Pose:
         """Transform of the workpiece to the world."""
 
     def tool_pose(self) -> Pose:
-        """Transform of the grasp-centre frame to the world as the arm really stands."""
+        """Transform of the grasp-centre frame to the world at the true joint angles."""
 
     def hand_view(self) -> HandView:
         """Poses of object, flange and fingers after the last step."""

@@ -1,4 +1,4 @@
-"""Contacts of one physics step, sorted by who touches whom."""
+"""Contacts of one physics step, sorted by the touching bodies."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Contacts(NamedTuple):
     Attributes:
         finger_forces_n: Normal force of each finger on the workpiece.
         other_force_n: Normal force of every other link of the robot on the workpiece.
-        pressed: The points between fingers and workpiece as the engine tells them, each with the sign with which
+        pressed: The points between fingers and workpiece as the engine reports them, each with the sign with which
             its friction acts on the workpiece.
         robot_bodies: Pairs (link, body) of the robot touching the scene.
         workpiece_bodies: Scene bodies that the workpiece touches.

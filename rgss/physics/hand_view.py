@@ -1,4 +1,4 @@
-"""A glance at the object, the tool and the fingers, from which the rest is worked out when it is asked for."""
+"""Snapshot of object, tool and fingers, from which derived quantities are computed on demand."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ class Lens:
     """A perspective projection.
 
     Attributes:
-        eye_m: Where the camera stands.
+        eye_m: Position of the camera.
         target_m: What it looks at.
         field_of_view_rad: Angle between the picture's upper and lower edge.
         width: Width of the picture in pixels.

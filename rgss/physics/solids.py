@@ -53,7 +53,7 @@ def box_surface(shape: Box) -> Surface:
 def cylinder_surface(shape: Cylinder) -> Surface:
     """The surface of a cylinder in its own frame."""
     r, h = shape.radius_m, shape.half_height_m
-    # Long thin triangles that lie askew are slow to draw, so a long side is cut into rings.
+    # Long thin oblique triangles are slow to draw, so a long side is divided into rings.
     rings = max(1, math.ceil(h / r))
     side = [(r, h * (2 * ring / rings - 1)) for ring in range(rings + 1)]
     return _turned([(0.0, -h), *side, (0.0, h)])

@@ -1,4 +1,4 @@
-"""The bodies of a scene to be looked at, in clients that are never stepped.
+"""Bodies of a scene for pictures, in clients that are never stepped.
 
 A world that is simulated holds nothing for pictures, so no picture can change its results. What
 is shown is what is simulated, but for two things: a mat marks the place, and each finger slides
@@ -98,7 +98,7 @@ class Stage:
             self._engine.disconnect(physicsClientId=self._clients.pop())
 
     def take(self, posture: Posture) -> None:
-        """Let everything that moves take its place."""
+        """Set the pose of everything that moves."""
         engine = self._engine
         joints = (*self._arm_joints, *self._finger_joints)
         for joint, position in zip(joints, (*posture.joints_rad, *posture.finger_travel_m), strict=True):

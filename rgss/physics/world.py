@@ -164,7 +164,7 @@ class World(ClientOwner):
         )
 
     def renew_contacts(self) -> None:
-        """Let the engine find the workpiece's contacts anew.
+        """Let the engine detect the workpiece's contacts again.
 
         The engine keeps the points of a lasting contact, with their normals as they were in the
         world when the point was found. While a held object is turned they go astray: forces change
@@ -196,11 +196,11 @@ class World(ClientOwner):
         return Pose(position_m=position, quaternion_xyzw=orientation)
 
     def tool_pose(self) -> Pose:
-        """Transform of the grasp-centre frame to the world as the arm really stands."""
+        """Transform of the grasp-centre frame to the world at the true joint angles."""
         return self.hand_view().tool
 
     def hand_view(self) -> HandView:
-        """A glance at the object, the tool and the fingers as they really stand."""
+        """Snapshot of the object, the tool and the fingers at their true poses."""
         position, orientation = self._workpiece_at()
         state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
         return HandView(position, orientation, state[4], state[5], self._grasp_centre_m, self.finger_travel_m())

@@ -41,7 +41,7 @@ class RobotIndex:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldBuilder:
-    """Puts a scene, a workpiece and a robot with its gripper into a physics client.
+    """Builder of a scene, a workpiece and a robot with its gripper in a physics client.
 
     Attributes:
         engine: The module of the engine.
@@ -87,7 +87,7 @@ class WorldBuilder:
         """Add the workpiece; the result is its number."""
         workpiece = self.scene.workpiece
         if not 0.0 < workpiece.mass_kg < math.inf:
-            # A body without mass would stand in the air.
+            # A body without mass would be static.
             raise SimulationError(
                 f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
             )

@@ -15,7 +15,7 @@ from rgss.requirements.exemption import Exemption
 
 
 class BlockLevel(str, Enum):
-    """How far down the decomposition a block stands."""
+    """Level of a block in the decomposition."""
 
     CONTEXT = "context"
     SYSTEM = "system"
@@ -24,14 +24,14 @@ class BlockLevel(str, Enum):
 
 
 class BlockRelation(str, Enum):
-    """How a block belongs to its parent: as a part of it, or as one kind of it."""
+    """Relation of a block to its parent: a part of it, or a kind of it."""
 
     PART = "part"
     KIND = "kind"
 
 
 class BehaviourKind(str, Enum):
-    """What sort of behaviour it is."""
+    """Kind of a behaviour."""
 
     USE_CASE = "use_case"
     ACTIVITY = "activity"

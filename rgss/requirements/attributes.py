@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class NeedKind(str, Enum):
-    """The part of the system that a stakeholder requirement speaks of."""
+    """Part of the system that a stakeholder requirement is about."""
 
     DESIGN = "design"
     FUNCTIONAL = "functional"
@@ -15,7 +15,7 @@ class NeedKind(str, Enum):
 
 
 class RequirementGroup(str, Enum):
-    """The subsystem that a system requirement speaks of."""
+    """Subsystem that a system requirement is about."""
 
     MANIPULATOR = "manipulator"
     GRIPPER = "gripper"
@@ -27,7 +27,7 @@ class RequirementGroup(str, Enum):
 
 
 class VerificationMethod(str, Enum):
-    """How it is shown that a requirement is met.
+    """Verification method of a requirement.
 
     Evidence from simulation is analysis in the sense of the NASA Systems Engineering Handbook
     and the INCOSE handbook: test means that the product itself ran under controlled conditions.
@@ -41,7 +41,7 @@ class VerificationMethod(str, Enum):
 
 
 class VerificationPhase(str, Enum):
-    """When it is shown that a requirement is met (NASA Systems Engineering Handbook, table D-1)."""
+    """Verification phase of a requirement (NASA Systems Engineering Handbook, table D-1)."""
 
     DEVELOPMENT = "development"
     QUALIFICATION = "qualification"
@@ -50,7 +50,7 @@ class VerificationPhase(str, Enum):
 
 
 class Priority(str, Enum):
-    """How much it matters that a requirement is met."""
+    """Priority of a requirement."""
 
     HIGH = "high"
     MEDIUM = "medium"
@@ -58,7 +58,7 @@ class Priority(str, Enum):
 
 
 class Status(str, Enum):
-    """How far a requirement has come."""
+    """Maturity of a requirement."""
 
     DRAFT = "draft"
     PROPOSED = "proposed"

@@ -1,4 +1,4 @@
-"""The content of an element as a reader judges it, and its digest."""
+"""Content of an element that a review covers, and its digest."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from rgss.requirements.needs import StakeholderNeed
 from rgss.requirements.requirement import Requirement
 
 Element = StakeholderNeed | Requirement | Block | Behaviour
-"""Whatever an id of the requirements names."""
+"""Any element with an id."""
 
 _NOT_CONTENT = frozenset({"exempt"})
 
 
 def content_digest_of(element: Element) -> str:
-    """The SHA-256 of what a reader judges: text, attributes and the links that the element states.
+    """SHA-256 of the reviewed content: text, attributes and the links that the element states.
 
     Neither its place in a file, nor how its texts are wrapped, nor the order of the ids under one
     key, nor the rules that it is exempt from are content. What an element leaves open is left

@@ -9,7 +9,7 @@ _MOST_COMPARISONS = 100_000
 
 
 class Hints:
-    """Finds the id most like a wrong one, until so many ids were compared that it takes too long.
+    """Finder of the id most similar to a wrong one, with a limit on the number of comparisons.
 
     A project in which every id is wrong would otherwise compare each with each.
     """

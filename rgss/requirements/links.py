@@ -14,15 +14,15 @@ class LinkKind(str, Enum):
     DERIVE = "deriveReqt"
     """The source requirement derives from the target requirement."""
     REFINE = "refine"
-    """The source spells out the target."""
+    """The source refines the target."""
     SATISFY = "satisfy"
     """The source element satisfies the target requirement."""
     VERIFY = "verify"
-    """The source shows whether the target requirement is met."""
+    """The source verifies the target requirement."""
     TRACE = "trace"
-    """The source goes back to the target."""
+    """The source traces to the target."""
     ALLOCATE = "allocate"
-    """The source behaviour is done by the target block."""
+    """The source behaviour is allocated to the target block."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)

@@ -28,8 +28,8 @@ def load_requirements(folder: Path, *, label_root: str = "requirements") -> Requ
         label_root: The folder's name in messages.
 
     Raises:
-        DocumentError: A file cannot be used, an id is declared twice or names nothing, an
-            element rests on itself, or a behaviour's detail is broken; with every problem of all
+        DocumentError: A file cannot be used, an id is declared twice or names nothing, an element depends on itself,
+            or a behaviour's detail is broken; with every problem of all
             files. References into a part that cannot be read are left alone.
     """
     findings: list[Finding] = []

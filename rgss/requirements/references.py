@@ -1,4 +1,4 @@
-"""Ids across all files: declared once, naming what is there, resting on no cycle."""
+"""Checks of ids across all files: unique declarations, existing targets, no cycles."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ class ElementKind(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reference:
-    """An element's mention of another element.
+    """Reference of an element to another element.
 
     Attributes:
-        at: The part of the element where it stands.
+        at: Location of the reference within the element.
         target: The id that it names.
         kinds: What that id may be.
-        ordering: The elements linked under this key must not rest on themselves.
+        ordering: The elements linked under this key must not depend on themselves.
     """
 
     at: tuple[str | int, ...]
@@ -40,12 +40,12 @@ class Reference:
 
     @property
     def field(self) -> str:
-        """The key that it stands under."""
+        """Key of the reference."""
         return str(self.at[-2] if self.in_list else self.at[-1])
 
     @property
     def in_list(self) -> bool:
-        """It is an entry of a list, which should not name it twice."""
+        """True for an entry of a list, which must not name it twice."""
         return isinstance(self.at[-1], int)
 
 
@@ -77,7 +77,7 @@ class Declaration:
 def check_references(
     declarations: Sequence[Declaration], *, known: Iterable[ElementKind], hints: Hints
 ) -> Iterator[Finding]:
-    """Find ids declared twice, references to nothing, and elements that rest on themselves.
+    """Find ids declared twice, references to nothing, and elements that depend on themselves.
 
     Args:
         declarations: Everything declared, in the order of files and lines.
@@ -146,7 +146,7 @@ def _cycles(first: Mapping[str, Declaration]) -> Iterator[Finding]:
                 walk.pop(name)
             elif reference.target in walk:
                 chain = _chain(walk, reference.target)
-                yield first[name].finding("cycle", f"{name!r} rests on itself: {chain}", reference.at, hint="cut it")
+                yield first[name].finding("cycle", f"{name!r} depends on itself: {chain}", reference.at, hint="cut it")
             elif reference.target not in finished:
                 walk[reference.target] = _orderings(first, reference.target)
 

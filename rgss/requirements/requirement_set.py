@@ -47,7 +47,7 @@ class Place:
             rule: The id of the broken rule.
             message: What is wrong.
             at: The part to point at, such as ``("criterion", "threshold")``.
-            hint: How to mend it.
+            hint: How to resolve it.
             severity: How much it matters.
             at_key: Point at the key instead of its value.
         """
@@ -59,8 +59,8 @@ class Place:
 class RequirementSet:
     """Requirements of a project, and the model that is to satisfy them.
 
-    A set from `load_requirements` has unique ids, no reference to an id that is not there, and
-    no element that rests on itself.
+    A set from `load_requirements` has unique ids, no reference to an id that is not there, and no element that depends
+    on itself.
 
     Attributes:
         stakeholder: The stakeholder requirements, in the file's order.
@@ -68,9 +68,9 @@ class RequirementSet:
         architecture: The model of the system.
         places: Where each element is declared, by its id.
         reviews: The review of each element that was reviewed, by its id, which need not be there any more.
-        review_places: Where each review stands.
+        review_places: Where each review is.
         settings: How the project wants rules to be applied, by the rule's id, which need not be a rule's.
-        setting_places: Where each setting stands.
+        setting_places: Where each setting is.
     """
 
     stakeholder: tuple[StakeholderNeed, ...]
@@ -113,7 +113,7 @@ class RequirementSet:
         return element
 
     def content_digest(self, element_id: str) -> str:
-        """The digest of what a reader judges of an element; see `content_digest_of`.
+        """Digest of the reviewed content of an element; see `content_digest_of`.
 
         Raises:
             DefinitionError: There is no such element; the hint names the nearest id.
@@ -130,7 +130,7 @@ class RequirementSet:
         if isinstance(element, Requirement):
             return element
         raise DefinitionError(
-            f"{requirement_id!r} is no system requirement",
+            f"{requirement_id!r} is not a system requirement",
             hint=nearest(requirement_id, [requirement.id for requirement in self.system]),
         )
 
@@ -151,7 +151,7 @@ class RequirementSet:
             element_id: The element.
             message: What is wrong.
             at: The part of the element to point at, such as ``("criterion", "threshold")``.
-            hint: How to mend it.
+            hint: How to resolve it.
             severity: How much it matters.
 
         Raises:

@@ -10,7 +10,7 @@ from rgss.findings import Severity
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class RuleSetting:
-    """How one rule is to be applied, in ``rules.yaml``."""
+    """Setting of one rule, in ``rules.yaml``."""
 
     severity: Severity | None = None
     """None for the rule's own."""

@@ -31,7 +31,7 @@ PointOnTop = tuple[Metres, Metres]
 
 
 class AssumptionEntry(DocumentModel):
-    """What was assumed, and why."""
+    """An assumption with its rationale."""
 
     about: Text
     rationale: Text
@@ -73,7 +73,7 @@ class WorkpieceEntry(DocumentModel):
 
 
 class PlaceRegionEntry(DocumentModel):
-    """Where the object is to stand, on top of a body."""
+    """Place region of the object, on top of a body."""
 
     stands_on: Identifier
     at: PointOnTop
@@ -97,7 +97,7 @@ class TaskEntry(DocumentModel):
 
 
 class RobotPlacementEntry(DocumentModel):
-    """Which robot, and where its base stands."""
+    """Robot file, and the pose of its base."""
 
     description: Text
     base: Point

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose:
-    """A rigid transform: where a frame stands in another, in metres and a unit quaternion.
+    """A rigid transform of a frame to an outer frame, in metres and a unit quaternion.
 
     Attributes:
         position_m: Origin of the frame in the outer frame.
@@ -60,13 +60,13 @@ class Pose:
         )
 
     def inverse(self) -> Pose:
-        """The transform the other way round."""
+        """Inverse transform."""
         x, y, z, w = self.quaternion_xyzw
         px, py, pz = self.inverse_rotate(self.position_m)
         return Pose(position_m=(-px, -py, -pz), quaternion_xyzw=(-x, -y, -z, w))
 
     def relative_to(self, frame: Pose) -> Pose:
-        """``frame.inverse() @ self``, in one go: this pose in another frame that is given in the same outer frame."""
+        """``frame.inverse() @ self`` in one step: this pose in another frame that is given in the same outer frame."""
         x, y, z, w = frame.quaternion_xyzw
         (ax, ay, az), (bx, by, bz) = self.position_m, frame.position_m
         vx, vy, vz = ax - bx, ay - by, az - bz

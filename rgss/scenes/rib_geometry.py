@@ -1,4 +1,4 @@
-"""Finger pads as an engine of contact wants them: ribs at the ends of the line that a pad touches.
+"""Finger pads for contact engines: ribs at the ends of the line that a pad touches.
 
 A flat pad touches a round wall along a line, and what that line can resist, forces at its two ends
 resist as well. An engine that finds one point of a pair of shapes in a step builds such a contact up

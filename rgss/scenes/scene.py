@@ -1,4 +1,4 @@
-"""The place where the task happens: fixed bodies, the workpiece, the place region, the robot."""
+"""Scene of the task: fixed bodies, workpiece, place region, robot."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Workpiece:
         force_limit_n: Normal force of a finger, averaged over the window, above which it counts as damaged.
         force_window_s: The window. A limit is found by pressing slowly, on a sensor that averages.
         landing_limit_m_s: Velocity change on landing above which it counts as damaged: the critical velocity change
-            of ASTM D3332. A blow that is shorter than what it hits can yield damages by its velocity change, and
+            of ASTM D3332. An impact that is shorter than the response of the object damages by its velocity change, and
             not by its force, which at the same speed grows with the mass.
         centre_of_mass_m: Height of its centre of mass above the centre of its shape.
         pose: Transform of its shape's frame to the world at the start.
@@ -74,7 +74,7 @@ class Workpiece:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlaceRegion:
-    """Where the workpiece is to stand at the end.
+    """Place region of the workpiece at the end of the task.
 
     Attributes:
         centre_m: Centre of the region on the surface that bears it, in the world.
@@ -130,7 +130,7 @@ class Scene:
         support: Id of the body on which the workpiece stands at the start.
         place_support: Id of the body on which it is to stand at the end.
         workpiece: What is picked and placed.
-        place: Where it is to stand.
+        place: Its place region.
         task: The waypoints.
         uncertainty: What differs from trial to trial, as the scene's file says.
     """

@@ -77,7 +77,7 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
 
 
 class _UrdfError(Exception):
-    """A URDF is of no use: what is wrong with it, to follow its name, and how to mend it."""
+    """A URDF is unusable; the message follows its name."""
 
     def __init__(self, problem: str, hint: str = "") -> None:
         super().__init__(problem)
@@ -128,7 +128,7 @@ def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Loc
     carried = {child.get("link", "") for child in root.findall("joint/child")}
     for name, link in links.items():
         if name in carried and not (link.findall("inertial/mass") and link.findall("inertial/inertia")):
-            # One engine would take it for one kilogram in silence, another for none.
+            # One engine would silently assume one kilogram, another none.
             hint = "give it an <inertial> with both; a mere frame may weigh a gram"
             yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint
     yield from _number_problems(root)

@@ -144,7 +144,7 @@ def _named_files(text: str) -> Iterable[_Named]:
 
 
 def _target(name: str, path: Path, project: Path) -> tuple[Path | None, str, str]:
-    """The file of a name; None with what is wrong and how to mend it."""
+    """The file of a name; None with the problem and its hint."""
     hint = "name it relative to the URDF, or as package://FOLDER/FILE with a folder of the project"
     scheme, separator, _ = name.partition("://")
     if separator and scheme != "package":
@@ -164,7 +164,7 @@ def _target(name: str, path: Path, project: Path) -> tuple[Path | None, str, str
 
 
 def _package_candidates(rest: str, path: Path, project: Path) -> Iterator[Path]:
-    """Where a ``package://`` name may be, nearest first: the folders from the URDF's up to the project's."""
+    """Candidate paths of a ``package://`` name, nearest first: the folders from the URDF's up to the project's."""
     package, _, below = rest.partition("/")
     if not package or not below or package in (".", ".."):
         return

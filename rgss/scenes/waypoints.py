@@ -9,7 +9,7 @@ from rgss.scenes.scene import Scene
 
 
 class Waypoint(str, Enum):
-    """Where the task stops, in the order in which it comes there."""
+    """Waypoints of the task, in their order."""
 
     GRASP_APPROACH = "grasp_approach"
     GRASP = "grasp"

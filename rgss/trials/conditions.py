@@ -1,4 +1,4 @@
-"""Conditions of a trial: what its seed drew, what is true of the world, and what the robot perceives of it.
+"""Conditions of a trial: draws of its seed, true values, and the robot's perception of them.
 
 The plan is made from what is perceived, the machine meets what is true, and the grip is controlled by what the robot
 believes of the object: what the files, or the case of the workload, say.
@@ -28,7 +28,7 @@ class Conditions:
         design_gripper: The gripper as the design states it.
         case: Id of the case of the workload; empty where there is none.
         draws: The draws by name.
-        stands_x_m: Distance along x at which the object stands off its place.
+        stands_x_m: True offset of the object from its nominal position along x.
         stands_y_m: The same along y.
         perceived_x_m: Perceived less true position of the object along x.
         perceived_y_m: The same along y.
@@ -110,7 +110,7 @@ class Conditions:
 
     @property
     def is_grip_known(self) -> bool:
-        """Whether the robot reads the fingers' true forces and knows the object's mass and the friction."""
+        """True if the robot reads the fingers' true forces and has the true mass of the object and friction."""
         believed = self.scene.workpiece
         is_sensor_ideal = self.sensor_noise_n == self.sensor_offset_n == self.sensor_delay_s == 0.0
         return is_sensor_ideal and (self.mass_kg, self.friction, self.pad_friction) == (
@@ -232,7 +232,7 @@ def _scene_of(scene: Scene, case: Case | None) -> Scene:
         radius_m=own.shape.radius_m if case.radius_m is None else case.radius_m,
         height_m=own.shape.height_m if case.height_m is None else case.height_m,
     )
-    # It stands where the scene's object stands, on its own foot.
+    # It has the position of the scene's object, on its own foot.
     rise_m = shape.half_height_m - own.shape.half_height_m
     workpiece = replace(
         own,

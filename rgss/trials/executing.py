@@ -33,7 +33,7 @@ def execute(
         spec: The trial.
         cell: Kinematics of the tool.
         timing: The trajectories.
-        observer: Looks on after every step in contact physics; the other fidelities have nothing to show.
+        observer: Callback after each step in contact physics; other fidelities do not call it.
         checkpoint: Called between two steps, which in the kinematic model are whole phases; it may wait,
             or end the task by raising.
 
@@ -79,7 +79,7 @@ def execute(
 
 
 def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | None:
-    """What the robot knows of its grip; None where that is the truth."""
+    """The robot's estimate of its grip; None where the true values are known."""
     if conditions.is_grip_known:
         return None
     believed = conditions.scene.workpiece

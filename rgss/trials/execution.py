@@ -91,7 +91,7 @@ class Execution:
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
         world.solve_freely(free=carried_at is None)
-        # What surrounds a step costs a tenth of it: nothing is looked up here that can be had before.
+        # The overhead of a step is a tenth of its cost: nothing is looked up here that can be computed before.
         is_held = carried_at is not None
         for position, velocity, target, load, arc_m in zip(
             positions,
@@ -130,7 +130,7 @@ class Execution:
         return self._result(phase, watch, steps, metrics)
 
     def _judge_move(self, phase: Phase, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
-        """After a move: the object must not have moved, or at the end must be in its place."""
+        """Check after a move: the object must not have moved, or at the end must be in its place."""
         if phase is Phase.MOVE_TO_GRASP:
             metrics["workpiece_displacement_m"], violation = check_displacement(
                 self._world, self._control.displaced_m, touched=watch.robot_touched_object
@@ -260,14 +260,14 @@ class Execution:
         )
 
     def _observe(self, phase: Phase, watch: PhaseMonitor, load_m_s2: float) -> Contacts:
-        """Look at a step in which the arm is held."""
+        """Observe a step in which the arm is held."""
         contacts = watch.after_step(load_m_s2, None)
         if not self._is_alone:
             self._show(phase, watch, contacts)
         return contacts
 
     def _show(self, phase: Phase, watch: PhaseMonitor, contacts: Contacts) -> None:
-        """Let others look at the step, and wait or end the task."""
+        """Call the observer and the checkpoint, which may wait or end the task."""
         if self._observer is not None:
             force_n = self._grip.force_n if phase is Phase.GRASP or phase in CARRYING else None
             self._observer.after_step(self._world, phase, contacts, watch.grip_margin, force_n)
@@ -288,7 +288,7 @@ class Execution:
 
 
 def _is_firm(forces_n: Sequence[float], needed_n: float) -> bool:
-    """Whether the fingers together press with what friction needs, and each with a fair part of it.
+    """True if the fingers together press with the force that friction needs, and each with a minimum share of it.
 
     Coupled fingers share their force: while the object stands, its support takes the difference
     between them, so that one may press with less than its part although together they hold.

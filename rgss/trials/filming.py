@@ -52,8 +52,8 @@ class Film:
         Args:
             spec: The trial.
             trace: Its course.
-            view: Where the camera stands.
-            inset: Where a second camera stands, whose picture is set into the lower right of the first.
+            view: View of the camera.
+            inset: View of a second camera, whose picture is set into the lower right of the first.
             width: Width of the pictures in pixels.
             height: Height of the pictures in pixels.
             rate_hz: Frames a second.

@@ -1,4 +1,4 @@
-"""Control of the grip: the force that is commanded to the fingers, and when it is increased."""
+"""Control of the grip: commanded finger force and its increases."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class GripControl:
         self.friction = world.gripper.friction * workpiece.friction if estimate is None else estimate.friction
 
     def begin_phase(self) -> None:
-        """Begin to count, and to average, anew."""
+        """Restart counting and averaging."""
         self.tightenings = 0
         if self._estimate is not None:
             self._estimate.begin_phase()

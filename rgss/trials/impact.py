@@ -38,7 +38,7 @@ class ClosingImpact:
 
     @property
     def is_resolved(self) -> bool:
-        """Whether the step resolves the impact, or damage does not depend on it."""
+        """True if the step resolves the impact, or damage does not depend on it."""
         depends_on_impact = self.least_n < self.limit_n < self.greatest_n
         return not depends_on_impact or self.rate_hz >= self.least_rate_hz * (1 - 1e-9)
 

@@ -114,7 +114,7 @@ class Simulation:
             self._may_run.clear()
 
     def resume(self) -> None:
-        """Go on after a pause.
+        """Continue after a pause.
 
         Raises:
             SimulationError: It is not paused.

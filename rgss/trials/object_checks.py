@@ -1,4 +1,4 @@
-"""Checks of where the object is: before the grasp, while it settles, and at its place."""
+"""Checks of the object's pose: before the grasp, while it settles, and at its place."""
 
 from __future__ import annotations
 
@@ -63,9 +63,9 @@ def check_place(world: ContactWorld) -> tuple[dict[str, Metric], Violation | Non
 
 
 def has_moved(world: ContactWorld, control: ControlSettings, before: Pose, now: Pose) -> bool:
-    """Whether the object has left where it was, by its centre or by turning about it.
+    """True if the object has moved, by its centre or by turning about it.
 
-    The criterion is a distance, not a speed: when the engine finds a resting body's contacts anew, the body has a
+    The criterion is a distance, not a speed: when the engine detects a resting body's contacts again, the body has a
     speed for one step and hardly moves.
 
     Args:

@@ -1,4 +1,4 @@
-"""How one phase of an execution ended."""
+"""Result of one phase of an execution."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rgss.evidence import Failure, Metric, Phase
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhaseResult:
-    """One phase as the physics ran it.
+    """Outcome and observations of one phase.
 
     Attributes:
         phase: Which of the eight states.

@@ -1,4 +1,4 @@
-"""A trial's record, put together from its plan and its execution under the design's limit."""
+"""Assembly of a trial's record from its plan and its execution under the design's planning limit."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def assemble_record(
     *,
     bench_payload_kg: float | None = None,
 ) -> TrialRecord:
-    """Read a trial off the pieces that it shares with others.
+    """Assemble the record of a trial from pieces that it shares with others.
 
     Phases run in order until a move finds no path within the design's planning limit, cannot be
     timed, or fails in the physics; what comes after is not run.

@@ -24,7 +24,7 @@ class SampledTrajectory(Protocol):
 
 
 class ToolPositions(Protocol):
-    """What turns configurations into positions of the tool."""
+    """Forward kinematics of the tool position."""
 
     def tool_position(self, configurations_rad: Array) -> Array:
         """Positions (n, 3) of the grasp centre in the world for configurations (n, 6)."""

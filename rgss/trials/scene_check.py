@@ -1,4 +1,4 @@
-"""What of a scene no trial can do: bodies in each other, an object that falls, waypoints out of reach."""
+"""Checks of a scene: overlapping bodies, an object without support, waypoints out of reach."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _RIM = 16
 
 
 class SceneProblemKind(str, Enum):
-    """What is wrong with a scene."""
+    """Kind of a scene problem."""
 
     OVERLAP = "overlap"
     INSIDE = "inside"
@@ -39,10 +39,10 @@ class SceneProblemKind(str, Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneProblem:
-    """One thing that is wrong with a scene.
+    """One problem of a scene.
 
     Attributes:
-        kind: What.
+        kind: Kind of the problem.
         first: The body that it is about, or the robot's link.
         second: The other body; empty where there is none.
         distance_m: The depth of an overlap, or how far the object stands beyond its support's edge; NaN
@@ -60,7 +60,7 @@ class SceneProblem:
 
 
 def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
-    """What is wrong with the bodies of a scene, whatever the gripper.
+    """Problems of the bodies of a scene, independent of the gripper.
 
     Args:
         scene: The scene.
@@ -69,7 +69,7 @@ def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
 
 
 def reach_problems(scene: Scene, geometry: GripperGeometry, *, clearance_m: float) -> tuple[SceneProblem, ...]:
-    """What the arm cannot do with a gripper: stand at its home, or serve a waypoint.
+    """Problems of the arm with a gripper: a collision at home, or a waypoint without a valid configuration.
 
     Args:
         scene: The scene.
@@ -139,7 +139,7 @@ def _of(kind: SceneProblemKind, one: Overlap) -> SceneProblem:
 
 
 def _beyond_edge(support: Solid, pose: Pose) -> float:
-    """How far the centre of an object lies outside the top face of what bears it; 0 where it is above the face."""
+    """Distance of an object's centre outside the top face of its support; 0 where it is above the face."""
     x, y, _ = (support.pose.inverse() @ pose).position_m
     if isinstance(support.shape, Box):
         beyond = (abs(x) - support.shape.size_m[0] / 2, abs(y) - support.shape.size_m[1] / 2)
@@ -152,7 +152,7 @@ def _least_extent(shape: Shape) -> float:
 
 
 def _holds(outer: Solid, inner: Solid) -> bool:
-    """Whether a solid lies wholly in another, which is convex: then all of its extreme points do."""
+    """True if a solid lies wholly in another, which is convex: then all of its extreme points do."""
     to_outer = outer.pose.inverse() @ inner.pose
     for point in _extreme_points(inner.shape):
         x, y, z = (to_outer @ Pose(position_m=point)).position_m

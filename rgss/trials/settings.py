@@ -1,4 +1,4 @@
-"""How trials are planned and simulated: everything that is neither the scene nor the design."""
+"""Settings of planning and simulation: everything that is neither the scene nor the design."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _NO_BUDGET = 2**31 - 1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningSettings:
-    """How the moves are planned.
+    """Settings of the planning of moves.
 
     Attributes:
         clock: What a planner's time is counted by.
-        search_limit_s: How long a shared search goes on: at least the greatest planning limit
+        search_limit_s: Duration of a shared search: at least the greatest planning limit
             of any design, which are all read off it.
         resolution_rad: Greatest joint step between two states of a motion that a search checks.
         verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as

@@ -38,7 +38,7 @@ def run_traced_trial(spec: TrialSpec, *, rate_hz: float = TRACE_RATE_HZ) -> tupl
 
 
 class TraceRecorder:
-    """Takes a sample of the world at a fixed rate; an observer of one execution."""
+    """Recorder of samples of the world at a fixed rate; an observer of one execution."""
 
     def __init__(self, spec: TrialSpec, *, rate_hz: float = TRACE_RATE_HZ) -> None:
         """Begin with no samples.

@@ -1,4 +1,4 @@
-"""What a trial is made of."""
+"""Specification of a trial."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class TrialSpec:
     Attributes:
         variant: Id of the design variant.
         seed: The trial's seed.
-        fidelity: How much physics it has.
+        fidelity: Its fidelity.
         scene: Where it happens, as the files say.
         gripper: The gripper of the design.
         planner: Name of the planner of the design, in the study or in OMPL.

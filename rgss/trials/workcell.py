@@ -1,4 +1,4 @@
-"""Scene, arm and gripper as planning sees them."""
+"""Scene, arm and gripper for planning."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def cell_of(spec: TrialSpec) -> Workcell:
 
 
 def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, CollisionContext]:
-    """What the hand holds and where the object stands in each move."""
+    """Collision context of each move: the held object, or the pose of the standing one."""
     workpiece = scene.workpiece
     opening = geometry.largest_opening_m
     held = scene.grasp.inverse() @ workpiece.pose

@@ -164,10 +164,10 @@ def test_the_tutorial_word_for_word(tmp_path):
     page = " ".join(PAGE.read_text(encoding="utf-8").split())
     _, told = reader.run("rgss measure --json")
     value = {(entry["variant"], entry["measure"]): entry["value"] for entry in json.loads("\n".join(told))}
-    assert f"payload of {value[2, 'payload']:.2f} kg fails your requirement" in page
+    assert f"payload of {value[2, 'payload']:.2f} kg violates your requirement" in page
     assert f"variants 3 and 4 hold {value[4, 'payload']:.2f} kg" in page
-    assert f"cost {value[4, 'cost'] - value[6, 'cost']:.0f} USD more than your pads" in page
-    assert f"your {value[6, 'payload']:.2f} kg are not enough" in page
+    assert f"cost {value[4, 'cost'] - value[6, 'cost']:.0f} USD more than your gripper" in page
+    assert f"The {value[6, 'payload']:.2f} kg of your gripper do not meet 1.2 kg" in page
     assert value[2, "cost"] < value[6, "cost"]
     assert value[4, "task_time"] > value[6, "task_time"]
     first, more = (verdicts(reader.run(f"rgss measure{words}")[1]) for words in (" --replicates 2", ""))

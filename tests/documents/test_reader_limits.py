@@ -12,7 +12,7 @@ from rgss.documents.composing import MOST_VALUES
 from rgss.documents.refusals import MOST_PROBLEMS
 from rgss.errors import DocumentError
 
-MANY = f"more than {MOST_PROBLEMS} problems; the first {MOST_PROBLEMS} are shown (mend these first) [document.many]"
+MANY = f"more than {MOST_PROBLEMS} problems; the first {MOST_PROBLEMS} are shown (correct these first) [document.many]"
 
 
 class Entry(DocumentModel):

@@ -96,7 +96,7 @@ ANOTHER = """\
             "kind: functional",
             "parent: STK-1\n    kind: functional",
             "STK-1\n    kind",
-            "'STK-1' rests on itself: STK-1 → STK-1 (cut it) [cycle]",
+            "'STK-1' depends on itself: STK-1 → STK-1 (cut it) [cycle]",
         ),
         (
             "stakeholder.yaml",
@@ -124,7 +124,7 @@ ANOTHER = """\
             "group: gripper",
             "traces: [SYS-1]\n    group: gripper",
             "SYS-1]\n    group",
-            "'SYS-1' rests on itself: SYS-1 → SYS-1 (cut it) [cycle]",
+            "'SYS-1' depends on itself: SYS-1 → SYS-1 (cut it) [cycle]",
         ),
         (
             "architecture.yaml",
@@ -145,21 +145,21 @@ ANOTHER = """\
             "[STK-1]",
             "[STK-1, SYS-1]",
             "SYS-1]",
-            "'SYS-1' rests on itself: SYS-1 → SYS-1 (cut it) [cycle]",
+            "'SYS-1' depends on itself: SYS-1 → SYS-1 (cut it) [cycle]",
         ),
         (
             "architecture.yaml",
             "{id: BLK-0,",
             "{id: BLK-0, parent: BLK-1,",
             "BLK-0, relation",
-            "'BLK-1' rests on itself: BLK-1 → BLK-0 → BLK-1 (cut it) [cycle]",
+            "'BLK-1' depends on itself: BLK-1 → BLK-0 → BLK-1 (cut it) [cycle]",
         ),
         (
             "architecture.yaml",
             "kind: use_case,",
             "kind: use_case, refines: [ACT-1],",
             "UC-1], includes",
-            "'ACT-1' rests on itself: ACT-1 → UC-1 → ACT-1 (cut it) [cycle]",
+            "'ACT-1' depends on itself: ACT-1 → UC-1 → ACT-1 (cut it) [cycle]",
         ),
     ],
 )
@@ -178,7 +178,7 @@ def test_each_cycle_is_reported_once_and_what_hangs_on_it_is_not(project):
     project.append("system.yaml", ANOTHER).append("system.yaml", ANOTHER.replace("SYS-2", "SYS-3"))
     project.edit("system.yaml", "derived_from: [STK-1]", "derived_from: [STK-1, SYS-2]")
     (finding,) = project.findings()
-    assert finding.startswith("requirements/system.yaml:22:20: error: 'SYS-2' rests on itself: SYS-2 → SYS-1 → SYS-2")
+    assert finding.startswith("requirements/system.yaml:22:20: error: 'SYS-2' depends on itself: SYS-2 → SYS-1 → SYS-2")
 
 
 def test_behaviours_may_include_one_another(project):
@@ -211,7 +211,7 @@ def test_the_middle_of_a_long_cycle_is_left_out_of_the_message(project):
     project.edit("architecture.yaml", "behaviours:\n", f"{''.join(blocks)}behaviours:\n")
     (finding,) = project.findings()
     chain = "B99 → B0 → … → B94 → B95 → B96 → B97 → B98 → B99"
-    assert f"error: 'B99' rests on itself: {chain} (cut it) [requirements.cycle]" in finding
+    assert f"error: 'B99' depends on itself: {chain} (cut it) [requirements.cycle]" in finding
 
 
 def test_thousands_of_wrong_ids_are_not_compared_with_as_many(project):

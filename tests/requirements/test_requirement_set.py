@@ -82,7 +82,7 @@ def test_an_unknown_element_is_refused_with_the_nearest(project, ask):
 
 
 def test_an_element_that_is_no_requirement_is_refused(project):
-    with pytest.raises(DefinitionError, match="'ACT-1' is no system requirement"):
+    with pytest.raises(DefinitionError, match="'ACT-1' is not a system requirement"):
         project.load().requirement("ACT-1")
 
 
@@ -92,7 +92,7 @@ def test_a_requirement_is_found_by_its_id(project):
 
 
 def test_an_unknown_requirement_is_refused_with_the_nearest(project):
-    with pytest.raises(DefinitionError, match=r"'SYS-11' is no system requirement \(did you mean 'SYS-1'\?\)"):
+    with pytest.raises(DefinitionError, match=r"'SYS-11' is not a system requirement \(did you mean 'SYS-1'\?\)"):
         project.load().requirement("SYS-11")
 
 

@@ -9,7 +9,7 @@ from rgss.designs.parameters import ParameterKind
 
 
 class Application(Enum):
-    """How the value of a quantity gets into a trial."""
+    """Way in which the value of a quantity is applied to a trial."""
 
     REPLACE = "replaces the field"
     REQUIRE = "must equal the field"

@@ -1,4 +1,4 @@
-"""Records as JSON texts, read back strictly: a damaged text gives an error, never a surprise."""
+"""Records as JSON texts, read back strictly: a damaged text gives an error."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def read_json(text: str, kind: type[Value], name: str) -> Value:
     Raises:
         EvidenceError: It is something else.
     """
-    # That its floats are finite is for the type to say, which knows where they stand.
+    # Whether its floats are finite is checked by type, where their location is known.
     return read_plain(_loaded(text, name, float), kind, name)
 
 

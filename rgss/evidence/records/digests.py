@@ -1,4 +1,4 @@
-"""The digests that evidence is known by: of what goes into a trial, and of what comes out."""
+"""Keys and digests of evidence: of the inputs of a trial, and of its record."""
 
 from __future__ import annotations
 
@@ -45,5 +45,5 @@ def text_digest(text: str) -> str:
 
 
 def is_digest(text: object) -> bool:
-    """Tell whether something is a SHA-256 in 64 lower-case hexadecimal digits."""
+    """True if something is a SHA-256 in 64 lower-case hexadecimal digits."""
     return isinstance(text, str) and _DIGEST.fullmatch(text) is not None

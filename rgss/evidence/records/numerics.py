@@ -1,4 +1,4 @@
-"""Numerics: what the mathematics of a process computes, part by part, as a provenance keeps it.
+"""Numerics of a process, part by part, as part of the provenance.
 
 Each part is a text: the names of what computes, for readers, and at its end a digest of the results of fixed
 problems. Two processes compute alike where the digests agree, whatever the names.
@@ -47,7 +47,7 @@ def numerics_difference(there: Numerics, here: Numerics) -> str:
 
 
 def require_alike(what: str, there: Numerics, here: Numerics) -> None:
-    """Make sure that what is stored and what would be stored beside it were computed alike.
+    """Check that stored trials and new ones have the same numerics.
 
     Args:
         what: What is stored, in words.

@@ -71,7 +71,7 @@ def _file_digest(name: str, path: Path) -> str:
 def _files(path: Path) -> list[Path]:
     if not path.is_dir():
         return [path]
-    # A notebook reads a study and is nothing that one depends on.
+    # A notebook reads a study and is not an input of it.
     below = (file for file in sorted(path.rglob("*")) if file.is_file() and file.suffix != ".ipynb")
     return [file for file in below if not any(part.startswith(".") for part in file.relative_to(path).parts)]
 
@@ -82,7 +82,7 @@ def _git(package: Path, *words: str) -> str | None:
     if program is None:
         return None
     try:
-        # The words are ours; no shell reads them.
+        # The arguments are constant, and no shell is involved.
         done = subprocess.run(  # noqa: S603
             [program, "--no-optional-locks", "-C", str(package), *words],
             capture_output=True,
@@ -105,7 +105,7 @@ def _installed_from() -> str:
 
 
 def _processor() -> str:
-    """The processor's name as Linux tells it, for which Python has no answer."""
+    """The processor's name from Linux, which Python does not provide."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:

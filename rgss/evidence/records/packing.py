@@ -1,4 +1,4 @@
-"""Texts as the store keeps them: compressed, and never longer than what is read."""
+"""Compression of texts for the store, with a bound on their length."""
 
 from __future__ import annotations
 

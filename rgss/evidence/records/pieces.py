@@ -26,7 +26,7 @@ class Piece:
     """One piece of the trials that share it.
 
     Attributes:
-        digest: SHA-256 of exactly its inputs: what it is known by.
+        digest: SHA-256 of exactly its inputs, which is its key.
         kind: What it is.
         text: Its content as JSON.
     """
@@ -68,5 +68,5 @@ def read_piece(row: tuple[object, ...]) -> Piece:
 
 
 def _seal(name: str, kind: str, content: str) -> str:
-    """Binds the parts of a row to each other, so that rows cannot be mixed up."""
+    """Seal of a row, which binds its parts to each other."""
     return digest_of([name, kind, content])

@@ -1,4 +1,4 @@
-"""Planning as runs of planners on problems, which is how planners are compared."""
+"""Runs of planners on problems, for comparisons of planners."""
 
 from __future__ import annotations
 

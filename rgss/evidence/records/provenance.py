@@ -40,7 +40,7 @@ class Provenance:
 
 
 _FIRST_FIELDS = {"inputs", "versions"}
-"""What a provenance of schema 1 says."""
+"""Keys of a provenance of schema 1."""
 
 _LATER_FIELDS: Mapping[str, object] = MappingProxyType(
     {"inputs_digest": "", "files": {}, "revision": "", "machine": "", "numerics": {}}

@@ -1,4 +1,4 @@
-"""Plain data read strictly as a type; the reader of a type is put together once and then quick."""
+"""Strict readers of plain data by type; the reader of a type is built once and cached."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Reader = Callable[[Any], Any]
 
 
 class MismatchError(Exception):
-    """Data is not of a type; gathers where on its way up, so that sound data need not say where it is."""
+    """Data is not of a type; its location is collected while it propagates."""
 
     def __init__(self, problem: str, data: str = "") -> None:
         super().__init__(problem)
@@ -27,7 +27,7 @@ class MismatchError(Exception):
         self._data = data
 
     def within(self, part: str) -> MismatchError:
-        """The same, seen from the value that has the part."""
+        """The same mismatch, located from the enclosing value."""
         self._where = part + self._where
         return self
 

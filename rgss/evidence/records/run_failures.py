@@ -1,4 +1,4 @@
-"""Failures of the run, which are not failures of the robot: what could not be made, and why."""
+"""Failures of a run, as opposed to failures of the robot: pieces or trials that could not be made."""
 
 from __future__ import annotations
 
@@ -87,6 +87,6 @@ def detail_line(text: str) -> str:
     Args:
         text: The text.
     """
-    # What is far beyond the bound is not looked at.
+    # Text far beyond the bound is not examined.
     line = printable(" ".join(text[: 20 * LONGEST_DETAIL].split()))
     return line if len(line) <= LONGEST_DETAIL else line[: LONGEST_DETAIL - 1] + "…"

@@ -18,7 +18,7 @@ class TrialInputs:
     """The named inputs of trials.
 
     Attributes:
-        digest: What they are known by.
+        digest: Their key in the store.
         values: The inputs by name: plain data.
     """
 

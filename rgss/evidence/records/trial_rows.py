@@ -89,5 +89,5 @@ def require_key(key: object) -> None:
 
 
 def _seal(key: str, content: str, provenance: str) -> str:
-    """Binds the parts of a row to each other, so that rows cannot be mixed up."""
+    """Seal of a row, which binds its parts to each other."""
     return digest([key, content, provenance])

@@ -1,4 +1,4 @@
-"""The course of one trial over time: what pictures and plots of it are made from."""
+"""Time series of one trial, the source of its pictures and plots."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class TrialTrace:
         tool_speed_m_s: Speed (n,) of the grasp centre.
         tool_speed_limit_m_s: Greatest speed that the design allows it.
         finger_forces_n: Normal force (n, fingers) of each finger on the workpiece.
-        commanded_force_n: Force (n,) that each finger was told to press with; NaN where none.
+        commanded_force_n: Commanded force (n,) of each finger; NaN where none.
         grip_margin: Friction available over friction needed (n,); NaN while nothing is carried.
     """
 

@@ -129,7 +129,7 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
 
 
 def _take_for_oneself(database: Database) -> None:
-    """Keep every other process out until the file is closed.
+    """Lock the file exclusively until it is closed.
 
     Leaving write-ahead logging needs a lock that nobody gets while another has the file open; the
     next process that opens it goes back to logging.
@@ -148,7 +148,7 @@ def _take_for_oneself(database: Database) -> None:
 
 
 def _give_back(connection: sqlite3.Connection) -> bool:
-    """Write the file anew without its free pages; a full disk leaves it as it is, which does no harm."""
+    """Rewrite the file without its free pages; on a full disk it stays as it is."""
     try:
         connection.execute("VACUUM")
     except sqlite3.OperationalError:

@@ -1,4 +1,4 @@
-"""The database file of a store: opening it, transactions, errors in our words."""
+"""Database file of a store: opening, transactions, translation of errors."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _HINTS: Mapping[str, str] = {
 }
 
 _OUTSIDE = ("locked", "full", "disk I/O")
-"""What is nobody's mistake, by the words in which SQLite says so."""
+"""External causes of failure, by SQLite's messages."""
 
 _OUTSIDE_LATER = (*_OUTSIDE, "readonly", "unable to open")
 """The same once a file could be opened and written."""
@@ -82,7 +82,7 @@ class Database:
 
     @contextmanager
     def transaction(self, kind: str = "IMMEDIATE") -> Iterator[None]:
-        """Let what is done within take effect as a whole, or not at all.
+        """Transaction: changes within it take effect as a whole or not at all.
 
         Args:
             kind: ``IMMEDIATE`` to write, ``DEFERRED`` to read.
@@ -107,7 +107,7 @@ class Database:
             self.connection.close()
 
     def in_our_words(self) -> AbstractContextManager[None]:
-        """Turn errors of SQLite into ours, knowing that the file could be opened."""
+        """Translate errors of SQLite, given that the file could be opened."""
         return in_our_words(self.name, outside=_OUTSIDE_LATER)
 
 
@@ -139,14 +139,14 @@ def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False
             # A longer row is an error before it is read.
             connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_ROW)
         if though_damaged:
-            # SQLite reads such a file only for who may mend its schema.
+            # SQLite reads such a file only if its schema is writable.
             connection.execute("PRAGMA writable_schema = ON")
             connection.execute("PRAGMA query_only = ON")
         for setting in (
             "synchronous = FULL",
             "fullfsync = ON",
             "checkpoint_fullfsync = ON",
-            # Nothing that a foreign file defines in its schema may call functions.
+            # The schema of a foreign file must not call functions.
             "trusted_schema = OFF",
             "cell_size_check = ON",
             # A file that is cut short under a map would end the process.
@@ -180,7 +180,7 @@ def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path |
 
     Args:
         name: The file's name in messages.
-        outside: What is nobody's mistake, by the words in which SQLite says so.
+        outside: External causes of failure, by SQLite's messages.
         folder: Where a file was to be opened: SQLite does not say why it could not be.
 
     Raises:

@@ -50,7 +50,7 @@ class Contents:
 
 
 def contents_of(database: Database) -> Contents:
-    """Look at what a store holds.
+    """Contents of a store.
 
     Raises:
         EvidenceError: It is damaged or cannot be read.

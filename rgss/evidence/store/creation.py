@@ -66,7 +66,7 @@ def _make_and_link(path: Path, label: str) -> None:
                 connection.close()
         with _alone_in(path.parent):
             if not path.exists():
-                # The log of a file that was moved away is not the log of this one.
+                # The log of a file that was moved does not belong to this one.
                 _remove(path)
                 _link(part, path)
     finally:

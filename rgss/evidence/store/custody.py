@@ -1,7 +1,7 @@
 """Custody of an open store: whether the files under its name are still those that SQLite has open.
 
-A file that is deleted or replaced stays readable and writable for who has it open, so that writes
-succeed and are gone in the end. A file that is cut is noticed by SQLite only when it reads the pages.
+A file that is deleted or replaced stays readable and writable for a process that has it open, so that writes succeed
+and are lost at the end. A file that is cut is noticed by SQLite only when it reads the pages.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ class Custody:
     """Identity (device and inode) and least size of the files of an open store."""
 
     def __init__(self, path: Path) -> None:
-        """Take note of the files as they are; nothing is opened, which would end the locks of SQLite.
+        """Record the present state of the files; nothing is opened, which would end the locks of SQLite.
 
         Args:
             path: The file, which is open and has been read.

@@ -1,13 +1,13 @@
 """Ledger of a store: the number of rows of each table and a checksum over all of them.
 
 Digests and seals show that a row is the one that was put; they cannot show that a row is missing.
-The ledger is updated in the transaction that changes the rows, so that rows which were deleted,
-added or renamed behind the back of the store are found.
+The ledger is updated in the transaction that changes the rows, so that rows which were deleted, added or renamed by
+other programs are found.
 
 The checksum of a table is the sum of the SHA-256 of its rows modulo 2^256, an incremental multiset
 hash (Bellare and Micciancio, "A new paradigm for collision-free hashing", 1997): it depends on
 neither the order of the rows nor the order in which they came. It has no secret, so it finds damage
-and careless changes; whoever writes a ledger for forged rows has forged a store.
+and careless changes; it does not detect a forged ledger of forged rows.
 """
 
 from __future__ import annotations

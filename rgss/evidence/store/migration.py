@@ -1,4 +1,4 @@
-"""From schema 1, which had trials alone and as plain texts, to the present tables."""
+"""Migration from schema 1, which had only trials as plain texts, to the present tables."""
 
 from __future__ import annotations
 

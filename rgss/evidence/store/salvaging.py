@@ -1,4 +1,4 @@
-"""Reading what is left of a damaged store, row by row, and copying it into a new one."""
+"""Reading of the sound rows of a damaged store, and copying into a new one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The database file of a store: what makes it one, and what is refused."""
+"""Schema of the database file of a store: creation, checks, migration."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def require_present(connection: sqlite3.Connection, name: str) -> None:
 
 
 def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
-    """Make sure that a database has the tables of a store and nothing else.
+    """Check that a database has the tables of a store and nothing else.
 
     Raises:
         EvidenceError: It has others, or views or triggers.
@@ -161,7 +161,7 @@ def _migrate(connection: sqlite3.Connection, name: str) -> None:
         # Another process may have done it since this one looked.
         elif version != SCHEMA_VERSION:
             _check_schema(connection, name, [("trials", FIRST_TABLE)], [])
-            # Wholly, for what is left behind now is gone.
+            # Completely, since rows left behind would be lost.
             _require_sound(connection, name, "integrity_check(1)", "move the file away and run the sweep again")
             migrate_from_first(connection, _make_tables)
             write_ledger(connection)

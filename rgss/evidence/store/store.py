@@ -1,4 +1,4 @@
-"""The evidence store: one SQLite file with trials, the pieces that they share, and what could not be made."""
+"""Evidence store: one SQLite file with trials, the pieces that they share, and failures of runs."""
 
 # long file: one class with a short method for each question to a store; half of its lines are their docstrings.
 
@@ -276,7 +276,7 @@ class EvidenceStore:
         return int(row[0])
 
     def _put(self, changes: RowChanges, table: Table[Value], row: Row, what: str) -> bool:
-        """Put a row whose content is told by a digest; what was there may differ from it in nothing."""
+        """Insert a row with a content digest; an existing row of the same key must be identical."""
         changes.remove(FAILURES, row[0])
         if changes.put(table, row):
             return True

@@ -1,4 +1,4 @@
-"""The four tables of evidence in a store: how their rows are found, put and read."""
+"""The four tables of evidence in a store, with the statements that find, insert and read rows."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Trials as a table: one row a trial, one column a value, units in the names of the columns.
+"""Trials as a table: one row per trial, one column per value, units in the names of the columns.
 
 The columns, in their order; NAME is that of a metric, with its unit at its end:
 

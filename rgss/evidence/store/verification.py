@@ -1,4 +1,4 @@
-"""Checking a whole store: its pages, every row, its ledger, and whether what a trial refers to is there."""
+"""Check of a whole store: its pages, every row, its ledger, and the references of trials."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from rgss.evidence.store.schema import prepare, require_own_schema, require_pres
 from rgss.evidence.store.tables import INPUTS, PIECES, TABLES, TRIALS, Table, brief
 
 PAGES = "pages"
-"""What is damaged when it is the file itself and not a row."""
+"""Kind of damage of the file itself."""
 
 LEDGER = "ledger"
-"""What is damaged when rows are missing or were added, though each that is there is sound."""
+"""Kind of damage where rows are missing or were added, though each is sound."""
 
 _MOST_PAGE_PROBLEMS = 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Damage:
-    """One thing that is wrong in a store.
+    """One damage of a store.
 
     Attributes:
         what: What kind of row it is, such as ``trial``; ``pages`` of the file; or its ``ledger``.
@@ -69,7 +69,7 @@ class Verification:
 
 
 def verify(path: Path, *, label: str) -> Verification:
-    """Check everything that can be checked: pages, digests, seals, contents, references, ledger.
+    """Check pages, digests, seals, contents, references and ledger.
 
     Args:
         path: The file.

@@ -63,7 +63,7 @@ class EvidenceWriter:
     """The writing side of an open store."""
 
     def __init__(self, database: Database, path: Path) -> None:
-        """Take note of the files as they are.
+        """Record the present state of the files.
 
         Args:
             database: The open file.
@@ -82,7 +82,7 @@ class EvidenceWriter:
 
     @contextmanager
     def transaction(self, pending: Rows = ()) -> Iterator[RowChanges]:
-        """Let changes take effect as a whole, or not at all, in the file that has the store's name.
+        """Transaction of changes, in the file that has the store's name.
 
         Args:
             pending: What is to be put, which is saved elsewhere if the store was lost.
@@ -148,7 +148,7 @@ class EvidenceWriter:
                 yield key
 
     def _loss(self, problem: str, pending: Rows = ()) -> StorageError:
-        """The error that the store was lost, after what can be saved was saved."""
+        """Error for a lost store, raised after the rescue of its rows."""
         saved = rescued(self._database.connection, self._custody.path, pending)
         if saved.rows:
             self._custody.discard_orphaned_logs()

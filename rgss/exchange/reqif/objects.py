@@ -48,7 +48,7 @@ class ForeignObject:
 
 
 class ObjectReader:
-    """Reads objects, and remembers what it could not take over."""
+    """Reader of objects, with a list of what could not be imported."""
 
     def __init__(self, bundle: Any, known: Mapping[str, Part], part: Part | None) -> None:
         """Take a file.

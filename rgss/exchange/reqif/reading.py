@@ -96,7 +96,7 @@ def _parsed(content: bytes, file: str) -> Any:
         ) from error
     try:
         bundle = library.ReqIFParser.parse_from_string(_content_alone(content.decode("utf-8-sig")))
-    # A file that is no ReqIF breaks the library in many ways, none of which it documents.
+    # On a file that is not ReqIF the library raises many undocumented exceptions.
     except Exception as error:
         raise _unreadable(content, file, error) from None
     if bundle.exceptions:

@@ -22,7 +22,7 @@ _BEHAVIOUR: Mapping[str, str] = {
 
 
 class RelationReader:
-    """Reads relations, and remembers what it could not take over."""
+    """Reader of relations, with a list of what could not be imported."""
 
     def __init__(self, core: Any, objects: Mapping[str, ForeignObject]) -> None:
         """Take a file.

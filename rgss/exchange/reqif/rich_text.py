@@ -1,4 +1,4 @@
-"""Rich text as plain text that means the same, with a list of what could not be kept.
+"""Conversion of rich text to plain text of the same meaning, with a list of what is lost.
 
 Exponents and indices, lists and tables have a plain form; struck-out text is deleted text and is
 left out; attachments and markup of other languages are lost. Emphasis, fonts and colours are
@@ -154,7 +154,7 @@ class _Reader:
 
     def table(self, node: Any) -> None:
         for row in node.iter("{*}tr"):
-            # A table within a cell is said with the cell.
+            # A table within a cell is part of the text of the cell.
             if next(row.iterancestors("{*}table"), None) is not node:
                 continue
             cells = [each for each in row if isinstance(each.tag, str) and each.tag.rpartition("}")[2] in _CELLS]
@@ -192,5 +192,5 @@ class _Reader:
         what = "attachment" if name == "object" else f"element '{name}'"
         self.losses.append(f"the {what} {shown(named)} is left out" if named else f"the {what} is left out")
         if name == "object":
-            # What stands in it is shown where the attachment is not.
+            # Its content is the alternative shown in place of the attachment.
             self.children(node)

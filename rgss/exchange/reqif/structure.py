@@ -1,4 +1,4 @@
-"""Structural errors of ReqIF in an XML file, for files that the reader of the library gives up on."""
+"""Structural errors of ReqIF in an XML file, for files that the reader of the library cannot read."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _WHOLE_NUMBERS = ("ACCURACY",)
 
 
 def structure_problems(content: bytes, file: str) -> tuple[Finding, ...]:
-    """Elements that lack what ReqIF wants of them, and references to what is not there; empty if none is known.
+    """Elements that lack required parts of ReqIF, and dangling references; empty if none is known.
 
     What reading needs comes first; what the schema alone demands is said if there is nothing else.
 

@@ -254,7 +254,7 @@ def _relations_of(row: Row) -> Iterator[tuple[str, str, str]]:
             turned = attribute.link in (LinkKind.SATISFY, LinkKind.VERIFY)
             yield (kind, other, row.id) if turned else (kind, row.id, other)
     if row.cells.get("interaction"):
-        # A sequence goes back to the requirements whose criteria bound its times.
+        # A sequence traces to the requirements whose criteria bound its times.
         for timing in json.loads(row.cells["interaction"])["timings"]:
             yield LinkKind.TRACE.value, row.id, timing["criterion_of"]
 

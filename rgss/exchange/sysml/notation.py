@@ -1,4 +1,4 @@
-"""Lexical matters of the textual notation: names, strings, documentation, bodies.
+"""Lexical elements of the textual notation: names, strings, documentation, bodies.
 
 The notation is read by people as code is, and never back by rgss: characters that reorder or hide
 text are shown by their code points.

@@ -17,7 +17,7 @@ class Relations:
     """Writes every link of a set of requirements between the elements' qualified names."""
 
     def __init__(self, requirements: RequirementSet, parts: Parts) -> None:
-        """Look at the elements.
+        """Index the elements.
 
         Args:
             requirements: The requirements and the architecture.

@@ -17,7 +17,7 @@ class Parts:
     """
 
     def __init__(self, architecture: Architecture) -> None:
-        """Find the place of every block."""
+        """Index the position of every block."""
         self._blocks = {block.id: block for block in architecture.blocks}
         self._owned: dict[str | None, list[Block]] = {}
         for block in architecture.blocks:

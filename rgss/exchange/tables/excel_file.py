@@ -76,7 +76,7 @@ def read_excel(path: Path) -> Content:
     rows: list[Row] = []
     try:
         with warnings.catch_warnings():
-            # It warns of what it does not know of a workbook's looks, which are nothing to us.
+            # It warns of unknown formatting of a workbook, which is not read here.
             warnings.simplefilter("ignore")
             workbook = load_workbook(io.BytesIO(content), read_only=True)
             names = workbook.sheetnames
@@ -172,7 +172,7 @@ def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:
     def made(text: str) -> Any:
         cell = WriteOnlyCell(sheet, text)
         cell.data_type = "s"  # openpyxl takes what begins with = for a formula
-        # Excel then keeps it a text also when somebody edits the cell.
+        # Excel then keeps it as text even after the cell is edited.
         cell.quotePrefix = starts_like_a_formula(text)
         cell.alignment = aligned
         return cell

@@ -11,10 +11,10 @@ from rgss.exchange.files import problem, refusal_of
 from rgss.findings import Finding, shown
 
 PART = "part"
-"""The column that says what a row is, where one table holds both."""
+"""The column with the part of a row, in a table of both parts."""
 
 PARTS = (Part.STAKEHOLDER, Part.SYSTEM)
-"""What has a table: the architecture has none."""
+"""Parts that have a table; the architecture has none."""
 
 MOST_ROWS, MOST_COLUMNS = 100_000, 100
 

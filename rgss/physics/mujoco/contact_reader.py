@@ -48,7 +48,7 @@ class _Point:
 
 
 class MujocoContactReader:
-    """Sorts the engine's contacts of one world by who touches whom."""
+    """Reader of the engine's contacts of one world, sorted by the touching bodies."""
 
     def __init__(self, compiled: Any, data: Any, model: WorldModel) -> None:
         """Find the shapes of the model.

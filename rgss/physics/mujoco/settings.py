@@ -20,7 +20,7 @@ class MujocoSettings(OtherEngineSettings):
         solver_iterations: Most iterations of Newton's method in a step; it ends at a tolerance of 1e-10, mostly after
             a few.
         contact_time_constant_s: Contacts and stops yield like critically damped springs with this time constant.
-            The blow of a closing finger depends on it (12 N at 4 ms and 15 N at 2 ms where 7 N are commanded), what
+            The impact of a closing finger depends on it (12 N at 4 ms and 15 N at 2 ms where 7 N are commanded), what
             a hand holds does not.
     """
 

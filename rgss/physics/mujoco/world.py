@@ -158,7 +158,7 @@ class MujocoWorld:
         return tuple(positions.tolist()), tuple(velocities.tolist()), tuple(self._torques.tolist())
 
     def finger_travel_m(self) -> tuple[float, ...]:
-        """How far each finger has closed from its open end."""
+        """Travel of each finger from its open end."""
         return tuple(self._data.qpos[self._travels].tolist())
 
     def workpiece_pose(self) -> Pose:
@@ -166,7 +166,7 @@ class MujocoWorld:
         return self._pose_of(self._workpiece)
 
     def tool_pose(self) -> Pose:
-        """Transform of the grasp-centre frame to the world as the arm really stands."""
+        """Transform of the grasp-centre frame to the world at the true joint angles."""
         return self.hand_view().tool
 
     def hand_view(self) -> HandView:
@@ -194,7 +194,7 @@ class MujocoWorld:
         return self._reader.finger_contacts(_pose(self._stood_m, self._stood_wxyz))
 
     def _note_workpiece(self) -> None:
-        """Keep where the workpiece stands at the start of a step, where the engine finds its contacts."""
+        """Store the pose of the workpiece at the start of a step, at which the engine finds its contacts."""
         self._stood_m = self._data.xpos[self._workpiece].copy()
         self._stood_wxyz = self._data.xquat[self._workpiece].copy()
 

@@ -34,7 +34,7 @@ class FlowNode:
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class FlowEdge:
-    """A way from node to node of an activity's flow."""
+    """An edge between two nodes of an activity's flow."""
 
     source: Identifier
     target: Identifier

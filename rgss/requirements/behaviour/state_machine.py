@@ -1,4 +1,4 @@
-"""State machines: states, and what leads from one to the next."""
+"""State machines: states and transitions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rgss.requirements.fields import Entries
 
 
 class StateKind(str, Enum):
-    """Where a state stands in its machine."""
+    """Kind of a state of a state machine."""
 
     INITIAL = "initial"
     STATE = "state"
@@ -33,7 +33,7 @@ class State:
 
 @dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Transition:
-    """A way from state to state of a state machine."""
+    """A transition between two states of a state machine."""
 
     source: Identifier
     target: Identifier

@@ -1,4 +1,4 @@
-"""Consistency of an activity's flow: one beginning, an end, and a definite way between them."""
+"""Consistency of an activity's flow: one initial node, a final node, and deterministic paths between them."""
 
 from __future__ import annotations
 

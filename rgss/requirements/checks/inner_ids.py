@@ -33,7 +33,7 @@ def unknown(
 
     Args:
         declaration: The behaviour.
-        at: Where the id stands within it.
+        at: Location of the id within it.
         named: The id.
         known: What it may name.
         what: What that is, in the words of the message.

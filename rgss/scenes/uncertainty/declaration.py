@@ -35,7 +35,7 @@ class Correlation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Uncertainty:
-    """What differs from trial to trial.
+    """Uncertain quantities of a scene or a study.
 
     Attributes:
         values: The uncertain quantities; the order has no effect.
@@ -51,7 +51,7 @@ class Uncertainty:
         return tuple(one.quantity for one in self.values)
 
     def overridden_by(self, other: Uncertainty) -> Uncertainty:
-        """This uncertainty with the quantities of another in place of its own.
+        """This uncertainty, overridden by the quantities of another.
 
         Args:
             other: What comes first. Each of its groups replaces those that share a quantity with it.
@@ -68,4 +68,4 @@ class Uncertainty:
 
 
 NOTHING_UNCERTAIN = Uncertainty()
-"""Everything is as the files say."""
+"""No uncertainty."""

@@ -63,7 +63,7 @@ class UncertainQuantity:
         return tuple(f"{self.name}.{index}" for index in range(1, self.count + 1))
 
     def is_possible(self, value: float) -> bool:
-        """Whether a value may be drawn."""
+        """True if a value may be drawn."""
         return value > self.least or (self.is_least_allowed and value == self.least)
 
 

@@ -1,4 +1,4 @@
-"""From the YAML form of uncertainty to its declaration, with every problem at its place."""
+"""Reader of uncertainty from its YAML form, with every problem at its place."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def read_uncertainty(
 
 
 class _Reader:
-    """Reads the distribution of one quantity."""
+    """Reader of the distribution of one quantity."""
 
     def __init__(self, name: str, document: Document, findings: list[Finding]) -> None:
         self._quantity: UncertainQuantity = QUANTITIES[name]

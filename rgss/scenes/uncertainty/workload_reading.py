@@ -1,4 +1,4 @@
-"""From the YAML form of a workload to its cases."""
+"""Reader of the cases of a workload from its YAML form."""
 
 from __future__ import annotations
 

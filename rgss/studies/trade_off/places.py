@@ -57,7 +57,7 @@ class TradeOffPlaces:
         return self._document.finding(f"study.{rule}", message, at, hint=hint)
 
     def knows(self, measure: str, at: Place) -> bool:
-        """Tell whether a measure is defined; a finding if it is not."""
+        """True if a measure is defined; a finding if it is not."""
         if measure in self.units:
             return True
         if not self._measures_read:
@@ -109,7 +109,7 @@ class TradeOffPlaces:
             return None
         known = {item.id: item for item in requirements.system}
         if requirement not in known:
-            message = f"there is no system requirement {requirement!r}"
+            message = f"there is not a system requirement {requirement!r}"
             self.report("requirement", message, at, hint=_nearest(requirement, known, "name one that is there"))
             return None
         criterion = known[requirement].criterion

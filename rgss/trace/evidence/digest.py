@@ -1,4 +1,4 @@
-"""The digest of what evidence for a requirement is evidence for."""
+"""Digest of the verified content of a requirement, by which its evidence is dated."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from rgss.requirements import Requirement
 
 
 def verification_digest(requirement: Requirement) -> str:
-    """The SHA-256 of what is verified: the sentence, how it is verified, and what decides.
+    """SHA-256 of the verified content: sentence, verification method and criterion.
 
     Evidence is older than a requirement if this has changed since. A new owner, rationale,
-    priority or parent is no reason to look at the evidence again.
+    priority or parent does not make the evidence stale.
     """
     criterion = requirement.criterion
     return digest(

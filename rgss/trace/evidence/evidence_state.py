@@ -16,7 +16,7 @@ class TrialVerdicts:
 
     Attributes:
         requirement: Its id.
-        verdicts: What the evidence says now, for each variant by its id.
+        verdicts: Present verdict of the evidence, for each variant by its id.
         recorded: The verdict that was last recorded for each variant; empty if none ever was.
         causes: For each variant whose verdict is stale, what changed since its evidence.
     """

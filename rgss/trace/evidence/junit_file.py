@@ -1,7 +1,7 @@
 """The result of a test run, read from the JUnit XML that pytest writes.
 
-The file may come from anywhere, so it is read by event handlers that build nothing but the few
-texts wanted here; a document type, and with it every entity, is refused before it can do anything.
+The file may come from anywhere, so it is read by event handlers that build only the few texts needed here; a document
+type, and with it every entity, is refused first.
 """
 
 from __future__ import annotations

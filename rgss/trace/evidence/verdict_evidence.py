@@ -78,7 +78,7 @@ class VariantEvidence:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TraceEvidence:
-    """Everything that is known beyond the files of the project.
+    """Evidence of a project: trials, verdicts and test results.
 
     Attributes:
         shown: The variant whose trials and verdicts are shown; None if there is none to show.

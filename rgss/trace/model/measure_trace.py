@@ -1,4 +1,4 @@
-"""A measure as traceability sees it: what it goes back to, and what it is computed into."""
+"""A measure in the trace: the needs that it traces to and the measures that it contributes to."""
 
 from __future__ import annotations
 

@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TraceModel:
-    """Everything that traces, and the graph of it.
+    """Elements of the trace and their graph.
 
     Attributes:
         requirements: The requirements and the architecture.
         measures: The measures, in their file's order.
         links: Every link, also those that lead to an id that is not there.
         graph: The elements and the links between them; a link that leads nowhere is left out.
-            Edge keys are `LinkKind`; edges point from the later element to what it rests on.
+            Edge keys are `LinkKind`; edges point from the later element to the one that it depends on.
     """
 
     requirements: RequirementSet
@@ -32,7 +32,7 @@ class TraceModel:
     _digests: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def content_digest(self, element_id: str) -> str:
-        """The digest of what a reader judges of an element, made once; see `RequirementSet.content_digest`."""
+        """Digest of the reviewed content of an element, cached; see `RequirementSet.content_digest`."""
         found = self._digests.get(element_id)
         if found is None:
             found = self._digests[element_id] = self.requirements.content_digest(element_id)
@@ -40,7 +40,7 @@ class TraceModel:
 
     @property
     def asked_for(self) -> tuple[StakeholderNeed | Requirement, ...]:
-        """Stakeholder requirements, then system requirements: everything that is asked for in a sentence."""
+        """Stakeholder requirements, then system requirements: all elements with a sentence."""
         return (*self.requirements.stakeholder, *self.requirements.system)
 
     def targets(self, element_id: str, kind: LinkKind) -> tuple[str, ...]:

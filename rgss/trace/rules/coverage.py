@@ -66,7 +66,7 @@ def _unallocated(model: TraceModel) -> Iterator[Violation]:
 def _unallocated_behaviours(model: TraceModel) -> Iterator[Violation]:
     for behaviour in model.requirements.architecture.behaviours:
         if not behaviour.allocated_to:
-            message = f"behaviour {behaviour.id!r} is done by no block"
+            message = f"behaviour {behaviour.id!r} is allocated to no block"
             yield Violation(subject=behaviour.id, message=message, hint="name one under 'allocated_to'")
 
 
@@ -95,13 +95,13 @@ RULES: tuple[ModelRule, ...] = (
     ModelRule(
         id="trace.orphan",
         severity=Severity.ERROR,
-        explanation="A system requirement derives from a stakeholder requirement; otherwise nobody asked for it.",
+        explanation="A system requirement derives from a stakeholder requirement; otherwise no stakeholder needs it.",
         check=_orphans,
     ),
     ModelRule(
         id="trace.childless",
         severity=Severity.ERROR,
-        explanation="A system requirement derives from each stakeholder requirement; otherwise nobody answers it.",
+        explanation="A system requirement derives from each stakeholder requirement; otherwise it is not addressed.",
         check=_childless,
     ),
     ModelRule(
@@ -109,7 +109,7 @@ RULES: tuple[ModelRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "A measure of effectiveness traces to each stakeholder requirement; otherwise the choice of a "
-            "design passes it over."
+            "design ignores it."
         ),
         check=_unmeasured,
     ),
@@ -119,7 +119,7 @@ RULES: tuple[ModelRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "A measure of effectiveness traces to a stakeholder requirement; otherwise designs are "
-            "compared by what nobody asked for."
+            "compared by something that no stakeholder needs."
         ),
         check=_aimless,
     ),
@@ -143,13 +143,13 @@ RULES: tuple[ModelRule, ...] = (
     ModelRule(
         id="trace.unallocated",
         severity=Severity.ERROR,
-        explanation="A block or a behaviour satisfies each system requirement; otherwise nothing brings it about.",
+        explanation="A block or a behaviour satisfies each system requirement; otherwise nothing realises it.",
         check=_unallocated,
     ),
     ModelRule(
         id="trace.unallocated-behaviour",
         severity=Severity.WARNING,
-        explanation="A block does each behaviour; otherwise the model says what happens, but not what does it.",
+        explanation="Each behaviour is allocated to a block; otherwise it is open which part performs it.",
         check=_unallocated_behaviours,
     ),
     ModelRule(

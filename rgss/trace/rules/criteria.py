@@ -1,4 +1,4 @@
-"""Rules of verification: each requirement can be decided, and says the same in words and numbers."""
+"""Rules of verification: each requirement is decidable, and its text agrees with its criterion."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _contradicting_numbers(model: TraceModel) -> Iterator[Violation]:
 def _contradicting_comparisons(model: TraceModel) -> Iterator[Violation]:
     for requirement, criterion in _criteria(model):
         is_lower_bound = criterion.comparison.is_lower_bound
-        # What stands in a condition, such as 'If the force exceeds 10 N', is not what is required.
+        # A quantity in a condition, such as 'If the force exceeds 10 N', is not a required value.
         start = response_start(requirement.text)
         for quantity in quantities_in(requirement.text):
             if quantity.start < start or not same_dimension(quantity.unit, criterion.unit):
@@ -121,7 +121,7 @@ RULES: tuple[ModelRule, ...] = (
     ModelRule(
         id="trace.no-method",
         severity=Severity.ERROR,
-        explanation="Each system requirement has a verification method; otherwise nobody can say whether it is met.",
+        explanation="Each system requirement has a verification method; otherwise its verdict is undefined.",
         check=_without_method,
     ),
     ModelRule(

@@ -1,4 +1,4 @@
-"""The rules in words: for somebody whose project broke one, and as a page of the documentation."""
+"""Explanations of the rules, for the command line and as a page of the documentation."""
 
 from __future__ import annotations
 
@@ -88,15 +88,15 @@ def _page() -> Iterator[str]:
 _HEAD = """\
 # Rules
 
-<!-- Written by `rgss check --explain --markdown`; a test holds it to the code. -->
+<!-- Written by `rgss check --explain --markdown`; a test compares it with the code. -->
 
-`rgss check` holds a project to these rules; `rgss check --explain RULE` explains one of them. Each
-finding says where it is, as `file:line:column`. A check never writes.
+`rgss check` checks a project against these rules; `rgss check --explain RULE` explains one of them. Each
+finding has its place as `file:line:column`. A check never writes.
 
 - **Severity.** An error or a warning makes `rgss check` end with 1; a note (`info`) is shown by
   `rgss check --all`.
 - **Settings.** `rules.yaml`, in the folder of the requirements, sets the severity of a rule, switches
-  it off, or adds and removes the words that it looks for; each setting has a reason:
+  it off, or adds and removes terms that it searches for; each setting has a reason:
   `rules: {wording.R19: {severity: info, reason: "…"}}`. A setting that changes nothing is a finding.
 - **Exemptions.** An element may break a rule for a stated reason:
   `exempt: [{rule: wording.R7, reason: "…"}]`. An exemption that exempts nothing is a finding.

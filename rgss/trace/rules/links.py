@@ -1,4 +1,4 @@
-"""Rules of links: ids are unique, lead to what they should, and never back to themselves."""
+"""Rules of links: ids are unique, links lead to existing elements of the right kind and form no cycle."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _cycles(model: TraceModel) -> Iterator[Violation]:
             key=lambda path: (len(path), [order[element_id] for element_id in path]),
         )
         subject: str | MeasureTrace = measures.get(start, start)
-        message = f"{start!r} rests on itself: {' → '.join(around)}"
+        message = f"{start!r} depends on itself: {' → '.join(around)}"
         yield Violation(subject=subject, message=message, hint="cut one of the links")
 
 
@@ -73,7 +73,7 @@ RULES: tuple[ModelRule, ...] = (
         id="trace.cycle",
         fixed=True,
         severity=Severity.ERROR,
-        explanation="Links lead from later to earlier elements; a cycle of them has no beginning to trust.",
+        explanation="Links lead from later to earlier elements, so they must not form a cycle.",
         check=_cycles,
     ),
 )

@@ -26,7 +26,7 @@ def _unknown(model: TraceModel, marked: tuple[MarkedTest, ...]) -> Iterator[Viol
         for name in test.requirements:
             if name not in known:
                 function = test.id.rsplit("::", 1)[-1]
-                message = f"{function} verifies {name!r}, which is no system requirement"
+                message = f"{function} verifies {name!r}, which is not a system requirement"
                 yield Violation(subject=test, message=message, hint=nearest(name, known))
 
 
@@ -36,7 +36,7 @@ RULES: tuple[MarkRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "Where the project has tests of its own, each requirement that is verified by test has a test that is "
-            "marked with it; a verification that is planned and never written shows nothing."
+            "marked with it; a planned test that is never written verifies nothing."
         ),
         check=_unmarked,
     ),

@@ -15,7 +15,7 @@ REVIEWS = "reviews.yaml"
 """The file in the requirements folder."""
 
 EVERYTHING = "all"
-"""In place of an id: every stakeholder and system requirement, and whatever else has a review already."""
+"""Stands for every stakeholder and system requirement, and every other element that has a review already."""
 
 LONGEST_REVIEWER = 80
 
@@ -44,7 +44,7 @@ def expanded(requirements: RequirementSet, ids: Sequence[str]) -> tuple[str, ...
 
 
 def stamped(requirements: RequirementSet, ids: Sequence[str], reviewer: str) -> Mapping[str, Review]:
-    """The reviews of a project after somebody has read some of its elements.
+    """Reviews of a project after some of its elements were reviewed.
 
     Args:
         requirements: The requirements, with the reviews so far.
@@ -100,7 +100,7 @@ def write_reviews(folder: Path, reviews: Mapping[str, Review]) -> Path:
 
 
 def reviews_yaml(reviews: Mapping[str, Review]) -> str:
-    """The one text of some reviews, whatever the order in which they came."""
+    """Canonical text of some reviews, independent of their order."""
     if not reviews:
         return f"{_HEAD}reviews: {{}}\n"
     lines = [_HEAD, "reviews:\n"]

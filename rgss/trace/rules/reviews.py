@@ -1,7 +1,7 @@
-"""Rules of reviews: what was read and agreed on is still what the files say.
+"""Rules of reviews: the reviewed content is still the content of the files.
 
 A review stamps the content digest of an element and of the elements that it rests on. When one of
-these changes, the link to it is suspect: somebody has to look whether what rests on it still fits.
+these changes, the link to it is suspect: the dependent element must be reviewed again.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rgss.trace.rules.upstream import upstream_of_each
 def _unreviewed(model: TraceModel) -> Iterator[Violation]:
     reviews = model.requirements.reviews
     if not reviews:
-        # Where nobody reviews, one note says as much as one for each requirement.
+        # Without any review, one note is enough.
         for element in model.asked_for[:1]:
             message = f"none of the {len(model.asked_for)} stakeholder and system requirements has been reviewed"
             yield Violation(subject=element.id, message=message, hint="rgss check --review ID, or all")
@@ -75,15 +75,15 @@ RULES: tuple[ModelRule, ...] = (
     ModelRule(
         id="review.missing",
         severity=Severity.INFO,
-        explanation="A stakeholder or system requirement has been reviewed, so that somebody stands for its text.",
+        explanation="Each stakeholder and system requirement has been reviewed by a person.",
         check=_unreviewed,
     ),
     ModelRule(
         id="review.changed",
         severity=Severity.WARNING,
         explanation=(
-            "An element says what it said when it was reviewed. How its text is wrapped, where it stands, the order "
-            "of its links and its exemptions are no part of that."
+            "An element has the content that was reviewed. How its text is wrapped, where it stands, the order "
+            "of its links and its exemptions are not part of that."
         ),
         check=_changed,
     ),

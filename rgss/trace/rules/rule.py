@@ -14,7 +14,7 @@ from rgss.trace.sentences import Sentence, TermList
 
 
 class Located(Protocol):
-    """Something that knows its place in a file, such as a measure or a test."""
+    """Object with a place in a file, such as a measure or a test."""
 
     @property
     def file(self) -> str:
@@ -34,9 +34,9 @@ class Violation:
     """One place where a rule is broken.
 
     Attributes:
-        subject: The element of the requirements, by its id; or the place of what is none.
+        subject: The element of the requirements, by its id; or a place in a file.
         message: What is wrong, in one line.
-        hint: How to mend it, in one line; may be empty.
+        hint: How to resolve it, in one line; may be empty.
         at: The part of the element or place to point at; what is `Located` is pointed at as a whole.
         at_key: Point at the key instead of its value.
     """
@@ -93,7 +93,7 @@ class Rule:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadingRule(Rule):
-    """A rule that is held when the files are read, listed here to be explained."""
+    """A rule that is checked while the files are read, listed here to be explained."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,7 +113,7 @@ class Flaw:
 
     Attributes:
         message: It, in words that follow the id of the element.
-        hint: How to mend it.
+        hint: How to resolve it.
     """
 
     message: str
@@ -129,7 +129,7 @@ class SentenceRule(Rule):
     """A rule of the wording of needs and requirements.
 
     Attributes:
-        find: Finds what is wrong with the sentence of an element, given the rule's terms.
+        find: Finder of the violations in the sentence of an element, given the rule's terms.
         terms: Words and phrases that the rule looks for, or that it takes for an excuse; a project
             may add to them and take from them.
         meaning: Description of the terms; empty if there are none.
@@ -171,4 +171,4 @@ class MarkRule(Rule):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConfigurationRule(Rule):
-    """A rule of the project's settings and exemptions themselves, checked behind all others."""
+    """A rule of the project's settings and exemptions themselves, checked after all others."""

@@ -1,4 +1,4 @@
-"""Rules of settings and exemptions: each is of a rule that is there, and changes something."""
+"""Rules of settings and exemptions: each names an existing rule and has an effect."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ UNUSED_EXEMPTION = ConfigurationRule(
     severity=Severity.WARNING,
     explanation=(
         "An exemption exempts something: the element would break the rule otherwise. One that is not needed any "
-        "more would hide the next breach."
+        "more would hide the next violation."
     ),
 )
 UNKNOWN_SETTING = ConfigurationRule(
@@ -88,7 +88,7 @@ def exemption_violations(
     Args:
         requirements: The requirements with the exemptions.
         rules: Every rule by its id.
-        checked: Ids of the rules that were checked; of another rule nobody knows whether it is broken.
+        checked: Ids of the rules that were checked; of any other rule it is unknown whether it is broken.
         used: The exemptions that exempted something.
     """
     for element in requirements.elements:
@@ -108,7 +108,7 @@ def exemption_violations(
 
 
 def _idle_terms(setting: RuleSetting, rule: Rule) -> Iterator[tuple[str, tuple[str, int]]]:
-    """The terms that a setting adds or removes in vain, and where they stand in it."""
+    """Terms that a setting adds or removes without effect, and their locations in it."""
     takes_terms = isinstance(rule, SentenceRule) and bool(rule.meaning)
     own = {words_of(term) for term in rule.terms} if isinstance(rule, SentenceRule) else set()
     for index, term in enumerate(setting.terms_added):

@@ -1,4 +1,4 @@
-"""The rules that are held while the files of the requirements are read, listed to be explained."""
+"""Rules that are checked while the files of the requirements are read, listed to be explained."""
 
 from __future__ import annotations
 

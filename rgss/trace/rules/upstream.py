@@ -10,10 +10,10 @@ from rgss.requirements import Behaviour, Element, Requirement, RequirementSet
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Upstream:
-    """One element that another rests on.
+    """One element that another depends on.
 
     Attributes:
-        target: Id of the element that is rested on.
+        target: Id of the element that the other depends on.
         stated_by: Id of the element whose entry states the link; a requirement states what satisfies it.
         at: The part of that entry.
     """
@@ -24,7 +24,7 @@ class Upstream:
 
 
 def upstream_of_each(requirements: RequirementSet) -> Mapping[str, tuple[Upstream, ...]]:
-    """For each element by its id, the elements that it rests on, in the order in which they are stated.
+    """For each element by its id, the elements that it depends on, in the order in which they are stated.
 
     A requirement rests on what it derives from, traces to and is contained in; a block or behaviour
     on the requirements that it satisfies or refines and the block that it is a part of.

@@ -60,7 +60,7 @@ def _failed(_: TraceModel, evidence: EvidenceState) -> Iterator[Violation]:
             more = f" and {len(failed) - 1} more" if len(failed) > 1 else ""
             message = f"{name!r} is not met: {failed[0]}{more} failed"
             yield Violation(
-                subject=name, message=message, hint="mend it, then run the tests again", at=("verification",)
+                subject=name, message=message, hint="fix it, then run the tests again", at=("verification",)
             )
 
 
@@ -82,7 +82,7 @@ RULES: tuple[EvidenceRule, ...] = (
         id="evidence.none",
         severity=Severity.WARNING,
         explanation=(
-            "What is planned to be verified has evidence: trials of each variant for a criterion, a result of each "
+            "Each planned verification has evidence: trials of each variant for a criterion, a result of each "
             "marked test for a requirement that is verified by test."
         ),
         check=_none,
@@ -92,7 +92,7 @@ RULES: tuple[EvidenceRule, ...] = (
         severity=Severity.WARNING,
         explanation=(
             "Evidence is no older than what it is evidence for: the requirement, the definition of its measure and "
-            "of all below it, the model, the code, the engines. Age is told by digests of content, not by clocks."
+            "of all below it, the model, the code, the engines. Age is determined by digests of content, not by clocks."
         ),
         check=_stale,
     ),

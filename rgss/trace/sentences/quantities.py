@@ -27,7 +27,7 @@ class TextQuantity:
     """A number in a sentence.
 
     Attributes:
-        text: It as it is written, with its unit.
+        text: The quantity as it is written, with its unit.
         value: Its magnitude.
         unit: Its unit; ``"1"`` for a pure number.
         start: Where it starts in the sentence.
@@ -58,7 +58,7 @@ def quantities_in(sentence: str) -> Iterator[TextQuantity]:
 
 @lru_cache(maxsize=4096)
 def is_unit(text: str) -> bool:
-    """Tell whether a text is the name of a unit, or a product or quotient of such names."""
+    """True if a text is the name of a unit, or a product or quotient of such names."""
     try:
         dimension(text)
     except QuantityError:

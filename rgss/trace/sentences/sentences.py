@@ -84,7 +84,7 @@ class Sentence:
         shalls: Where each ``shall`` ends.
         sentences: How many sentences it has.
         conditions: The conditions before the subject.
-        subject: Who shall; empty if nobody is named.
+        subject: The subject before ``shall``; empty if there is none.
         response: What follows the first ``shall``.
         pattern: The pattern of EARS that it has; None if it has none.
         flaw: Why it has none, in words that follow its id; empty if it has one.
@@ -174,13 +174,13 @@ def _parts(before: str) -> tuple[tuple[Clause, ...], str, str, str]:
     *lead, last = [part.strip() for part in before.split(",")]
     divided = _THEN.fullmatch(last) if not lead else None
     if divided is not None:
-        # As clear as a comma.
+        # As unambiguous as a comma.
         lead, last = [divided["condition"]], divided["rest"]
     if not lead:
         opening = _first_word(last)
         if opening in KEYWORDS:
             return (), "", f"begins with {opening.capitalize()!r}, but has no comma between condition and subject", ""
-        return (), last, "" if last and last.lower() != "there" else "names nobody that shall", ""
+        return (), last, "" if last and last.lower() != "there" else "has no subject before 'shall'", ""
     if not _opening(lead[0]):
         return (), before.strip(), "", ""
     clauses: list[list[str]] = []
@@ -194,7 +194,7 @@ def _parts(before: str) -> tuple[tuple[Clause, ...], str, str, str]:
     if _first_word(subject) in CLAUSE_WORDS:
         return conditions, "", "has no comma between its last condition and its subject", ""
     if not subject:
-        return conditions, "", "names nobody that shall", ""
+        return conditions, "", "has no subject before 'shall'", ""
     return conditions, subject, "", _departure([_opening(each[0]) for each in clauses], has_then=has_then)
 
 
@@ -225,8 +225,8 @@ def _without_shall(tokens: tuple[Token, ...]) -> str:
 def _flaw_of_response(response: str) -> str:
     first = _first_word(_LIST_MARK.sub("", response, count=1) if _LIST_MARK.match(response) else response)
     if not first:
-        return "says nothing behind 'shall'"
-    return f"has no verb behind 'shall', but {first!r}" if _NO_VERBS.fullmatch(first) else ""
+        return "says nothing after 'shall'"
+    return f"has no verb after 'shall', but {first!r}" if _NO_VERBS.fullmatch(first) else ""
 
 
 def _first_word(text: str) -> str:

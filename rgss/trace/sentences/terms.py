@@ -57,7 +57,7 @@ class TermList:
         self._firsts = frozenset(self._by_first)
 
     def is_absent(self, sentence: Sentence) -> bool:
-        """Tell, at little cost, that a sentence has none of the terms; False leaves it open."""
+        """Cheap test: True if a sentence has none of the terms; False if it may have one."""
         return self._firsts.isdisjoint(sentence.words)
 
     def find(self, sentence: Sentence, *, start: int = 0) -> Iterator[Match]:

@@ -38,7 +38,7 @@ class ChainStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chain:
-    """Everything that one id hangs together with.
+    """Chain of the elements linked to one id, upwards and downwards.
 
     Attributes:
         id: The id.
@@ -133,7 +133,7 @@ def _downward(neighbours: Neighbours, evidence: TraceEvidence) -> _Next:
 def _steps(
     root: Named, following: _Next, kinds: Mapping[str, ThingKind], describe: Descriptions
 ) -> Iterator[ChainStep]:
-    """Walk depth first, without recursion, telling the steps of each element once."""
+    """Walk depth first, without recursion, with the steps of each element once."""
     order = {relation: index for index, relation in enumerate(Relation)}
     told: set[str] = {root.id}
 

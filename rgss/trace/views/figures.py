@@ -23,7 +23,7 @@ _LARGE = 10_000.0
 
 
 def verdict_in_words(verdict: Verdict | None, causes: Sequence[StaleCause] = ()) -> str:
-    """A verdict as prose says it, and what made it stale if something did."""
+    """A verdict in words, with the causes if it is stale."""
     told = "differs among variants" if verdict is None else _VERDICTS[verdict]
     return f"{told} ({', '.join(cause.value for cause in causes)})" if causes else told
 

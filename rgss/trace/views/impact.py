@@ -15,7 +15,7 @@ from rgss.trace.views.neighbours import Neighbour, Neighbours, Relation, ThingKi
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TouchedVerdict:
-    """A verdict that has to be reached anew.
+    """A verdict that must be determined again.
 
     Attributes:
         requirement: Id of the requirement.
@@ -31,7 +31,7 @@ class TouchedVerdict:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Impact:
-    """Everything that rests on one id; the id itself is in no list but that of the reviews.
+    """Everything that depends on one id; the id itself is in no list but that of the reviews.
 
     Attributes:
         id: The id.
@@ -40,7 +40,7 @@ class Impact:
         requirements: Ids of system requirements whose text or fulfilment it touches.
         elements: Ids of the blocks and behaviours that it touches.
         measures: Ids of the measures that it touches, or that decide what it touches.
-        verdicts: The verdicts to be reached anew.
+        verdicts: The verdicts to be determined again.
         trials: Keys of the shown variant's trials that those verdicts depend on.
         tests: Ids of the tests to be run again.
         reviews: Ids of the elements whose review has to be renewed.
@@ -61,9 +61,9 @@ class Impact:
 def impact_of(
     model: TraceModel, evidence: TraceEvidence, name: str, *, definitions: MeasureSet | None = None
 ) -> Impact:
-    """Follow a change of an id to everything that rests on it.
+    """Follow a change of an id to everything that depends on it.
 
-    A statement rests on those that it derives from, refines, is contained in or traces to; a
+    A statement depends on those that it derives from, refines, is contained in or traces to; a
     behaviour on the blocks that do it and on the behaviours that it includes or calls; whether a
     requirement is fulfilled, on the elements that satisfy it; a measure, on those that it is
     computed from and on the symbols that it uses; a verdict, on its requirement and its measure;

@@ -1,4 +1,4 @@
-"""Traceability matrices: which of these links to which of those."""
+"""Traceability matrices of two kinds of elements."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def _all_origins(model: TraceModel) -> Mapping[str, frozenset[str]]:
     """The stakeholder requirements behind each system requirement.
 
     Each requirement joins what its parents have reached, parents first, so that a chain of any
-    length takes one step for each of its links. What rests on itself has no first; there the
+    length takes one step for each of its links. A cycle has no first element; there the
     graph is walked from each requirement alone.
     """
     needs = {need.id for need in model.requirements.stakeholder}

@@ -1,4 +1,4 @@
-"""Coverage metrics: how much of what should be linked, decided and shown is."""
+"""Coverage metrics: shares of the elements that are linked, decided and verified."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a name that a user gives to what it names."""
+"""Resolution of a name given by a user."""
 
 from __future__ import annotations
 

@@ -31,8 +31,8 @@ class ThingKind(str, Enum):
 class Relation(str, Enum):
     """One end of a relation, read from the element to its neighbour.
 
-    The first group leads up, towards the need; the second leads down, towards the evidence. Chains
-    tell the neighbours of an element in this order.
+    The first group leads up, towards the need; the second leads down, towards the evidence. Chains list the neighbours
+    of an element in this order.
     """
 
     DERIVES_FROM = "derives from"
@@ -118,7 +118,7 @@ class _Book:
         self.down: dict[str, list[Neighbour]] = {}
 
     def note(self, link: TraceLink, there: Relation, back: Relation) -> None:
-        # A behaviour is allocated to a block: both look down at the other, for neither asks for the other.
+        # A behaviour is allocated to a block: both look down at the other, since neither requires the other.
         self.put(link.source, there, link.target, back, upward=link.kind is not LinkKind.ALLOCATE)
 
     def put(self, source: str, there: Relation, target: str, back: Relation, *, upward: bool) -> None:

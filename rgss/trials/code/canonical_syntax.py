@@ -1,4 +1,4 @@
-"""Canonical form of Python source: what a module does, without how it is written down.
+"""Canonical form of Python source, independent of layout and comments.
 
 Two texts have one form if they differ in layout, comments, docstrings, the annotations of functions and of
 variables in them, imports for type checkers, or the texts of arguments that are named in `PROSE`. Annotations in the
@@ -20,7 +20,7 @@ _NOT_COUNTED = frozenset({"ctx", "kind", "type_comment", "returns", "type_ignore
 
 
 def canonical_form(tree: ast.Module, *, leave_out: frozenset[ast.stmt] = frozenset()) -> str:
-    """Write a syntax tree as the one text of its canonical form.
+    """Canonical text of a syntax tree.
 
     Args:
         tree: The tree.
@@ -32,7 +32,7 @@ def canonical_form(tree: ast.Module, *, leave_out: frozenset[ast.stmt] = frozens
 
 
 def is_for_type_checkers(test: ast.expr) -> bool:
-    """Tell whether a condition holds for type checkers alone.
+    """True if a condition holds for type checkers alone.
 
     Args:
         test: The condition.

@@ -1,4 +1,4 @@
-"""Which modules of this package the making of a piece runs, found without running anything.
+"""Code that makes a piece, found by static analysis of imports.
 
 The digest of a piece covers the code that makes it, no less and no more: another colour of a
 picture or another way to store records must not make a plan stale. What counts is found by
@@ -66,7 +66,7 @@ class SourceTree:
     """The sources of a package as files, each read once."""
 
     def __init__(self, folder: Path) -> None:
-        """Read nothing yet.
+        """Start without any source read.
 
         Args:
             folder: The package's folder, whose name is the package's.
@@ -81,7 +81,7 @@ class SourceTree:
         self._digests: dict[str, str] = {}
 
     def closure_of(self, entries: Sequence[str]) -> SourceClosure:
-        """Follow imports, wherever in a module they stand.
+        """Follow imports, wherever in a module they are.
 
         Args:
             entries: Modules of the package, such as ``rgss.trials.planning.plan``, all of whose imports are followed;
@@ -200,7 +200,7 @@ class SourceTree:
         return module
 
     def _only_hands_on(self, module: str) -> bool:
-        """Tell whether a module is a package's ``__init__`` of nothing but a docstring, imports and ``__all__``.
+        """True if a module is a package's ``__init__`` of nothing but a docstring, imports and ``__all__``.
 
         The imports may be deferred (``rgss.lazy_exports``), which leaves a condition for type checkers.
         """

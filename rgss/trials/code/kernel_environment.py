@@ -51,17 +51,17 @@ def numeric_environment(inherited: Mapping[str, str]) -> dict[str, str]:
 
 
 def is_in_force() -> bool:
-    """Tell whether this process was started with the numeric environment."""
+    """True if this process was started with the numeric environment."""
     return problem_here() == ""
 
 
 def problem_here() -> str:
-    """What of the environment that this process was started with is not as it should be; empty if nothing."""
+    """Deviation of this process's start environment from the numeric environment; empty if there is none."""
     return problem_in(_started_with())
 
 
 def problem_in(environment: Mapping[str, str]) -> str:
-    """What of the environment that a process was started with is not as it should be, in a few words; empty if nothing.
+    """Deviation of a process's start environment from the numeric environment, in a few words; empty if there is none.
 
     Args:
         environment: The variables with which the process was started.
@@ -79,7 +79,7 @@ def problem_in(environment: Mapping[str, str]) -> str:
 
 @contextmanager
 def numeric_environment_of_children() -> Iterator[None]:
-    """Let the processes that are started in the block have the numeric environment; this process keeps its own."""
+    """Start processes in the block with the numeric environment; this process keeps its own."""
     with _STARTING:
         before = dict(os.environ)
         chosen = numeric_environment(before)

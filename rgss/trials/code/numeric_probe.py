@@ -1,4 +1,4 @@
-"""What the mathematics of a process computes: kernels by name, and digests of the results of fixed problems."""
+"""Numerics of a process: names of kernels, and digests of the results of fixed problems."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ print(json.dumps(dict(numerics())))
 
 @lru_cache(maxsize=1)
 def numerics() -> Numerics:
-    """What this process computes with."""
+    """Numerics of this process."""
     return {
         "platform": f"{platform.system()} {platform.machine()}".replace(" ", "-"),
         "libm": f"{_c_library()} {_digest(_libm_results())}",
@@ -55,7 +55,7 @@ def numerics() -> Numerics:
 
 @lru_cache(maxsize=1)
 def fixed_numerics() -> Numerics:
-    """What a process of this machine computes with that has the numeric environment, as those have that make trials.
+    """Numerics of a process of this machine with the numeric environment, as processes that make trials have.
 
     Raises:
         SimulationError: Such a process cannot be started.

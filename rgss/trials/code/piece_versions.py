@@ -32,14 +32,14 @@ ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "timing": ("rgss.trials.pieces.pieces:make_timing",),
         "execution": ("rgss.trials.pieces.pieces:make_execution",),
         "bench": ("rgss.trials.pieces.pieces:make_bench",),
-        # A trial that shares nothing is put together by the second, from what the others make.
+        # The second assembles a trial that shares nothing from the results of the others.
         "record": ("rgss.trials.pieces.pieces:record_of", "rgss.trials.pieces.run:"),
     }
 )
 """The function that a worker calls to make each piece, and those that put the record together."""
 
 _EVERYWHERE = ("rgss.trials.code.kernel_environment",)
-"""What decides a result without being called for it: the kernels that a worker is started with."""
+"""Code that affects results without being imported by them: the numeric environment of a worker."""
 
 NOT_INSTALLED = "not installed"
 """Version of an engine of which neither the installation nor the evidence has one."""
@@ -98,7 +98,7 @@ def versions_of(piece: str, among: Mapping[str, str]) -> dict[str, str]:
 
 
 def are_of_this_kind(found: Mapping[str, str]) -> bool:
-    """Tell whether versions name the source of each piece; those that rgss kept before named one for all.
+    """True if versions name the source of each piece; those that rgss kept before named one for all.
 
     Args:
         found: Versions as a trial's provenance has them.

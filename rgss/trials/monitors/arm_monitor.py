@@ -1,4 +1,4 @@
-"""Monitor of the arm in contact physics: its states step by step, evaluated at once when they are needed."""
+"""Monitor of the arm in contact physics: buffered states of all steps, evaluated together on demand."""
 
 from __future__ import annotations
 

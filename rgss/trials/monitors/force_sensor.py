@@ -55,6 +55,6 @@ class ForceSensor:
         self._rising = len(self._weights)
 
     def clear(self) -> None:
-        """Empty the window: nothing has been touched for long."""
+        """Clear the window, after a long time without contact."""
         self._kept.clear()
         self._rising = 0

@@ -14,10 +14,9 @@ from rgss.trials.plants import ControlSettings
 
 
 class GraspMonitor:
-    """Looks at the object in the hand often, and analyses the grasp now and then.
+    """Monitor of the object in the hand, with periodic analyses of the grasp.
 
-    One instant says little of a carry: beside the worst it keeps in how many of the samples the grasp
-    was force-closed.
+    Beside the worst values it counts the samples in which the grasp was force-closed.
 
     Attributes:
         slip_m: Greatest distance of the object from where it was grasped.
@@ -26,7 +25,7 @@ class GraspMonitor:
     def __init__(
         self, world: ContactWorld, control: ControlSettings, held_at: Pose, memory: GraspGeometryCache
     ) -> None:
-        """Take the first look.
+        """Take the first sample.
 
         Args:
             world: The world that is stepped.

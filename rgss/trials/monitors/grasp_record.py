@@ -1,4 +1,4 @@
-"""The grasp as the simulation has it at one instant, analysed for the record."""
+"""Analysis of the simulated grasp at one instant, for the record."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ _CONE_EDGES = 6
 _PENETRATION_M, _SLIP_M_S = 5.0e-5, 1.0e-3
 # A point this far inside is not on the wall.
 _WALL_M = 1.0e-3
-# What is known of a grasp that has come apart: it holds nothing, and nothing else can be said of it.
+# Metrics of a lost grasp: it holds nothing, and everything else is undefined.
 _APART: Mapping[str, Metric] = {
     **{f"grasp_{name}": 0 for name in ("contact_count", "equilibrium", "force_closure", "form_closure")},
     **{f"grasp_{name}": 0.0 for name in ("q_msv_1", "q_voe_1", "q_gii_1", "q_smw_n", "load_factor_1")},
@@ -172,7 +172,7 @@ def _tolerances(world: ContactWorld) -> ContactTolerances:
 
 
 def _kinematics(points: Sequence[ContactPoint], tolerances: ContactTolerances) -> dict[str, Metric]:
-    """How the contacts move: gap and its rate, slip, and how many of them do what."""
+    """Kinematics of the contacts: gap and its rate, slip, and counts by status."""
     motions = [recorded_motion(point) for point in points]
     statuses = [contact_status(motion, tolerances) for motion in motions]
     rates = [motion.gap_rate_m_s for motion in motions]

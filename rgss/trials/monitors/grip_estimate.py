@@ -1,4 +1,4 @@
-"""The grip as the robot knows it: forces as its sensors report them, the object as it believes it to be."""
+"""Estimate of the grip from sensed forces and the believed object."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the object and the fingers move in the hand, from where they were a moment ago."""
+"""Motion of the object and the fingers in the hand, by differences of poses."""
 
 from __future__ import annotations
 
@@ -49,10 +49,10 @@ class HandMotion:
 
 
 class InHandMotionTracker:
-    """Looks into the hand now and then, and remembers what it saw last."""
+    """Tracker of the motion in the hand, with the last sample."""
 
     def __init__(self, world: ContactWorld) -> None:
-        """Take the first look.
+        """Take the first sample.
 
         Args:
             world: The world that is stepped.
@@ -65,8 +65,8 @@ class InHandMotionTracker:
 
     @property
     def motion(self) -> HandMotion:
-        """What happened between the last two looks; nothing, before the second."""
-        # What follows from two looks is worked out only if it is asked for.
+        """Motion between the last two samples; zero before the second."""
+        # Derived values are computed only on demand.
         if self._motion is None:
             (then, before), now = self._earlier, self._view
             span_s = (self._at - then) * self._world.settings.step_s
@@ -81,7 +81,7 @@ class InHandMotionTracker:
         return self._motion
 
     def look(self, steps: int) -> HandView:
-        """Look again.
+        """Take a sample.
 
         Args:
             steps: Steps since the first look.

@@ -1,4 +1,4 @@
-"""What may look on while the task runs."""
+"""Observer of the physics steps of a task."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class StepObserver(Protocol):
         Args:
             world: The world after the step.
             phase: The phase to which the step belongs.
-            contacts: What touched what.
+            contacts: The contacts of the step.
             grip_margin: Friction available over friction needed; None while it is not known.
             commanded_force_n: Commanded force of each finger; None while it opens.
         """

@@ -20,7 +20,7 @@ _FEWEST_FINGERS = 2
 
 
 class PhaseMonitor:
-    """Accumulates the observations of one phase and names what goes wrong.
+    """Accumulator of the observations of one phase, with its first failure.
 
     Attributes:
         failure: The first thing that went wrong; None so far.
@@ -42,7 +42,7 @@ class PhaseMonitor:
         placed: PlacedObjectMonitor | None = None,
         sensor: ForceSensor | None = None,
     ) -> None:
-        """Begin to watch.
+        """Start the monitor.
 
         Args:
             world: The world that is stepped.
@@ -96,7 +96,7 @@ class PhaseMonitor:
         """
         world = self._world
         contacts = world.contacts(self._standing)
-        # What was seen in the step before, and was right then, is right now.
+        # A check that passed in the step before need not be repeated.
         if contacts is not self._standing:
             self._watch_touching(contacts)
             is_standing = self._is_empty_handed and target_rad is not None and not contacts.is_robot_touching
@@ -124,12 +124,12 @@ class PhaseMonitor:
             self._watch_slip(self._grasp.finish())
 
     def fail(self, failure: Failure, detail: str) -> None:
-        """Note what went wrong, unless something did before."""
+        """Record a failure, unless there was one before."""
         if self.failure is None:
             self.failure, self.detail = failure, detail
 
     def note(self, violation: Violation | None) -> None:
-        """Note what a monitor found to be wrong, if anything."""
+        """Record a failure found by a monitor, if any."""
         if violation is not None:
             self.fail(*violation)
 
@@ -156,7 +156,7 @@ class PhaseMonitor:
             self.robot_touched_object = True
         sensor = self._sensor
         sensor.note(forces_n)
-        # Mostly there is nothing to tell.
+        # Mostly there is nothing to report.
         is_whole = sensor.peak_n <= self._limit_n
         if is_whole and not robot_bodies and other_n <= 0.0 and workpiece_bodies in self._as_it_may:
             return
@@ -185,7 +185,7 @@ class PhaseMonitor:
             self.grip_margin = margin
             if margin < self._margin:
                 self._margin = margin
-        # Mostly all of them press, which is told at once.
+        # Mostly all of them press, which is decided first.
         if min(forces_n) > 0.0:
             self._lost_s = 0.0
             return

@@ -1,4 +1,4 @@
-"""Monitors of an object that is set down: how it lands, and that the robot leaves it where it stands."""
+"""Monitors of an object that is set down: its landing, and its displacement by the robot afterwards."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class LandingMonitor:
 
 
 class PlacedObjectMonitor:
-    """Monitor of a placed object while the hand leaves it: the robot must not move it any more.
+    """Monitor of a placed object while the hand leaves it; the robot must not move it any more.
 
     A displacement counts from the first touch on, to the end: what was pushed may roll on or fall over.
     """

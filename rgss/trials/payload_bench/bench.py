@@ -54,7 +54,7 @@ class PayloadResult:
 
     @property
     def trials(self) -> int:
-        """How many masses were tried."""
+        """Number of masses that were tried."""
         return len(self.probes)
 
 
@@ -63,8 +63,7 @@ def run_bench(spec: BenchSpec, *, probe_mass: Callable[[BenchSpec, float], Probe
 
     The smallest mass for the solver as it is and the rated mass are tried first, then, if the smallest
     slips, a still smaller one with more iterations; the bracket between two of them is then halved in
-    proportion. What theory says plays no part. It is taken for granted that what holds a mass
-    holds a smaller one too.
+    proportion. Theory is not used. The search assumes that a gripper that holds a mass also holds any smaller one.
 
     Args:
         spec: The bench.
@@ -83,7 +82,7 @@ def run_bench(spec: BenchSpec, *, probe_mass: Callable[[BenchSpec, float], Probe
         )
     low, high = probe_mass(spec, spec.first_kg), probe_mass(spec, spec.rated_kg)
     probes = [low, high]
-    # A lighter object is pressed and struck as hard, and slips later.
+    # On a lighter object the forces and impacts are the same, and it slips later.
     if low.stopped_by is PayloadLimit.SLIP and spec.smallest_kg < low.mass_kg:
         low, high = probe_mass(spec, spec.smallest_kg), low
         probes.append(low)

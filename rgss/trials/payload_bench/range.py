@@ -35,7 +35,7 @@ class ValidatedQuantity:
     of: Callable[[BenchSpec], float]
 
     def contains(self, value: float) -> bool:
-        """Whether a value is in the range, its ends included."""
+        """True if a value is in the range, its ends included."""
         return self.lowest * (1 - 1e-9) <= value <= self.highest * (1 + 1e-9)
 
     def words(self) -> str:
@@ -92,7 +92,7 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
 
 
 def outside(spec: BenchSpec) -> tuple[str, ...]:
-    """What of a bench is outside of the validated range, one sentence for each quantity.
+    """Quantities of a bench outside of the validated range, one sentence each.
 
     Args:
         spec: The bench.

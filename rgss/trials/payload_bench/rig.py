@@ -32,7 +32,7 @@ _BLACK = (0.0, 0.0, 0.0, 1.0)
 
 
 class PayloadLimit(str, Enum):
-    """What keeps a gripper from carrying more."""
+    """Limit of the payload of a gripper."""
 
     SLIP = "slip"
     DAMAGE = "damage"
@@ -62,7 +62,7 @@ class Probe:
 
     @property
     def held(self) -> bool:
-        """Whether the object was carried to the end, undamaged."""
+        """True if the object was carried to the end, undamaged."""
         return self.stopped_by is None
 
 
@@ -136,11 +136,11 @@ class PayloadRig:
         self._world.close()
 
     def contacts(self) -> Contacts:
-        """What touches what after the last step."""
+        """Contacts after the last step."""
         return self._world.contacts()
 
     def hand_pose(self) -> Pose:
-        """Transform of the grasp-centre frame to the world as the hand really stands."""
+        """Transform of the grasp-centre frame to the world at the hand's true pose."""
         return self._world.tool_pose()
 
     def grasp(self) -> None:

@@ -1,4 +1,4 @@
-"""What a payload bench is run with."""
+"""Specification of a payload bench."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LEAST_RISE = 5.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BenchSettings:
-    """How the bench grasps, lifts, and judges.
+    """Settings of grasping, lifting and slip detection on the bench.
 
     Attributes:
         firm_share: Share of its force above which a finger counts as pressing firmly.
@@ -134,7 +134,7 @@ class BenchSpec:
         return min(self.first_kg, max(self.settings.smallest_kg, self._lightest_body_kg(MOST_ITERATIONS)))
 
     def check(self) -> None:
-        """Refuse what cannot be tried.
+        """Validate the specification.
 
         Raises:
             DefinitionError: A number is out of range, or the open hand cannot be put over the object.

@@ -1,4 +1,4 @@
-"""The result of a payload bench as text, and back, bit for bit."""
+"""Serialisation of the result of a payload bench, exact to the bit."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def bench_to_json(result: PayloadResult) -> str:
 
 
 def bench_from_json(text: str) -> PayloadResult:
-    """Read the result of a bench that `bench_to_text` wrote.
+    """Read the result of a bench that `bench_to_json` wrote.
 
     Args:
         text: The text.

@@ -1,4 +1,4 @@
-"""An execution as text, and back, bit for bit."""
+"""Serialisation of an execution, exact to the bit."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def execution_to_json(execution: tuple[PhaseResult, ...]) -> str:
 
 
 def execution_from_json(text: str) -> tuple[PhaseResult, ...]:
-    """Read an execution that `execution_to_text` wrote.
+    """Read an execution that `execution_to_json` wrote.
 
     Args:
         text: The text.

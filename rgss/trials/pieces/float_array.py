@@ -1,4 +1,4 @@
-"""Arrays of floats within JSON, every bit of them kept."""
+"""Arrays of floats in JSON, exact to the bit."""
 
 from __future__ import annotations
 

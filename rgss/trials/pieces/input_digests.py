@@ -24,7 +24,7 @@ from rgss.trials.trial_spec import TrialSpec
 
 __all__ = ["TrialDigests", "TrialSpec", "bench_digest", "bench_of", "digests_of", "physics_inputs", "to_plain"]
 
-# Trials of a study share most of what they are made of, and a digest of it need be made but once.
+# Trials of a study share most of their inputs, whose digest is computed once.
 _KEPT = 512
 _RATES = ("speed_rad_s", "acceleration_rad_s2")
 _JOINED_KEPT = 8192
@@ -104,7 +104,7 @@ def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
 
 
 def physics_inputs(scene: Scene) -> dict[str, Any]:
-    """What only the physics needs of a scene; colours are nobody's input."""
+    """Inputs of a scene that only the physics needs; colours are left out."""
     workpiece = scene.workpiece
     return {
         "id": scene.id,
@@ -162,7 +162,7 @@ def _matter_digest(scene: Scene) -> str:
 
 
 def _truth_digest(conditions: Conditions) -> str:
-    """Digest of what the machine meets, and the robot neither plans with nor believes, and of what it believes."""
+    """Digest of the true values that planning does not use, and of the robot's beliefs."""
     true, believed = conditions.true_scene.workpiece, conditions.scene.workpiece
     return digest(
         {

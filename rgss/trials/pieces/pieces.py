@@ -62,12 +62,12 @@ class TrialTask:
 
     @property
     def needs(self) -> tuple[str, ...]:
-        """It needs no piece of any other trial."""
+        """Empty: a whole trial needs no piece of another one."""
         return ()
 
 
 Task = PieceTask | TrialTask
-"""What a worker can be given to make."""
+"""Task of a worker."""
 
 
 def make(task: Task, needed: Mapping[str, Piece]) -> Piece | TrialRecord:

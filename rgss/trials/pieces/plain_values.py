@@ -1,4 +1,4 @@
-"""Values of the domain as plain data, for digests and for comparing."""
+"""Domain values as plain data, for digests and comparisons."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A plan as text, and back, bit for bit."""
+"""Serialisation of a plan, exact to the bit."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def plan_to_json(plan: TaskPlan) -> str:
 
 
 def plan_from_json(text: str) -> TaskPlan:
-    """Read a plan that `plan_to_text` wrote.
+    """Read a plan that `plan_to_json` wrote.
 
     Args:
         text: The text.

@@ -38,7 +38,7 @@ def run_trial(spec: TrialSpec, *, observer: StepObserver | None = None) -> Trial
 
 
 def require_search(spec: TrialSpec) -> None:
-    """Make sure that a trial's planning limit can be read off its search.
+    """Check that a trial's planning limit can be read off its search.
 
     Args:
         spec: The trial.
@@ -68,7 +68,7 @@ class Pieces:
         checkpoint: Callable[[], None] | None = None,
         bench: Callable[[BenchSpec], PayloadResult] = run_bench,
     ) -> None:
-        """Begin with no pieces.
+        """Start without pieces.
 
         Args:
             observer: Looks on after every physics step of the executions that are made.
@@ -86,7 +86,7 @@ class Pieces:
 
     @property
     def made(self) -> dict[str, int]:
-        """How many pieces of each kind were made."""
+        """Number of pieces of each kind that were made."""
         return {
             "plan": len(self._plans),
             "timing": len(self._timings),
@@ -131,7 +131,7 @@ class Pieces:
         return self._executions[digests.execution]
 
     def _payload_kg(self, spec: TrialSpec, digests: TrialDigests) -> float | None:
-        """What the gripper holds on the payload bench; None where the trial's fidelity cannot know it."""
+        """Payload of the gripper on the bench; None where the trial's fidelity has none."""
         bench = bench_of(spec)
         if bench is None:
             return None

@@ -1,4 +1,4 @@
-"""A timing as text, and back, bit for bit."""
+"""Serialisation of a timing, exact to the bit."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def timing_to_json(timing: TaskTiming) -> str:
 
 
 def timing_from_json(text: str) -> TaskTiming:
-    """Read a timing that `timing_to_text` wrote.
+    """Read a timing that `timing_to_json` wrote.
 
     Args:
         text: The text.

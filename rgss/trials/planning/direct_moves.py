@@ -117,7 +117,7 @@ def _states(corners: Array, resolution_rad: float) -> Array:
 
 
 def _obstacle(model: CollisionModel, q: Array) -> str:
-    """What makes a configuration invalid: two bodies, the tilt of what is carried, or a joint's range."""
+    """Reason for which a configuration is invalid: two bodies, the tilt of the carried object, or a joint's range."""
     nearest = model.nearest_pair(q)
     if nearest is not None and nearest.room_m < 0.0:
         if nearest.distance_m <= 0.0:

@@ -1,4 +1,4 @@
-"""Why no configuration of the arm serves a waypoint: reach, joint range, collision, clearance or tilt."""
+"""Reasons for waypoints without a valid configuration: reach, joint range, collision, clearance or tilt."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 class Obstacle(str, Enum):
-    """What prevents every configuration."""
+    """Kind of obstacle to every configuration."""
 
     OUT_OF_REACH = "out_of_reach"
     ORIENTATION = "orientation"

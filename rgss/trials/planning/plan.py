@@ -127,7 +127,7 @@ def _configurations(
         meeting = [models[phase] for phase, ends in _ENDS.items() if waypoint in ends]
         candidates[waypoint] = [q for q in inverse.solve(pose) if all(model.is_valid(q) for model in meeting)]
     reasons = unserved_waypoints(cell, (waypoint for waypoint, found in candidates.items() if not found))
-    # The task is done as far as its waypoints can be reached.
+    # The task is planned up to the first unreachable waypoint.
     order = list(itertools.takewhile(lambda waypoint: candidates[waypoint], poses))
     legs = [(order.index(start), order.index(goal)) for start, goal in _ENDS.values() if {start, goal} <= {*order}]
     if not legs:

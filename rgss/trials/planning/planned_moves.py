@@ -1,4 +1,4 @@
-"""Planned moves of a task, and what of them a planning limit leaves."""
+"""Planned moves of a task, and their outcome under a shorter planning limit."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class PlannedMove:
         outcome: How it ended.
         checks: Validity checks of the search, of the verification of its path and of repairs.
         simplification_checks: Validity checks of shortening the path.
-        search_time_s: Time of the search by the planning clock; what a limit is held against.
+        search_time_s: Time of the search by the planning clock; compared with a limit.
         time_s: Planning time t_sp by the planning clock: search and simplification.
         path_rad: The path's configurations (n, 6); None if there is none.
         path_length_m: Length of the tool's path; None if there is none.
-        detail: What stands in the way, if the problem itself is ill posed or the path is not valid.
+        detail: The obstacle, if the problem itself is ill posed or the path is not valid.
         verification_checks: Those of `checks` that verified the path.
         repairs: Motions of the path that were planned anew, because they were not valid.
     """

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ControlSettings:
-    """What the task program waits for and what it does not tolerate.
+    """Waiting times and thresholds of the task program.
 
     Attributes:
         firm_grasp_s: Time for which every finger must hold above its threshold. Closing gives
-            a spike whose height depends on the step length, so one step is no evidence.
+            a spike whose height depends on the step length, so one step is not enough.
         grasp_timeout_s: Time beyond the fingers' travel after which a grasp has failed.
-        force_window_s: Time over which the fingers' forces are averaged before they are held
-            against the load, as a force sensor's filter does.
+        force_window_s: Time over which the fingers' forces are averaged before they are compared with the load, as a
+            force sensor's filter does.
         holding_share: Share of the design's finger force with which an object is first held.
         tighten_below: Grip margin (friction available over friction needed) below which the
             fingers are commanded to close further.

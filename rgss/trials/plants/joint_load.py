@@ -1,4 +1,4 @@
-"""How hard the joints worked: what torques they needed, and which of them reached their limit."""
+"""Joint torques of a phase and the joints that reached their limit."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class JointLoad:
         self.saturated.extend(sorted(new, key=lambda joint: int(first[joint])))
 
     def words(self) -> str:
-        """Which joints reached their limit, to follow what went wrong; empty if none did."""
+        """Names of the joints that reached their limit, for the detail of a failure; empty if there are none."""
         if not self.saturated:
             return ""
         return f"; at its torque limit: {', then '.join(self._names[index] for index in self.saturated)}"

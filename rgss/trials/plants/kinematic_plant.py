@@ -1,4 +1,4 @@
-"""The lowest fidelity: joints that follow with a given response, a hand that opens and closes.
+"""Plant of the lowest fidelity: joints that follow with a given response, a hand that opens and closes.
 
 It knows how long a task takes and where the tool goes. It knows nothing of forces, of the object
 or of contact, and records none of these.
@@ -24,7 +24,7 @@ from rgss.trials.reference import Array, Reference, ToolPositions
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointResponse:
-    """How a controlled joint follows its target: as a damped oscillator.
+    """Response of a controlled joint to its target: a damped oscillator.
 
     The deviation e from the target obeys ë + 2 ζ ω ė + ω² e = -q̈_target, the closed loop of a
     joint under position control without feed-forward of the acceleration.

@@ -1,4 +1,4 @@
-"""What the task program needs of the machine that it runs on, whatever its fidelity."""
+"""Interface of the machine that runs the task program, at any fidelity."""
 
 from __future__ import annotations
 

@@ -243,6 +243,6 @@ def test_of_very_many_problems_the_first_are_shown(project, tmp_path, refused):
     (tmp_path / "t.csv").write_text("".join([lines[0], *many]), encoding="utf-8", newline="")
     found = refused(lambda: project.compare(read_csv(tmp_path / "t.csv")))
     assert len(found) == 1001
-    assert "more than 1000 problems; the first 1000 are shown (mend these first) [exchange.many]" in found[0]
+    assert "more than 1000 problems; the first 1000 are shown (correct these first) [exchange.many]" in found[0]
     (tmp_path / "t.csv").write_text("a," * 200_000, encoding="utf-8")
     assert "more than 100 columns" in refused(read_csv, tmp_path / "t.csv")[0]

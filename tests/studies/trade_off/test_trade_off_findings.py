@@ -75,7 +75,7 @@ FINDINGS = [
     # anchors
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-999}, best: 5 s}"),
-        "3:40: error: there is no system requirement 'SYS-999'",
+        "3:40: error: there is not a system requirement 'SYS-999'",
     ),
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-001}, best: 5 s}"),
@@ -264,7 +264,7 @@ def test_the_project_s_own_requirements_are_looked_up(folder, edit, problems, pl
     assert load_project(folder).study.values[0].worst == 0.8
     edit(file, "{requirement: SYS-012}", "{requirement: SYS-112}")
     (problem,) = problems()
-    assert problem.startswith(f"{place_of(file, '{requirement')}: error: there is no system requirement 'SYS-112'")
+    assert problem.startswith(f"{place_of(file, '{requirement')}: error: there is not a system requirement 'SYS-112'")
     assert "(did you mean 'SYS-012'?)" in problem
 
 

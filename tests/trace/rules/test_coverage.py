@@ -154,7 +154,7 @@ def test_a_behaviour_that_no_block_does(project):
     project.edit("system.yaml", "[BLK-1]", "[BLK-1, UC-1]")
     assert project.findings() == [
         (
-            "requirements/architecture.yaml:4:10: warning: behaviour 'UC-1' is done by no block (name one under "
+            "requirements/architecture.yaml:4:10: warning: behaviour 'UC-1' is allocated to no block (name one under "
             "'allocated_to') [trace.unallocated-behaviour]"
         )
     ]

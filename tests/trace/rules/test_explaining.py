@@ -52,7 +52,9 @@ def test_rules_are_found_by_id():
     assert rule_as_json(rule_of("trace.cycle"))["configurable"] is False
     with pytest.raises(DefinitionError, match=r"there is no rule 'wording.R77' \(did you mean 'wording.R7'\?\)"):
         rule_of("wording.R77")
-    with pytest.raises(DefinitionError, match=r"'document\.syntax' is about reading files; what it finds says all"):
+    with pytest.raises(
+        DefinitionError, match=r"'document\.syntax' is about reading files; its findings have the full explanation"
+    ):
         rule_of("document.syntax")
     with pytest.raises(DefinitionError, match=r"there is no rule '§' \('rgss check --explain' lists all rules\)"):
         rule_of("§")

@@ -64,7 +64,7 @@ def test_measures_that_contribute_to_each_other(project):
     project.add("t_c", MeasureKind.SUPPLEMENTARY, contributes_to=("t_b",))
     assert project.findings() == [
         (
-            "requirements/measures.yaml:4:5: error: 't_b' rests on itself: t_b → t_c → t_b "
+            "requirements/measures.yaml:4:5: error: 't_b' depends on itself: t_b → t_c → t_b "
             "(cut one of the links) [trace.cycle]"
         )
     ]
@@ -73,7 +73,7 @@ def test_measures_that_contribute_to_each_other(project):
 def test_a_measure_that_contributes_to_itself(project):
     project.change("P_g", contributes_to=("P", "P_g"))
     (finding,) = project.findings()
-    assert "measures.yaml:3:5: error: 'P_g' rests on itself: P_g → P_g (cut" in finding
+    assert "measures.yaml:3:5: error: 'P_g' depends on itself: P_g → P_g (cut" in finding
 
 
 def test_a_cycle_of_requirements_built_in_code(project):
@@ -82,7 +82,7 @@ def test_a_cycle_of_requirements_built_in_code(project):
     cyclic = replace(requirements, system=(replace(requirements.system[0], derived_from=("STK-1", "SYS-1")),))
     (finding,) = check_trace(cyclic, project.measures)
     assert str(finding) == (
-        "requirements/system.yaml:2:9: error: 'SYS-1' rests on itself: SYS-1 → SYS-1 (cut one of the links) "
+        "requirements/system.yaml:2:9: error: 'SYS-1' depends on itself: SYS-1 → SYS-1 (cut one of the links) "
         "[trace.cycle]"
     )
 

@@ -92,7 +92,7 @@ def test_a_row_that_is_not_there(model):
     roots=st.lists(st.tuples(st.integers(0, 11), st.integers(0, 3)), max_size=12),
 )
 def test_origins_are_those_of_a_walk_from_each_requirement(size, links, roots):
-    """Also where requirements rest on themselves, which files may not, but a model may."""
+    """Also where requirements depend on themselves, which files may not, but a model may."""
     names, needs = [f"S{n}" for n in range(size)], [f"N{n}" for n in range(4)]
     parents = {name: [] for name in names}
     for low, high in links:

@@ -86,7 +86,7 @@ RULES: tuple[SentenceRule, ...] = (
         severity=Severity.WARNING,
         explanation=(
             "The response joins no clauses: what joins them usually makes one requirement of two. 'and' and 'or' "
-            "between things are let pass, and count only before a verb; added as terms they always count."
+            "between things are allowed, and count only before a verb; added as terms they always count."
         ),
         find=_combinator,
         terms=_COMBINATORS,

@@ -1,4 +1,4 @@
-"""The rule that nothing is asked for twice."""
+"""Rule against duplicate requirements."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ RULES: tuple[ModelRule, ...] = (
         severity=Severity.ERROR,
         explanation=(
             "No two requirements have the same words: of two that say the same, one is changed one day and the "
-            "other is not. Capitals, punctuation and line breaks do not tell them apart."
+            "other is not. Capitals, punctuation and line breaks make no difference."
         ),
         check=_repeated,
     ),

@@ -62,7 +62,7 @@ RULES: tuple[SentenceRule, ...] = (
         id="wording.R35",
         severity=Severity.WARNING,
         explanation=(
-            "A requirement sets its times by numbers. Words of sequence, such as 'after', are let pass where the "
+            "A requirement sets its times by numbers. Words of sequence, such as 'after', are allowed where the "
             "response states a time."
         ),
         find=_indefinite_time,

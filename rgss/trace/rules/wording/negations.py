@@ -1,4 +1,4 @@
-"""Negations behind 'shall' (R16).
+"""Negations after 'shall' (R16).
 
 The number is that of the INCOSE *Guide to Writing Requirements*, version 3.1.
 """
@@ -38,7 +38,7 @@ RULES: tuple[SentenceRule, ...] = (
         severity=Severity.WARNING,
         explanation=(
             "A requirement says what is done, and not what is not done: that something never happens takes for "
-            "ever to show. Bounds such as 'not exceed', and conditions, are let pass."
+            "ever to show. Bounds such as 'not exceed', and conditions, are allowed."
         ),
         find=_negation,
         terms=_NEGATIONS,

@@ -42,7 +42,7 @@ RULES: tuple[SentenceRule, ...] = (
         severity=Severity.WARNING,
         explanation=(
             "A requirement has no '/' between words, which may mean 'and', 'or', or both. Units, numbers and "
-            "abbreviations are let pass."
+            "abbreviations are allowed."
         ),
         find=_oblique,
         breaking=(

@@ -1,4 +1,4 @@
-"""Passive voice behind 'shall' (R2).
+"""Passive voice after 'shall' (R2).
 
 The number is that of the INCOSE *Guide to Writing Requirements*, version 3.1.
 """
@@ -47,7 +47,7 @@ RULES: tuple[SentenceRule, ...] = (
     SentenceRule(
         id="wording.R2",
         severity=Severity.ERROR,
-        explanation="The verb behind 'shall' is in the active voice, so that the requirement names who is responsible.",
+        explanation="The verb after 'shall' is in the active voice, so that the requirement names who is responsible.",
         find=_passive,
         meaning="participles that are taken for adjectives",
         breaking=(

@@ -18,8 +18,8 @@ def _phrase_rule(*, flaw: str, hint: str, in_response: bool = False, **entry: An
 
     Args:
         flaw: What is wrong, behind "says" and the terms that were found.
-        hint: How to mend it.
-        in_response: Look behind 'shall' only.
+        hint: How to resolve it.
+        in_response: Look after 'shall' only.
         entry: The other attributes of the rule.
     """
 

@@ -58,12 +58,12 @@ RULES: tuple[SentenceRule, ...] = (
         id="wording.R33",
         severity=Severity.WARNING,
         explanation=(
-            "A quantity has a bound or a tolerance: no product has an exact value, so nobody could say whether "
+            "A quantity has a bound or a tolerance: no product has an exact value, so it could not be decided whether "
             "the requirement is met."
         ),
         find=_without_tolerance,
         terms=_BOUNDS,
-        meaning="words of bounds; where one stands behind 'shall', the quantities there are bounded",
+        meaning="words of bounds; where one stands after 'shall', the quantities there are bounded",
         breaking=(
             "The gripper shall have a length of 120 mm.",
             "The arm shall move at 1 m/s.",

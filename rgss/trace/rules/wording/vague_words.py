@@ -59,7 +59,7 @@ RULES: tuple[SentenceRule, ...] = (
     SentenceRule(
         id="wording.R7",
         severity=Severity.ERROR,
-        explanation="A requirement has no vague word, which each reader would measure by another scale.",
+        explanation="A requirement has no vague word, which each reader would understand differently.",
         find=_vague,
         terms=(*_BEFORE_NUMBERS, *_VAGUE),
         meaning="vague words",
