@@ -89,9 +89,10 @@ def plan(
     if not found.is_valid:
         return replace(spent(found.checks, time_s), outcome=PlanOutcome.NOT_VERIFIED)
     corners, simplification, simplification_s = found.corners, 0, 0.0
+    unlimited_from: int | None = 0
     if simplification_checks:
         shortening_s = clock.start()
-        corners, simplification = shorten(
+        shortened = shorten(
             found.corners,
             validity,
             generator=np.random.default_rng(_derived_seed(seed, _SIMPLIFICATION_STREAM)),
@@ -100,6 +101,8 @@ def plan(
             limit_checks=_limit_checks(clock, simplification_limit_s),
             is_over=None if counted else lambda: shortening_s(0) > simplification_limit_s,
         )
+        corners, simplification = shortened.corners, shortened.checks
+        unlimited_from = shortened.unlimited_from
         # By a wall clock the simplification is over at its limit: nothing that came later is used.
         simplification_s = min(shortening_s(simplification), simplification_limit_s)
     return PlanResult(
@@ -111,6 +114,7 @@ def plan(
         simplification_time_s=simplification_s,
         verification_checks=found.verification_checks,
         repairs=found.repairs,
+        simplification_unlimited_from=unlimited_from,
     )
 
 
