@@ -19,11 +19,13 @@ class FoundTrials:
 
     Attributes:
         records: The records that are known, by variant and seed.
+        keys: The keys of all trials in the store, by variant and seed.
         stored: Number of them that the store has as they are.
         missing: The trials that would have to be run.
     """
 
     records: dict[tuple[int, int], TrialRecord] = field(hash=False)
+    keys: dict[tuple[int, int], str] = field(hash=False)
     stored: int
     missing: tuple[TrialSpec, ...]
 
@@ -70,7 +72,8 @@ class StoredSearches:
                 missing.append(trial.spec)
             else:
                 records[trial.spec.variant, trial.spec.seed] = record
-        return FoundTrials(records=records, stored=len(stored), missing=tuple(missing))
+        keys = {(trial.spec.variant, trial.spec.seed): trial.key for trial in trials}
+        return FoundTrials(records=records, keys=keys, stored=len(stored), missing=tuple(missing))
 
     def _read_off(self, spec: TrialSpec) -> TrialRecord | None:
         """The record of a trial whose pieces are there under the study's own clock and limits; None if they are not."""

@@ -12,9 +12,7 @@ from rgss.trials.settings import PlanningSettings
 _WITHOUT_SEARCH = (PlanOutcome.INVALID_START, PlanOutcome.INVALID_GOAL)
 
 
-def plan_under(
-    plan: TaskPlan, before: PlanningSettings, after: PlanningSettings, *, limit_s: float
-) -> TaskPlan | None:
+def plan_under(plan: TaskPlan, before: PlanningSettings, after: PlanningSettings, *, limit_s: float) -> TaskPlan | None:
     """The plan of a trial under other settings, as far as its planning limit lets it go.
 
     A search is a prefix of the same search with a larger budget, and depends on neither the charge of a check nor the
