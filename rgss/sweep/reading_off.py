@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from rgss.evidence import EvidenceStore, Piece, PieceKind, TrialRecord
@@ -12,27 +12,26 @@ from rgss.trials.code import versions
 from rgss.trials.pieces import TrialSpec, digests_of, plan_from_json, record_under
 from rgss.trials.planning import TaskPlan, plan_under, with_limits_of
 
+_Pieces = tuple[TaskPlan, Mapping[PieceKind, Piece]]
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FoundTrials:
     """Trials that are known without a simulation, and those that are not.
 
     Attributes:
-        records: The records that are known, by variant and seed.
+        records: The records by key; empty where any trial is missing.
         keys: The keys of all trials in the store, by variant and seed.
-        stored: Number of them that the store has as they are.
+        stored: Number of trials that the store has as they are.
+        read_off: Number of trials that can be read off searches with other limits.
         missing: The trials that would have to be run.
     """
 
-    records: dict[tuple[int, int], TrialRecord] = field(hash=False)
-    keys: dict[tuple[int, int], str] = field(hash=False)
+    records: Mapping[str, TrialRecord] = field(hash=False)
+    keys: Mapping[tuple[int, int], str] = field(hash=False)
     stored: int
+    read_off: int
     missing: tuple[TrialSpec, ...]
-
-    @property
-    def read_off(self) -> int:
-        """Number of those that were read off searches with other limits."""
-        return len(self.records) - self.stored
 
 
 class StoredSearches:
@@ -52,7 +51,7 @@ class StoredSearches:
         self._plans: dict[str, TaskPlan] = {}
 
     def find(self, specs: Sequence[TrialSpec]) -> FoundTrials:
-        """The records of trials as far as they are stored or can be read off.
+        """The records of trials, if all are stored or can be read off; else what is missing.
 
         A record that is read off equals the one that running the trial gives.
 
@@ -64,19 +63,30 @@ class StoredSearches:
             DefinitionError: A planning limit is longer than the search.
         """
         trials = trials_of(specs)
-        stored = self._store.records([trial.key for trial in trials])
-        records, missing = {}, []
+        there = self._store.has(trial.key for trial in trials)
+        read: dict[str, _Pieces] = {}
         for trial in trials:
-            record = stored.get(trial.key) or self._read_off(trial.spec)
-            if record is None:
-                missing.append(trial.spec)
-            else:
-                records[trial.spec.variant, trial.spec.seed] = record
-        keys = {(trial.spec.variant, trial.spec.seed): trial.key for trial in trials}
-        return FoundTrials(records=records, keys=keys, stored=len(stored), missing=tuple(missing))
+            pieces = None if trial.key in there else self._pieces_of(trial.spec)
+            if pieces is not None:
+                read[trial.key] = pieces
+        missing = tuple(trial.spec for trial in trials if trial.key not in there and trial.key not in read)
+        # Records are of no use where some are missing, and take the most time.
+        records = {} if missing else dict(self._store.records(there))
+        if not missing:
+            for trial in trials:
+                if trial.key in read:
+                    plan, pieces_of_trial = read[trial.key]
+                    records[trial.key] = record_under(trial.spec, plan, pieces_of_trial)
+        return FoundTrials(
+            records=records,
+            keys={(trial.spec.variant, trial.spec.seed): trial.key for trial in trials},
+            stored=len(there),
+            read_off=len(read),
+            missing=missing,
+        )
 
-    def _read_off(self, spec: TrialSpec) -> TrialRecord | None:
-        """The record of a trial whose pieces are there under the study's own clock and limits; None if they are not."""
+    def _pieces_of(self, spec: TrialSpec) -> _Pieces | None:
+        """The plan of a trial and its other pieces, made under the study's own clock and limits; None if they lack."""
         wanted = spec.settings.planning
         own = replace(spec, settings=replace(spec.settings, planning=with_limits_of(wanted, self._settings)))
         digests = digests_of(own, self._versions)
@@ -89,7 +99,7 @@ class StoredSearches:
         if plan is None or timing is None or execution is None or (digests.bench and bench is None):
             return None
         pieces = {PieceKind.TIMING: timing, PieceKind.EXECUTION: execution}
-        return record_under(spec, plan, pieces if bench is None else {**pieces, PieceKind.BENCH: bench})
+        return plan, (pieces if bench is None else {**pieces, PieceKind.BENCH: bench})
 
     def _plan(self, digest: str) -> TaskPlan | None:
         if digest not in self._plans:

@@ -1,4 +1,4 @@
-"""Estimates under suppositions on how trials are made: trials that are stored or read off, and those that are missing."""
+"""Estimates under suppositions on how trials are made: of trials that are stored or read off."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rgss.decision.what_if.remeasured import measured_in
 from rgss.decision.what_if.scenario import Scenario
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
-from rgss.evidence import EvidenceStore, TrialRecord
+from rgss.evidence import EvidenceStore
 from rgss.measures import evaluate
 from rgss.studies import Project, trial_settings, trial_specs
 from rgss.sweep import FoundTrials, StoredSearches
@@ -22,7 +22,7 @@ class ScenarioEvidence:
     """Evidence under suppositions.
 
     Attributes:
-        measured: Every variant with its estimates, from the trials that are known.
+        measured: Every variant with its estimates; empty where any trial is missing.
         trials: Number of trials that the decision needs.
         read_off: Number of those that were read off stored searches.
         missing: The trials that would have to be run.
@@ -80,9 +80,9 @@ class ScenarioEvidenceReader:
         specs = _specs(scenario.project, variants, entries)
         found = self._searches.find(specs)
         return ScenarioEvidence(
-            measured=tuple(
-                _measures(scenario.project, variants[one.variant.id], _seeds(one), found) for one in entries
-            ),
+            measured=()
+            if found.missing
+            else tuple(_measures(scenario.project, variants[one.variant.id], _seeds(one), found) for one in entries),
             trials=len(specs),
             read_off=found.read_off,
             missing=found.missing,
@@ -106,13 +106,13 @@ def _specs(
 
 
 def _measures(project: Project, variant: DesignVariant, seeds: tuple[int, ...], found: FoundTrials) -> VariantMeasures:
-    known = [(seed, found.records[variant.id, seed]) for seed in seeds if (variant.id, seed) in found.records]
-    records: tuple[TrialRecord, ...] = tuple(record for _, record in known)
+    keys = tuple(found.keys[variant.id, seed] for seed in seeds)
+    records = tuple(found.records[key] for key in keys)
     return VariantMeasures(
         variant=variant,
-        trials=tuple(found.keys[variant.id, seed] for seed, _ in known),
+        trials=keys,
         records=records,
-        missing=len(seeds) - len(records),
+        missing=0,
         estimates=evaluate(
             project.measures,
             fixed=sources(variant),
