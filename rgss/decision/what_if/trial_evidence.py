@@ -33,6 +33,11 @@ class ScenarioEvidence:
     read_off: int
     missing: tuple[TrialSpec, ...]
 
+    @property
+    def lack(self) -> str:
+        """How many trials lack, in words."""
+        return f"the suppositions need {len(self.missing)} trials of {self.trials} that were not run"
+
     def require_whole(self) -> None:
         """Make sure that no trial is missing.
 
@@ -40,10 +45,7 @@ class ScenarioEvidence:
             EvidenceError: Some are.
         """
         if self.missing:
-            raise EvidenceError(
-                f"the suppositions need {len(self.missing)} trials of {self.trials} that were not run",
-                hint="add --run to run them",
-            )
+            raise EvidenceError(self.lack, hint="add --run to run them")
 
 
 class ScenarioEvidenceReader:
