@@ -14,7 +14,7 @@ from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.conclusion import Conclusion, conclusion_of
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
-from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes
+from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes, readings_among
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
 from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
@@ -152,7 +152,7 @@ def decide_study(
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,
-        readings=reading_outcomes(project, measured) if analysed else (),
+        readings=_readings(project, measured, assumptions) if analysed else (),
         assumptions=assumptions,
     )
 
@@ -212,6 +212,13 @@ def study_decision(
         drivers=None if found is None else _drivers(measured),
         cases=success_by_case(project, measured),
     )
+
+
+def _readings(
+    project: Project, measured: Sequence[VariantMeasures], assumptions: Sequence[AssumptionOutcome]
+) -> tuple[ReadingOutcome, ...]:
+    # Each is one of the assumptions, and decided by already where those are.
+    return readings_among(project, assumptions) if assumptions else reading_outcomes(project, measured)
 
 
 def _drivers(measured: Sequence[VariantMeasures]) -> DriversOfFailures:
