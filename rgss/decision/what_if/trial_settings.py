@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import fields, replace
 from functools import partial
+from typing import Any
 
 from rgss.decision.what_if.setting import ModelSetting, count_from, in_words, one_of, quantity_from
 from rgss.errors import DefinitionError
@@ -108,7 +109,8 @@ def _uncertain_values(project: Project) -> Iterator[ModelSetting]:
 def _with_parameter(project: Project, one: UncertainValue, field: str, unit: str, text: str) -> Project:
     name = f"uncertainty.{one.quantity}.{field}"
     value = quantity_from(name, text, unit, above={"sd": 0.0, "geometric_sd": 1.0, "median": 0.0}.get(field))
-    distribution = replace(one.distribution, **{field: value})
+    changes: dict[str, Any] = {field: value}
+    distribution = replace(one.distribution, **changes)
     low, high = distribution.support
     if low > high or (field in ("low", "high") and low == high):
         raise DefinitionError(f"--what-if: {name}: low must be less than high, got {text}")
@@ -173,5 +175,6 @@ def _with_case_alone(project: Project, text: str) -> Project:
 
 def _with_case_value(project: Project, name: str, place: int, field: str, unit: str, text: str) -> Project:
     cases = list(project.workload.cases)
-    cases[place] = replace(cases[place], **{field: quantity_from(name, text, unit, above=0.0)})
+    changes: dict[str, Any] = {field: quantity_from(name, text, unit, above=0.0)}
+    cases[place] = replace(cases[place], **changes)
     return replace(project, study=replace(project.study, workload=Workload(cases=tuple(cases))))

@@ -48,11 +48,13 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
     weights: dict[str, float] = {}
     readings: list[Reading] = []
     settings: list[SettingChange] = []
+    named: set[str] = set()
     for text in suppositions:
         name, value = _split(text)
         name = _full_name(project, name)
-        if name in {one.id for one in (*changes, *readings, *settings)}:
+        if name in {*named, *(change.id for change in changes)}:
             raise DefinitionError(f"--what-if: {name} is supposed twice", hint="say it once")
+        named.add(name)
         kind, _, rest = name.partition(".")
         if kind == READING:
             reading, changed = with_reading(changed, name, value)
