@@ -18,7 +18,7 @@ from rgss.motion.planner_settings import OnUnverified, PlannerSettings
 from rgss.motion.planners import available_planners, refusal_of
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
 from rgss.motion.search import search
-from rgss.motion.simplification import shorten
+from rgss.motion.simplification import ShortenedPath, shorten
 from rgss.motion.validity import StateCost, StateValidity
 from rgss.motion.verification import verified
 
@@ -45,9 +45,8 @@ def plan(
 ) -> PlanResult:
     """Plan one move, verify the path that is found, and shorten it.
 
-    With a counted clock the result is a function of the arguments: neither the machine, nor the process,
-    nor earlier calls change it, and neither the budget nor the clock changes the path of a search that
-    is solved.
+    With a counted clock the result is a function of the arguments: neither the machine, nor the process, nor earlier
+    calls change it, and neither the budget nor the clock changes the path of a search that is solved.
 
     Args:
         problem: The move.
@@ -88,8 +87,7 @@ def plan(
         return spent(budget_checks, elapsed_s(budget_checks)) if counted else spent(found.checks, time_s)
     if not found.is_valid:
         return replace(spent(found.checks, time_s), outcome=PlanOutcome.NOT_VERIFIED)
-    corners, simplification, simplification_s = found.corners, 0, 0.0
-    unlimited_from: int | None = 0
+    shortened, simplification_s = ShortenedPath(corners=found.corners, checks=0, unlimited_from=0), 0.0
     if simplification_checks:
         shortening_s = clock.start()
         shortened = shorten(
@@ -101,20 +99,18 @@ def plan(
             limit_checks=_limit_checks(clock, simplification_limit_s),
             is_over=None if counted else lambda: shortening_s(0) > simplification_limit_s,
         )
-        corners, simplification = shortened.corners, shortened.checks
-        unlimited_from = shortened.unlimited_from
         # By a wall clock the simplification is over at its limit: nothing that came later is used.
-        simplification_s = min(shortening_s(simplification), simplification_limit_s)
+        simplification_s = min(shortening_s(shortened.checks), simplification_limit_s)
     return PlanResult(
         outcome=PlanOutcome.SOLVED,
-        path=JointPath(corners),
+        path=JointPath(shortened.corners),
         checks=found.checks,
-        simplification_checks=simplification,
+        simplification_checks=shortened.checks,
         search_time_s=time_s,
         simplification_time_s=simplification_s,
         verification_checks=found.verification_checks,
         repairs=found.repairs,
-        simplification_unlimited_from=unlimited_from,
+        simplification_unlimited_from=shortened.unlimited_from,
     )
 
 

@@ -10,7 +10,6 @@ from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.words import UNKNOWN, ids_text
 
 ASSUMPTION_HEADS = ("assumption", "taken as", "instead", "then chosen", "changes the choice")
-RUN_ALL = "rgss trade --run"
 _FIDELITY = "fidelity"
 
 
@@ -67,8 +66,8 @@ def assumption_sentences(made: StudyDecision) -> Iterator[str]:
         trials = sum(one.missing for one in missing)
         yield (
             f"{len(missing)} of {len(made.assumptions)} rows need trials that were not run, {trials} in all: "
-            f"'rgss trade --what-if \"{missing[0].question.supposition}\" --run' runs those of one row, "
-            f"'{RUN_ALL}' all of them."
+            f"'rgss trade' with --what-if \"{missing[0].question.supposition}\" --run runs those of one row, "
+            "with --run alone those of all."
         )
     yield from _fidelity_sentences(made)
 

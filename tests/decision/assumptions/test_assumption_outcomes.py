@@ -141,7 +141,7 @@ def test_missing_trials_are_said_with_what_runs_them(evidence):
     text = "\n".join(decision_lines(made))
     trials = 72 * project.study.replicates
     assert f"needs {trials} of {trials} trials" in text
-    assert "'rgss trade --what-if \"physics.rate=480 Hz\" --run' runs those of one row" in text
+    assert "'rgss trade' with --what-if \"physics.rate=480 Hz\" --run runs those of one row" in text
 
 
 def test_an_alternative_that_is_none_is_a_row_without_an_answer(evidence):
