@@ -57,8 +57,8 @@ def plan(
         simplification_checks: Greatest number of validity checks of looking for shortcuts; 0 leaves the path as found.
         clock: The planning clock.
         limit_s: Greatest time of the search by a wall clock; with a counted clock the budget alone counts.
-        simplification_limit_s: Greatest time of the whole simplification by the planning clock, the final check of
-            its result included. A path that cannot be checked by then is left as it was found.
+        simplification_limit_s: Greatest time of the simplification and the final check of its result by the planning
+            clock. A path that cannot be checked by then is left as it was found.
         on_unverified: What is done with a path that is not valid at the resolution of its verification.
         cost: Cost of a state, for an objective that needs it; each evaluation is charged like a check.
 
@@ -99,8 +99,7 @@ def plan(
             limit_checks=_limit_checks(clock, simplification_limit_s),
             is_over=None if counted else lambda: shortening_s(0) > simplification_limit_s,
         )
-        # By a wall clock the simplification is over at its limit: nothing that came later is used.
-        simplification_s = min(shortening_s(shortened.checks), simplification_limit_s)
+        simplification_s = min(shortening_s(shortened.checks), simplification_limit_s)  # By a wall clock, too.
     return PlanResult(
         outcome=PlanOutcome.SOLVED,
         path=JointPath(shortened.corners),
