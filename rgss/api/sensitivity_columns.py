@@ -87,7 +87,10 @@ ASSUMPTIONS = FrameDescription(
     columns=(
         Column(name="taken_as", meaning="what the study takes it as"),
         Column(
-            name="chosen", meaning="variant that is then chosen; missing where none is, or trials lack", kind=Kind.COUNT
+            name="chosen",
+            meaning="variant that is then chosen; missing where none is, or trials lack",
+            unit="1",
+            kind=Kind.COUNT,
         ),
         Column(name="feasible", meaning="variants that then meet every requirement", unit="1", kind=Kind.COUNT),
         Column(name="changes_choice", meaning="whether the study's choice is no longer the best", kind=Kind.TRUTH),
