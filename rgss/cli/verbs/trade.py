@@ -101,7 +101,7 @@ def run(options: argparse.Namespace) -> int:
     scenario = suppose(project, options.what_if) if options.what_if else None
     label = shown_path(project.evidence)
     analysed = options.section or not options.brief
-    with EvidenceStore.open(project.evidence, create=options.run, label=label) as store:
+    with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store)
         supposed = None if scenario is None else scenario_measures(options, project, scenario, measured, store)
         more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
