@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from rgss.api.column import Column, FrameDescription, Kind
 from rgss.api.metric_columns import phase_metric_columns, recorded_column, trial_metric_columns
-from rgss.api.sensitivity_columns import STAKEHOLDERS, TORNADO, WORTH_KEEPING
+from rgss.api.sensitivity_columns import ASSUMPTIONS, STAKEHOLDERS, TORNADO, WORTH_KEEPING
 from rgss.api.shared_columns import AS_UNIT, MEASURE, SEED, UNIT, VARIANT
 from rgss.api.trade_columns import ACCEPTABILITY, CHANGES, EFFECTS, FLEET, PARETO, RANKING, WEIGHTS
 
@@ -173,6 +173,7 @@ FRAMES: Mapping[str, FrameDescription] = MappingProxyType(
             TORNADO,
             WORTH_KEEPING,
             STAKEHOLDERS,
+            ASSUMPTIONS,
             FLEET,
             CHANGES,
             _COURSE,

@@ -76,3 +76,27 @@ STAKEHOLDERS = FrameDescription(
         Column(name="compromise", meaning="whether its largest regret over all is least", kind=Kind.TRUTH),
     ),
 )
+
+ASSUMPTIONS = FrameDescription(
+    name="assumptions",
+    row="an alternative of a modelling assumption",
+    index=(
+        Column(name="assumption", meaning="its name as what_if takes it"),
+        Column(name="alternative", meaning="what it is taken as instead"),
+    ),
+    columns=(
+        Column(name="taken_as", meaning="what the study takes it as"),
+        Column(
+            name="chosen",
+            meaning="variant that is then chosen; missing where none is, or trials lack",
+            unit="1",
+            kind=Kind.COUNT,
+        ),
+        Column(name="feasible", meaning="variants that then meet every requirement", unit="1", kind=Kind.COUNT),
+        Column(name="changes_choice", meaning="whether the study's choice is no longer the best", kind=Kind.TRUTH),
+        Column(name="trials", meaning="trials that it needs", unit="1", kind=Kind.COUNT),
+        Column(name="missing", meaning="trials that would have to be run", unit="1", kind=Kind.COUNT),
+        Column(name="read_off", meaning="trials that are read off stored searches", unit="1", kind=Kind.COUNT),
+        Column(name="reason", meaning="why there is no answer; empty where there is one, or trials lack"),
+    ),
+)

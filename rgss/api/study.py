@@ -1,5 +1,7 @@
 """A study for analysts: what `rgss.load_study` returns."""
 
+# long file: one class with a short method for each frame and action; half of its lines are their docstrings.
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -8,6 +10,7 @@ from functools import cached_property
 from numbers import Integral
 from typing import TYPE_CHECKING
 
+from rgss.api.assumptions import assumptions_frame, scenario_measures
 from rgss.api.column import Column, Kind
 from rgss.api.columns import FRAMES
 from rgss.api.fleet import fleet_frame
@@ -28,7 +31,7 @@ from rgss.api.trial import Drawing, Trial, payload_of, run_one
 from rgss.assessment import VariantMeasures, read_record
 from rgss.decision import ScreeningResult, measure_survivors
 from rgss.decision.robustness import Robustness
-from rgss.decision.what_if import measured_in, suppose
+from rgss.decision.what_if import suppose
 from rgss.designs import DesignVariant, picked
 from rgss.errors import DefinitionError, EvidenceError
 from rgss.evidence import EvidenceStore
@@ -143,14 +146,18 @@ class Study:
         """The feasible variants and the Pareto front; as of `trade`."""
         return self._trade.pareto
 
-    def trade(self, what_if: WhatIf = ()) -> Trade:
+    def trade(self, what_if: WhatIf = (), *, run: bool = False, jobs: int | None = None) -> Trade:
         """The trade-off, as it is or under suppositions.
 
         Args:
-            what_if: What is to be supposed, such as ``{"weight.t_e": 0.4, "SYS-012.threshold": "0.9 kg"}``.
+            what_if: What is to be supposed, such as ``{"weight.t_e": 0.4, "SYS-012.threshold": "0.9 kg"}`` or
+                ``{"planning.charge_per_check": "0.5 ms"}``.
+            run: Whether trials are run that the suppositions need and nobody ran; they are kept as evidence.
+            jobs: Number of worker processes for them, as for `sweep`.
 
         Raises:
-            EvidenceError: Trials have no evidence.
+            EvidenceError: Trials have no evidence, or the suppositions need trials that were not run.
+            SimulationError: Trials could not be made.
             DefinitionError: A supposition says nothing that is known.
             TradeoffError: Weights contradict each other.
         """
@@ -158,7 +165,17 @@ class Study:
         if not texts:
             return self._trade
         scenario = suppose(self.project, texts)
-        return Trade(project=scenario.project, measured=measured_in(scenario, self._measured), scenario=scenario)
+        measured = scenario_measures(self.project, scenario, self._measured, run=run, jobs=jobs)
+        return Trade(project=scenario.project, measured=measured, scenario=scenario)
+
+    def assumptions(self) -> pd.DataFrame:
+        """The choice under each alternative of each modelling assumption, as far as the evidence tells.
+
+        Raises:
+            EvidenceError: Trials of the study have no evidence.
+            TradeoffError: The choice is ill posed.
+        """
+        return assumptions_frame(self.project, self._measured)
 
     def robustness(self) -> Robustness:
         """The decision questioned from every side; as of `trade`."""

@@ -36,12 +36,35 @@ def sweep_study(
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
         SimulationError: Trials could not be made; what could is kept.
     """
-    if jobs is not None and jobs < 0:
-        raise DefinitionError(f"{jobs} is no number of processes", hint="0 works in this process")
-    runner = _Runner(project, jobs=(os.cpu_count() or 1) if jobs is None else jobs, on_trial=on_trial)
+    runner = _runner(project, jobs, on_trial)
     with EvidenceStore.open(project.evidence) as store:
         sweep_in_stages(project, variants, store, lambda specs: runner.run(specs, store))
     runner.require_all()
+
+
+def run_trials(project: Project, specs: Sequence[TrialSpec], store: EvidenceStore, *, jobs: int | None = None) -> None:
+    """Make some trials that have no evidence, of a study or of suppositions.
+
+    Args:
+        project: The project.
+        specs: The trials.
+        store: The evidence.
+        jobs: As for `sweep_study`.
+
+    Raises:
+        DefinitionError: `jobs` is below 0.
+        EvidenceError: The store cannot be read or written.
+        SimulationError: Trials could not be made; what could is kept.
+    """
+    runner = _runner(project, jobs, None)
+    runner.run(specs, store)
+    runner.require_all()
+
+
+def _runner(project: Project, jobs: int | None, on_trial: Callable[[int, int], None] | None) -> _Runner:
+    if jobs is not None and jobs < 0:
+        raise DefinitionError(f"{jobs} is no number of processes", hint="0 works in this process")
+    return _Runner(project, jobs=(os.cpu_count() or 1) if jobs is None else jobs, on_trial=on_trial)
 
 
 def _one_by_one(maker: Maker) -> Workers:

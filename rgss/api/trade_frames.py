@@ -150,6 +150,10 @@ def changes_frame(scenario: Scenario | None) -> pd.DataFrame:
     ]
     readings = () if scenario is None else scenario.readings
     rows += [{"what": one.supposition, "before": None, "after": None, "unit": "", "asked": True} for one in readings]
+    settings = () if scenario is None else scenario.settings
+    rows += [
+        {"what": f"{one.id}={one.after}", "before": None, "after": None, "unit": "", "asked": True} for one in settings
+    ]
     return described_frame("changes", rows)
 
 

@@ -23,11 +23,13 @@ if TYPE_CHECKING:
     from rgss.assessment.recorded_verdicts import VerdictRecord, read_record
     from rgss.assessment.recording import record_after_sweep, record_verdicts
     from rgss.assessment.replicates import replicates_of
+    from rgss.assessment.workload_cases import CaseSuccess, measured_in_case, success_by_case
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
     "Aspect",
+    "CaseSuccess",
     "Driver",
     "DriversOfFailures",
     "EstimateBounds",
@@ -38,6 +40,7 @@ __all__ = [
     "drivers_of_failures",
     "evidence_state",
     "measure_variants",
+    "measured_in_case",
     "project_marks",
     "read_record",
     "record_after_sweep",
@@ -45,4 +48,5 @@ __all__ = [
     "replicates_of",
     "require_complete",
     "requirements_with_criteria",
+    "success_by_case",
 ]

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
         VerdictDifference,
     )
     from rgss.confirmation.confirming import confirm
+    from rgss.confirmation.kept_trials import confirmation_trials
     from rgss.confirmation.selection import MOST_RIVALS, Selection, select, selected_by_id
     from rgss.confirmation.settings import (
         Aspect,
@@ -36,6 +37,7 @@ __all__ = [
     "VerdictDifference",
     "confirm",
     "confirmation_settings",
+    "confirmation_trials",
     "select",
     "selected_by_id",
 ]

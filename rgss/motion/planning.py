@@ -18,7 +18,7 @@ from rgss.motion.planner_settings import OnUnverified, PlannerSettings
 from rgss.motion.planners import available_planners, refusal_of
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
 from rgss.motion.search import search
-from rgss.motion.simplification import shorten
+from rgss.motion.simplification import ShortenedPath, shorten
 from rgss.motion.validity import StateCost, StateValidity
 from rgss.motion.verification import verified
 
@@ -45,9 +45,8 @@ def plan(
 ) -> PlanResult:
     """Plan one move, verify the path that is found, and shorten it.
 
-    With a counted clock the result is a function of the arguments: neither the machine, nor the process,
-    nor earlier calls change it, and neither the budget nor the clock changes the path of a search that
-    is solved.
+    With a counted clock the result is a function of the arguments: neither the machine, nor the process, nor earlier
+    calls change it, and neither the budget nor the clock changes the path of a search that is solved.
 
     Args:
         problem: The move.
@@ -58,8 +57,8 @@ def plan(
         simplification_checks: Greatest number of validity checks of looking for shortcuts; 0 leaves the path as found.
         clock: The planning clock.
         limit_s: Greatest time of the search by a wall clock; with a counted clock the budget alone counts.
-        simplification_limit_s: Greatest time of the whole simplification by the planning clock, the final check of
-            its result included. A path that cannot be checked by then is left as it was found.
+        simplification_limit_s: Greatest time of the simplification and the final check of its result by the planning
+            clock. A path that cannot be checked by then is left as it was found.
         on_unverified: What is done with a path that is not valid at the resolution of its verification.
         cost: Cost of a state, for an objective that needs it; each evaluation is charged like a check.
 
@@ -88,10 +87,10 @@ def plan(
         return spent(budget_checks, elapsed_s(budget_checks)) if counted else spent(found.checks, time_s)
     if not found.is_valid:
         return replace(spent(found.checks, time_s), outcome=PlanOutcome.NOT_VERIFIED)
-    corners, simplification, simplification_s = found.corners, 0, 0.0
+    shortened, simplification_s = ShortenedPath(corners=found.corners, checks=0, unlimited_from=0), 0.0
     if simplification_checks:
         shortening_s = clock.start()
-        corners, simplification = shorten(
+        shortened = shorten(
             found.corners,
             validity,
             generator=np.random.default_rng(_derived_seed(seed, _SIMPLIFICATION_STREAM)),
@@ -100,17 +99,17 @@ def plan(
             limit_checks=_limit_checks(clock, simplification_limit_s),
             is_over=None if counted else lambda: shortening_s(0) > simplification_limit_s,
         )
-        # By a wall clock the simplification is over at its limit: nothing that came later is used.
-        simplification_s = min(shortening_s(simplification), simplification_limit_s)
+        simplification_s = min(shortening_s(shortened.checks), simplification_limit_s)  # By a wall clock, too.
     return PlanResult(
         outcome=PlanOutcome.SOLVED,
-        path=JointPath(corners),
+        path=JointPath(shortened.corners),
         checks=found.checks,
-        simplification_checks=simplification,
+        simplification_checks=shortened.checks,
         search_time_s=time_s,
         simplification_time_s=simplification_s,
         verification_checks=found.verification_checks,
         repairs=found.repairs,
+        simplification_unlimited_from=shortened.unlimited_from,
     )
 
 

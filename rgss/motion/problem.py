@@ -81,6 +81,8 @@ class PlanResult:
         simplification_time_s: Time of the simplification by the planning clock.
         verification_checks: Those of `checks` that verified the path.
         repairs: Motions of the path that were planned anew, because they were not valid.
+        simplification_unlimited_from: A limit of the simplification in checks from which on no limit changes its
+            result; None if its own did.
     """
 
     outcome: PlanOutcome
@@ -91,6 +93,7 @@ class PlanResult:
     simplification_time_s: float = 0.0
     verification_checks: int = 0
     repairs: int = 0
+    simplification_unlimited_from: int | None = 0
 
 
 def outcome_within(result: PlanResult, budget_checks: int) -> PlanOutcome:

@@ -7,6 +7,7 @@ import itertools
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -26,6 +27,21 @@ _CHECKS_BETWEEN_LOOKS = 32
 """By a wall clock; a look at it costs a fraction of a check."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ShortenedPath:
+    """Result of a simplification.
+
+    Attributes:
+        corners: The corners in rad, shape (n, joints).
+        checks: Validity checks that it took, those of the final check included.
+        unlimited_from: A limit in checks from which on no limit changes the result; None if this one's did.
+    """
+
+    corners: Vector
+    checks: int
+    unlimited_from: int | None
+
+
 def shorten(
     points: Vector,
     validity: StateValidity,
@@ -35,7 +51,7 @@ def shorten(
     resolution_rad: float,
     limit_checks: int | None = None,
     is_over: Callable[[], bool] | None = None,
-) -> tuple[Vector, int]:
+) -> ShortenedPath:
     """Shorten a valid polyline by replacing stretches of it with straight segments.
 
     Three stages follow each other while the budget lasts. Each corner is joined with the furthest corner
@@ -57,9 +73,6 @@ def shorten(
         resolution_rad: Greatest distance between the states that are checked.
         limit_checks: Greatest number of validity checks altogether, the final check included; None for no limit.
         is_over: Termination predicate of a wall clock; nothing that is checked after it is true is used.
-
-    Returns:
-        The corners of the shorter path and the number of checks that it took.
     """
     check = _CheckBudget(validity, budget_checks, limit_checks, is_over)
     paths = [points]
@@ -68,7 +81,8 @@ def shorten(
         for path in _improvements(points, check, generator, resolution_rad):
             paths.append(path)
             check.keep_back(1 + sum(map(len, _dense_segments(path, resolution_rad).values())))
-    return _last_valid(paths, check, resolution_rad), check.spent
+    corners = _last_valid(paths, check, resolution_rad)
+    return ShortenedPath(corners=corners, checks=check.spent, unlimited_from=check.unlimited_from)
 
 
 def _last_valid(paths: Sequence[Vector], check: _CheckBudget, resolution_rad: float) -> Vector:
@@ -119,25 +133,41 @@ class _CheckBudget:
     ) -> None:
         self._first_invalid = first_invalid_between(validity)
         self._limit = math.inf if limit is None else limit
+        self._own_budget: float = budget
         self._search_budget = min(budget, self._limit)
         self._budget: float = self._search_budget
-        self._kept_back = math.inf
+        self._kept_back: float = math.inf
         self._is_over = is_over
+        self._needed = 0
+        self._was_limited = False
         self.spent = 0
+
+    @property
+    def unlimited_from(self) -> int | None:
+        """Least limit that leaves all checks so far and what was kept back; None if the limit refused a check.
+
+        Under any such limit the same checks are made: none is refused, and as much is kept back.
+        """
+        return None if self._was_limited else self._needed
 
     def keep_back(self, checks: int) -> None:
         """Leave a number of checks of the limit for the final check of a path that was found."""
         self._kept_back = min(self._kept_back, checks)
+        self._need(self.spent + checks)
         if self.spent + self._kept_back <= self._limit:
             self._budget = min(self._search_budget, self._limit - self._kept_back)
 
     def search_is_over(self) -> None:
         """Release the checks that were kept back."""
         self._budget = self._limit
+        self._own_budget, self._kept_back = math.inf, 0
 
     def affords(self, checks: int) -> bool:
         """Whether a number of checks is left."""
-        return self.spent + checks <= self._budget
+        self._need(self.spent + checks)
+        is_left = self.spent + checks <= self._budget
+        self._was_limited |= not is_left
+        return is_left
 
     def are_valid(self, states: Vector) -> bool:
         """True if all states, which lie between valid ones, are valid; checked in order up to the first invalid one.
@@ -151,13 +181,18 @@ class _CheckBudget:
             part = states[first : min(first + size, affordable)]
             index = self._first_invalid(part)
             self.spent += len(part) if index is None else index + 1
+            self._need(self.spent + (0 if self._kept_back == math.inf else self._kept_back))
             if self._is_over is not None and self._is_over():
                 raise _BudgetSpentError
             if index is not None:
                 return False
         if affordable < len(states):
+            self._was_limited |= self._budget < self._own_budget
             raise _BudgetSpentError
         return True
+
+    def _need(self, checks: float) -> None:
+        self._needed = max(self._needed, int(checks))
 
 
 def _improvements(

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.reports.failure_drivers import driver_lines, drivers_to_json
+    from rgss.reports.failure_drivers import case_lines, cases_to_json, driver_lines, drivers_to_json
     from rgss.reports.plain_text import aligned_table
     from rgss.reports.study_page import TrialPictures, study_report_to_html
 else:
@@ -14,6 +14,8 @@ else:
 __all__ = [
     "TrialPictures",
     "aligned_table",
+    "case_lines",
+    "cases_to_json",
     "driver_lines",
     "drivers_to_json",
     "study_report_to_html",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rgss.assessment import Aspect, Driver, DriversOfFailures, FailureDrivers
+from rgss.assessment import Aspect, CaseSuccess, Driver, DriversOfFailures, FailureDrivers
 from rgss.reports.plain_text import aligned_table
 
 _SHOWN = 5
@@ -96,6 +96,27 @@ def drivers_to_json(found: DriversOfFailures) -> dict[str, Any]:
         ],
         "too_few": [failure.value for failure in found.too_few],
     }
+
+
+def case_lines(cases: Sequence[CaseSuccess]) -> Iterator[str]:
+    """The success of each case of the workload; nothing where there is none.
+
+    Args:
+        cases: The cases.
+    """
+    if cases:
+        yield ""
+        rows = [[one.case, str(one.trials), str(one.successes), f"{one.share:.1%}"] for one in cases]
+        yield from aligned_table(["case", "trials", "successes", "share"], rows, right=(1, 2, 3))
+
+
+def cases_to_json(cases: Sequence[CaseSuccess]) -> list[dict[str, Any]]:
+    """The success of each case as plain data.
+
+    Args:
+        cases: The cases.
+    """
+    return [{"case": one.case, "trials": one.trials, "successes": one.successes} for one in cases]
 
 
 def _place(one: FailureDrivers) -> str:

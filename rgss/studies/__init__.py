@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rgss.studies.finding_suppression import without_consequences
     from rgss.studies.impact_check import impact_findings
     from rgss.studies.input_names import CODE, named_inputs
-    from rgss.studies.planning import planner_problem
+    from rgss.studies.planning import PlanningChoice, planner_problem, read_parameter
     from rgss.studies.project import (
         DEFAULT_STUDY,
         EVIDENCE,
@@ -42,6 +42,7 @@ __all__ = [
     "FOLDERS",
     "MOST_REPLICATES",
     "GuardedMetric",
+    "PlanningChoice",
     "Project",
     "Promotion",
     "RegressionGuard",
@@ -59,6 +60,7 @@ __all__ = [
     "named_inputs",
     "planner_problem",
     "project_of_study",
+    "read_parameter",
     "trial_settings",
     "trial_specs",
     "uncounted_mass_findings",

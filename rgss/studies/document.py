@@ -16,6 +16,7 @@ from rgss.documents import (
 )
 from rgss.findings import shown
 from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
+from rgss.studies.assumptions_section import StudyAssumptionEntry
 from rgss.studies.planning import PlanningEntry
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
@@ -85,13 +86,6 @@ class PromotionEntry(DocumentModel):
     within: Dimensionless | None = None
 
 
-class AssumptionEntry(DocumentModel):
-    """What was assumed, and why."""
-
-    about: Text
-    rationale: Text
-
-
 class StudyDocument(DocumentModel):
     """A study file; other files are named relative to the project."""
 
@@ -113,4 +107,4 @@ class StudyDocument(DocumentModel):
     workload: tuple[CaseEntry, ...] = ()
     trade_off: TradeOffEntry
     regression: RegressionEntry | None = None
-    assumptions: tuple[AssumptionEntry, ...] = ()
+    assumptions: tuple[StudyAssumptionEntry, ...] = ()

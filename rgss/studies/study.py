@@ -22,6 +22,7 @@ from rgss.scenes.uncertainty import (
     read_uncertainty,
     read_workload,
 )
+from rgss.studies.assumptions_section import StudyAssumption, read_assumptions
 from rgss.studies.document import StudyDocument
 from rgss.studies.planning import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
@@ -74,6 +75,7 @@ class StudyDefinition:
         uncertainty: What differs from trial to trial, in place of what the scene says of the same quantities.
         workload: The objects that the trials carry.
         is_nominal: Whether neither is applied, nor the scene's uncertainty.
+        assumptions: Assumptions that are questioned, with what they could be taken as instead.
         physics: Other physics settings than rate and iterations of the file, for a confirmation; None as the file says.
     """
 
@@ -97,6 +99,7 @@ class StudyDefinition:
     workload: Workload = ONE_WORKLOAD
     is_nominal: bool = False
     physics: PhysicsSettings | None = None
+    assumptions: tuple[StudyAssumption, ...] = ()
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -172,6 +175,7 @@ def read_study(
         uncertainty=uncertainty,
         workload=workload,
         is_nominal=entry.nominal,
+        assumptions=read_assumptions(entry.assumptions, document),
     )
 
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rgss.sweep.planner_comparison import ComparedPlanner, compared_planners, limits_of
     from rgss.sweep.planning_history import planning_runs
     from rgss.sweep.preview import Cause, DryRun, DueTrials, Reason, dry_run
+    from rgss.sweep.reading_off import FoundTrials, StoredSearches
     from rgss.sweep.replaying import find_trial, replay
     from rgss.sweep.results import FinishedTrial, LostTrials, SweepResult, SweepState, WorkerLimits
     from rgss.sweep.running import Maker, sweep
@@ -29,12 +30,14 @@ __all__ = [
     "DryRun",
     "DueTrials",
     "FinishedTrial",
+    "FoundTrials",
     "InlineWorkers",
     "LostTrials",
     "Maker",
     "Origin",
     "PersistentWorkerPool",
     "Reason",
+    "StoredSearches",
     "SweepResult",
     "SweepState",
     "WorkerLimits",

@@ -304,3 +304,28 @@ def test_loading_draws_nothing_and_starts_no_engine(swept):
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
 
     assert (run.returncode, run.stdout.strip(), run.stderr) == (0, "", "")
+
+
+def test_suppositions_on_how_trials_are_made_need_their_trials(changeable):
+    """They are counted; a run makes them once, and they are evidence as any other."""
+    study = rgss.load_study(changeable, **ASKED)
+    with pytest.raises(EvidenceError, match="the suppositions need 16 trials of 16 that were not run") as caught:
+        study.trade({"planning.resolution": "0.06 rad"})
+    assert caught.value.hint == "call trade(…, run=True) to run them"
+    made = study.trade({"planning.resolution": "0.06 rad"}, run=True, jobs=0)
+    again = study.trade("planning.resolution=0.06 rad")
+
+    assert made.decision == again.decision
+    assert "planning.resolution=0.06 rad" in made.changes.reset_index()["what"].tolist()
+    with pytest.raises(DefinitionError, match="-1 is no number of processes"):
+        study.trade({"planning.resolution": "0.07 rad"}, run=True, jobs=-1)
+
+
+def test_the_assumptions_are_a_frame(study):
+    frame = study.assumptions()
+    charge = frame.loc["planning.charge_per_check"]
+
+    assert (charge["trials"] == 16).all()
+    assert charge["missing"].isna().sum() == 0
+    assert frame.loc["prices"]["changes_choice"].tolist() in ([True], [False])
+    assert "fidelity" not in frame.index.get_level_values(0)

@@ -23,13 +23,14 @@ def wandering(seed, corners=8):
 
 
 def shortened(wall, path, *, seed=0, budget=1000):
-    return shorten(
+    found = shorten(
         path,
         wall,
         generator=np.random.default_rng(seed),
         budget_checks=budget,
         resolution_rad=RESOLUTION,
     )
+    return found.corners, found.checks
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -116,11 +117,12 @@ def test_a_shortcut_that_touches_between_the_checked_states_is_taken_back():
     straight = path[[0, -1]]
     assert all(map(post.is_valid, path_states(straight, 0.031)))
     assert not all(map(post.is_valid, path_states(straight, 0.031, density=4)))
-    result, _ = shorten(path, post, generator=np.random.default_rng(0), budget_checks=2000, resolution_rad=0.031)
+    generator = np.random.default_rng(0)
+    result = shorten(path, post, generator=generator, budget_checks=2000, resolution_rad=0.031).corners
     assert all(map(post.is_valid, path_states(result, 0.031, density=4)))
 
 
-def limited(wall, path, limit, *, seed=0, budget=1500):
+def simplified(wall, path, limit, *, seed=0, budget=1500):
     return shorten(
         path,
         wall,
@@ -129,6 +131,11 @@ def limited(wall, path, limit, *, seed=0, budget=1500):
         resolution_rad=RESOLUTION,
         limit_checks=limit,
     )
+
+
+def limited(wall, path, limit, *, seed=0, budget=1500):
+    found = simplified(wall, path, limit, seed=seed, budget=budget)
+    return found.corners, found.checks
 
 
 @pytest.mark.parametrize("limit", [0, 1, 40, 300, 700, 1100, 1500, 2000, 3000, 10_000])
@@ -176,7 +183,7 @@ def test_shortcuts_are_taken_back_within_the_limit():
         path[[0, -1], 1] = 0.0
         path[[0, -1], 0] = 0.1, 1.9
         for limit in (200, 500, 1000, 4000):
-            result, spent = shorten(
+            found = shorten(
                 path,
                 posts,
                 generator=np.random.default_rng(1),
@@ -184,5 +191,33 @@ def test_shortcuts_are_taken_back_within_the_limit():
                 resolution_rad=0.031,
                 limit_checks=limit,
             )
-            assert spent <= limit
+            result = found.corners
+            assert found.checks <= limit
             assert result is path or all(map(posts.is_valid, path_states(result, 0.031, density=4)))
+
+
+@pytest.mark.parametrize("density_of_posts", [0.0, 0.25])
+def test_no_limit_from_the_stated_one_on_changes_the_result(wall, density_of_posts):
+    """So that the result under another limit is known without another simplification."""
+
+    class Posts:
+        def is_valid(self, q):
+            inside = density_of_posts and q[1] % density_of_posts < 0.004 and abs(q[2]) < 0.5
+            return not inside and wall.is_valid(q)
+
+    validity, known, unknown = Posts(), 0, 0
+    limits = [300, 700, 900, 1100, 1300, 1500, 1800, 2200, 3000, None]
+    for seed in range(8):
+        results = {limit: simplified(validity, wandering(seed), limit, seed=seed) for limit in limits}
+        for found in results.values():
+            if found.unlimited_from is None:
+                unknown += 1
+                continue
+            known += 1
+            others = (limit for limit in limits if limit is None or limit >= found.unlimited_from)
+            for limit in (*others, found.unlimited_from):
+                other = results.get(limit) or simplified(validity, wandering(seed), limit, seed=seed)
+                assert np.array_equal(other.corners, found.corners)
+                assert (other.checks, other.unlimited_from) == (found.checks, found.unlimited_from)
+    assert known > 8
+    assert unknown > 8

@@ -17,12 +17,16 @@ def collect(options: argparse.Namespace, store: EvidencePlace) -> int:
     """Show what no study names, and remove it if `--apply` is given."""
     from rgss.cli.main import CLEAN
     from rgss.cli.output import print_json
+    from rgss.confirmation import confirmation_trials
     from rgss.evidence import EvidenceStore
     from rgss.evidence.store import collect_garbage, find_garbage
 
     _, studies = contents_and_studies(store)
     trials = named_trials(studies, strict=options.strict)
     pieces = {digest for study in studies for digest in (study.own if options.strict else study.all).pieces}
+    if not options.strict:
+        with EvidenceStore.open(store.path, create=False, label=store.label) as evidence:
+            trials |= confirmation_trials((study.project for study in studies), evidence)
     freed, shrunk = None, True
     if options.apply:
         done = collect_garbage(store.path, trials=trials, pieces=pieces, label=store.label)

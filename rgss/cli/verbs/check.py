@@ -56,6 +56,7 @@ def _check(options: argparse.Namespace) -> int:
     from rgss.cli.command_parser import BAD_INPUT
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
+    from rgss.decision.assumptions import assumption_findings
     from rgss.errors import DocumentError
     from rgss.findings import Severity
     from rgss.guard import guard_findings
@@ -86,6 +87,7 @@ def _check(options: argparse.Namespace) -> int:
             *uncounted_mass_findings(project),
             *bench_findings(project),
             *impact_findings(project),
+            *assumption_findings(project),
             *scene.findings,
             *_findings(project, options),
         )

@@ -19,6 +19,7 @@ MORE_EXAMPLES = (
     ("rgss measure", "the measures of effectiveness and the verdicts of every variant"),
     ("rgss measure --variant 2", "every measure and verdict of one"),
     ("rgss measure --drivers", "which draws go with which failures"),
+    ("rgss measure --case payload", "by the trials of one case of the workload"),
 )
 
 
@@ -32,6 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--drivers", action="store_true", help="only which uncertain quantity drives which kind of failure"
     )
+    parser.add_argument("--case", metavar="NAME", help="only the trials of this case of the workload")
     parser.add_argument("--verdicts", action="store_true", help="only the verdicts, and why one is stale")
     parser.add_argument(
         "--record",
@@ -42,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Show the measures; what has no evidence is shown as not known."""
-    from rgss.assessment import read_record, record_verdicts
+    from rgss.assessment import measured_in_case, read_record, record_verdicts
     from rgss.cli.output import print_json, shown_path
     from rgss.decision import measure_survivors
     from rgss.errors import DefinitionError
@@ -54,6 +56,8 @@ def run(options: argparse.Namespace) -> int:
         project.designs.variant(options.variant)
         if options.record:
             raise DefinitionError("--record is of all variants", hint="leave --variant away")
+    if options.case is not None and options.record:
+        raise DefinitionError("--record is of all trials", hint="leave --case away")
     with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
         recorded = record_verdicts(project, store) if options.record else read_record(project.folder)
         measured, screened = measure_survivors(project, store, recorded=recorded)
@@ -65,8 +69,10 @@ def run(options: argparse.Namespace) -> int:
                     hint=f"'--fidelity {screened.screening.fidelity.value}' shows what is known of it",  # type: ignore[union-attr]
                 )
         measured = tuple(entry for entry in measured if entry.variant.id == options.variant)
+    if options.case is not None:
+        measured = measured_in_case(project, measured, options.case)
     if options.drivers:
-        _print_drivers(measured, as_json=options.json)
+        _print_drivers(project, measured, as_json=options.json)
     elif options.json:
         print_json(list(_verdict_rows(measured) if options.verdicts else _measure_rows(measured)))
     elif options.verdicts:
@@ -80,16 +86,17 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _print_drivers(measured: Sequence[VariantMeasures], *, as_json: bool) -> None:
-    from rgss.assessment import drivers_of_failures
+def _print_drivers(project: Project, measured: Sequence[VariantMeasures], *, as_json: bool) -> None:
+    from rgss.assessment import drivers_of_failures, success_by_case
     from rgss.cli.output import print_json, print_lines
-    from rgss.reports import driver_lines, drivers_to_json
+    from rgss.reports import case_lines, cases_to_json, driver_lines, drivers_to_json
 
     found = drivers_of_failures([record for entry in measured for record in entry.records])
+    cases = success_by_case(project, measured)
     if as_json:
-        print_json(drivers_to_json(found))
+        print_json({**drivers_to_json(found), "cases": cases_to_json(cases)})
     else:
-        print_lines(driver_lines(found))
+        print_lines((*driver_lines(found), *case_lines(cases)))
 
 
 def _measure_rows(measured: Sequence[VariantMeasures]) -> Iterator[dict[str, Any]]:

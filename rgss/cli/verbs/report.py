@@ -62,6 +62,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.pictures import ordered_look, trial_pictures
     from rgss.cli.verbs.trade import portfolio_of
     from rgss.decision import measure_survivors
+    from rgss.decision.assumptions import assumption_outcomes
     from rgss.decision.study_decision import decide_study
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
@@ -85,7 +86,14 @@ def run(options: argparse.Namespace) -> int:
             raise EvidenceError(error.message, hint=f"run '{_sweep_command(options)}' first") from None
         state = _evidence_state(project, measured, recorded, options.junit)
         portfolio = portfolio_of(project, store)
-        made = decide_study(project, measured, evidence=label, screened=screened, portfolio=portfolio)
+        made = decide_study(
+            project,
+            measured,
+            evidence=label,
+            screened=screened,
+            portfolio=portfolio,
+            assumptions=assumption_outcomes(project, measured, store),
+        )
         document = report_document(project, measured, made, store)
     notable = notable_trials(measured, made.decision.chosen)
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))

@@ -21,6 +21,7 @@ EXAMPLE = 'rgss trade --what-if weight.t_e=0.4 --what-if "SYS-012.threshold=0.9 
 MORE_EXAMPLES = (
     ("rgss trade", "the decision, why, and what would change it"),
     ("rgss trade --fidelity kinematic", "by the evidence of quick trials"),
+    ('rgss trade --what-if "planning.charge_per_check=0.5 ms" --run', "with another clock; runs what it lacks"),
     ("rgss trade --section --into README.md", "write the decision into a page"),
 )
 
@@ -38,9 +39,20 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=VALUE",
         help="suppose another weight.MEASURE, REQUIREMENT.threshold (or that of a chance:, tail: or limit: as the page "
         "prints it), value.MEASURE.worst (or best …), "
-        "catalogue.COMPONENT.cost (or another property), measures.CONSTANT or reading.MEASURE (an alternative of a "
-        "measure), and show before and after; "
+        "catalogue.COMPONENT.cost (or another property), prices (a factor on all that are assumed), "
+        "measures.CONSTANT, reading.MEASURE (an alternative of a "
+        "measure), or how trials are made (planning.charge_per_check, planning.time_limit, uncertainty.nominal, "
+        "fidelity …), and show before and after; "
         "may be given several times",
+    )
+    parser.add_argument(
+        "--run",
+        action="store_true",
+        help="run the trials that the suppositions need and nobody ran; without --what-if, those that the table of "
+        "assumptions needs",
+    )
+    parser.add_argument(
+        "--jobs", type=int, metavar="N", help="with --run: worker processes (default: one for each core)"
     )
     parser.add_argument(
         "--time-limit",
@@ -64,6 +76,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Decide; 1 if no variant meets every requirement, a choice is not proven best, or a part is not computed."""
+    from rgss.cli.assumption_trials import known_assumptions, scenario_measures
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import shown_path
     from rgss.decision import measure_survivors
@@ -78,6 +91,8 @@ def run(options: argparse.Namespace) -> int:
         raise DefinitionError("--into needs --section", hint="the section is what goes into the file")
     if options.section and (options.what_if or options.json):
         raise DefinitionError("--section is of the study as it is", hint="leave --what-if and --json away")
+    if options.jobs is not None and not options.run:
+        raise DefinitionError("--jobs needs --run", hint="a decision from stored trials needs no workers")
     time_limit = seconds_of(options.time_limit)
     independent = () if options.solver_check is None else (independent_run(SolverCheck(options.solver_check)),)
     # Read before anything is computed: it may have no place for the section.
@@ -85,20 +100,26 @@ def run(options: argparse.Namespace) -> int:
     project = chosen_project(options)
     scenario = suppose(project, options.what_if) if options.what_if else None
     label = shown_path(project.evidence)
+    analysed = options.section or not options.brief
     with EvidenceStore.open(project.evidence, create=False, label=label) as store:
         measured, screened = measure_survivors(project, store)
+        supposed = None if scenario is None else scenario_measures(options, project, scenario, measured, store)
         more = () if screened is None or scenario is None else _reopened(project, scenario, screened, store)
+        asked = scenario is None and (analysed or options.run)
+        assumptions = known_assumptions(options, project, measured, store) if asked else ()
         portfolio = portfolio_of(project, store, time_limit=time_limit, independent=independent)
     made = decide_study(
         project,
         measured,
         evidence=label,
-        analysed=options.section or not options.brief,
+        analysed=analysed,
         independent=independent,
         portfolio=portfolio,
         screened=screened,
         scenario=scenario,
+        supposed=supposed,
         reopened=more,
+        assumptions=assumptions,
         time_limit=time_limit,
     )
     _print(options, made, text)
@@ -149,6 +170,8 @@ def _reopened(project: Project, scenario: Scenario, screened: ScreeningResult, s
     from rgss.decision import reopened
     from rgss.decision.what_if import measured_in
 
+    if scenario.settings:
+        return ()  # Other trials screen then, of which nothing is said.
     first = measure_variants(project.with_fidelity(screened.screening.fidelity.value), store)
     return reopened(screened, scenario.project, measured_in(scenario, first))
 

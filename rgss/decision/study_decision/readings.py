@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rgss.assessment import VariantMeasures
+from rgss.decision.assumptions import AssumptionOutcome
 from rgss.decision.choosing import choose
 from rgss.decision.what_if import Reading, measured_in, readings_of, suppose
 from rgss.errors import RgssError
@@ -37,6 +38,21 @@ def reading_outcomes(project: Project, measured: Sequence[VariantMeasures]) -> t
         measured: Every variant with its estimates and records.
     """
     return tuple(_outcome(project, measured, reading) for reading in readings_of(project))
+
+
+def readings_among(project: Project, outcomes: Sequence[AssumptionOutcome]) -> tuple[ReadingOutcome, ...]:
+    """The readings of the source among the assumptions that were questioned, which all of them are.
+
+    Args:
+        project: The project with its study.
+        outcomes: The choice under each alternative of each assumption.
+    """
+    by_name = {one.question.supposition: one for one in outcomes}
+    pairs = ((reading, by_name[reading.supposition]) for reading in readings_of(project))
+    return tuple(
+        ReadingOutcome(reading=reading, chosen=one.chosen, feasible=one.feasible, reason=one.reason)
+        for reading, one in pairs
+    )
 
 
 def _outcome(project: Project, measured: Sequence[VariantMeasures], reading: Reading) -> ReadingOutcome:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rgss.assessment import VariantMeasures
+from rgss.assessment import CaseSuccess, DriversOfFailures, VariantMeasures, drivers_of_failures, success_by_case
+from rgss.decision.assumptions import AssumptionOutcome
 from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.screening_result import ScreeningResult
@@ -13,7 +14,7 @@ from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.conclusion import Conclusion, conclusion_of
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
-from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes
+from rgss.decision.study_decision.readings import ReadingOutcome, reading_outcomes, readings_among
 from rgss.decision.study_decision.reasons import ClosestLimit, Gain, closest_limits, gains_over_runner_up
 from rgss.decision.study_decision.suppositions import WhatIf, decision_side
 from rgss.decision.what_if import Scenario, measured_in
@@ -49,6 +50,9 @@ class StudyDecision:
         elicited_by: The same of stakeholders, by name.
         gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
         readings: What each reading of the source would lead to; empty if not analysed.
+        assumptions: The choice under each alternative of each assumption; empty if not asked for.
+        drivers: Which draws go with which failures; None if not analysed.
+        cases: The success of each case of the workload; empty without a workload.
     """
 
     study: str
@@ -72,6 +76,9 @@ class StudyDecision:
     elicited_by: Mapping[str, ElicitedWeights] = field(default_factory=dict)
     gaps: tuple[ModelGap, ...] = ()
     readings: tuple[ReadingOutcome, ...] = ()
+    assumptions: tuple[AssumptionOutcome, ...] = ()
+    drivers: DriversOfFailures | None = None
+    cases: tuple[CaseSuccess, ...] = ()
 
     @property
     def is_final(self) -> bool:
@@ -98,7 +105,9 @@ def decide_study(
     portfolio: PortfolioDecision | None = None,
     screened: ScreeningResult | None = None,
     scenario: Scenario | None = None,
+    supposed: Sequence[VariantMeasures] | None = None,
     reopened: tuple[int, ...] = (),
+    assumptions: tuple[AssumptionOutcome, ...] = (),
     time_limit: float | None = None,
 ) -> StudyDecision:
     """Decide a study, and analyse the decision; nothing is simulated.
@@ -112,7 +121,9 @@ def decide_study(
         portfolio: The portfolio of the study; None if it has none.
         screened: The outcome of screening; None without.
         scenario: Suppositions that the decision is made under; None for the study as it is.
+        supposed: Every variant under the suppositions; estimated anew from the trials of the study by default.
         reopened: Designs that screening would let pass under the suppositions.
+        assumptions: The choice under each alternative of each assumption, which needs the evidence store.
         time_limit: Seconds for the runs of a solver over levels, for each decision that is made.
 
     Raises:
@@ -126,7 +137,7 @@ def decide_study(
     if scenario is not None:
         before = decision_side(project, measured, decision)
         units = {measure: project.measures.measure(measure).unit for measure in before.estimates}
-        project, measured = scenario.project, measured_in(scenario, measured)
+        project, measured = scenario.project, measured_in(scenario, measured) if supposed is None else supposed
         problem = trade_problem(project, measured)
         decision = choose(project, measured, problem=problem, independent=independent, time_limit=time_limit)
         after = decision_side(project, measured, decision)
@@ -141,7 +152,8 @@ def decide_study(
         portfolio=portfolio,
         screened=screened,
         what_if=what_if,
-        readings=reading_outcomes(project, measured) if analysed else (),
+        readings=_readings(project, measured, assumptions) if analysed else (),
+        assumptions=assumptions,
     )
 
 
@@ -157,6 +169,7 @@ def study_decision(
     screened: ScreeningResult | None = None,
     what_if: WhatIf | None = None,
     readings: tuple[ReadingOutcome, ...] = (),
+    assumptions: tuple[AssumptionOutcome, ...] = (),
 ) -> StudyDecision:
     """The decision of a study from a choice and its analysis; the arguments are those of `decide_study`.
 
@@ -171,6 +184,7 @@ def study_decision(
         screened: The outcome of screening.
         what_if: The effect of suppositions.
         readings: What each reading of the source would lead to.
+        assumptions: The choice under each alternative of each assumption.
     """
     return StudyDecision(
         study=project.study.id,
@@ -194,7 +208,21 @@ def study_decision(
         what_if=what_if,
         gaps=_gaps(project, measured, decision),
         readings=readings,
+        assumptions=assumptions,
+        drivers=None if found is None else _drivers(measured),
+        cases=success_by_case(project, measured),
     )
+
+
+def _readings(
+    project: Project, measured: Sequence[VariantMeasures], assumptions: Sequence[AssumptionOutcome]
+) -> tuple[ReadingOutcome, ...]:
+    # Each is one of the assumptions, and decided by already where those are.
+    return readings_among(project, assumptions) if assumptions else reading_outcomes(project, measured)
+
+
+def _drivers(measured: Sequence[VariantMeasures]) -> DriversOfFailures:
+    return drivers_of_failures([record for entry in measured for record in entry.records])
 
 
 def _gaps(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> tuple[ModelGap, ...]:

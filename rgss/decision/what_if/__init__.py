@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.decision.what_if.modelling import model_settings
     from rgss.decision.what_if.numbers import (
         COST,
         ModelNumber,
@@ -16,20 +17,28 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.readings import Reading, readings_of
     from rgss.decision.what_if.remeasured import measured_in
     from rgss.decision.what_if.scenario import Change, Scenario
+    from rgss.decision.what_if.setting import ModelSetting, SettingChange
     from rgss.decision.what_if.simulated import simulated_numbers
-    from rgss.decision.what_if.what_if import suppose
+    from rgss.decision.what_if.trial_evidence import ScenarioEvidence, ScenarioEvidenceReader
+    from rgss.decision.what_if.what_if import PRICES, suppose
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
     "COST",
+    "PRICES",
     "Change",
     "ModelNumber",
+    "ModelSetting",
     "Reading",
     "Scenario",
+    "ScenarioEvidence",
+    "ScenarioEvidenceReader",
+    "SettingChange",
     "assumed_numbers",
     "measured_in",
     "measures_with",
+    "model_settings",
     "readings_of",
     "simulated_numbers",
     "suppose",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rgss.decision.what_if.readings import Reading
+from rgss.decision.what_if.setting import SettingChange
 from rgss.studies import Project
 
 
@@ -38,6 +39,7 @@ class Scenario:
         simulated: The numbers that the trials were simulated with, by id: what trials showed is
             held, though another value asks for other trials.
         readings: Other readings of the source that were asked for.
+        settings: Modelling assumptions that were asked for, which trials are made with.
     """
 
     project: Project
@@ -46,3 +48,4 @@ class Scenario:
     dropped: tuple[int, ...]
     simulated: tuple[str, ...]
     readings: tuple[Reading, ...] = ()
+    settings: tuple[SettingChange, ...] = ()

@@ -10,9 +10,11 @@ from functools import partial
 
 from rgss.decision.preference_model import quantity_of
 from rgss.decision.what_if.demands import THRESHOLD, demand_numbers, share_checked
-from rgss.decision.what_if.numbers import CATALOGUE, MEASURES, model_numbers, with_number
+from rgss.decision.what_if.modelling import model_settings, with_setting
+from rgss.decision.what_if.numbers import CATALOGUE, COST, MEASURES, assumed_numbers, model_numbers, with_number
 from rgss.decision.what_if.readings import READING, Reading, with_reading
 from rgss.decision.what_if.scenario import Change, Scenario
+from rgss.decision.what_if.setting import SettingChange
 from rgss.decision.what_if.simulated import simulated_numbers
 from rgss.decision.what_if.weights import with_weights
 from rgss.errors import DefinitionError, EvidenceError, QuantityError
@@ -23,6 +25,9 @@ from rgss.tradeoff import weights_of_criteria
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
 
 WEIGHT, VALUE = "weight", "value"
+PRICES = "prices"
+"""A factor on every assumed price."""
+
 EXAMPLE = 'weight.t_e=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
 
 
@@ -42,15 +47,26 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
     changes: list[Change] = []
     weights: dict[str, float] = {}
     readings: list[Reading] = []
+    settings: list[SettingChange] = []
+    named: set[str] = set()
     for text in suppositions:
         name, value = _split(text)
         name = _full_name(project, name)
-        if name in {*(change.id for change in changes), *(reading.id for reading in readings)}:
+        if name in {*named, *(change.id for change in changes)}:
             raise DefinitionError(f"--what-if: {name} is supposed twice", hint="say it once")
+        named.add(name)
         kind, _, rest = name.partition(".")
         if kind == READING:
             reading, changed = with_reading(changed, name, value)
             readings.append(reading)
+            continue
+        if name in model_settings(changed):
+            setting, changed = with_setting(changed, name, value)
+            settings.append(setting)
+            continue
+        if name == PRICES:
+            prices, changed = _prices(changed, value)
+            changes += prices
             continue
         demand, _, field = name.rpartition(".")
         if kind == WEIGHT:
@@ -65,7 +81,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         elif field == THRESHOLD:
             change, changed = _threshold(changed, name, demand, value)
         else:
-            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES, READING]
+            kinds = [WEIGHT, VALUE, CATALOGUE, MEASURES, READING, PRICES, *model_settings(project)]
             raise _unknown(name, [*kinds, *_requirements(project), *demand_numbers(project)], name)
         changes.append(change)
     rescaled: tuple[Change, ...] = ()
@@ -82,6 +98,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         dropped=_dropped(project, changed),
         simulated=_simulated(project, changes),
         readings=tuple(readings),
+        settings=tuple(settings),
     )
 
 
@@ -220,6 +237,22 @@ def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
     if after < 0.0 <= number.value:
         raise DefinitionError(f"--what-if: {name} is {after:g}", hint="give a number from 0 on")
     return Change(id=name, before=number.value, after=after, unit=number.unit), with_number(project, number, after)
+
+
+def _prices(project: Project, text: str) -> tuple[list[Change], Project]:
+    """Every assumed price times a factor."""
+    factor = _quantity(PRICES, text, "1")
+    if factor < 0.0:
+        raise DefinitionError(f"--what-if: {PRICES} must be a factor of at least 0, got {factor:g}")
+    changes = []
+    for number in assumed_numbers(project):
+        if number.name == COST:
+            after = factor * number.value
+            changes.append(Change(id=number.id, before=number.value, after=after, unit=number.unit))
+            project = with_number(project, number, after)
+    if not changes:
+        raise DefinitionError(f"--what-if: no price is assumed, so that {PRICES} changes nothing")
+    return changes, project
 
 
 def _quantity(name: str, text: str, unit: str) -> float:

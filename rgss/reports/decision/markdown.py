@@ -10,6 +10,7 @@ from rgss.decision.study_decision import RobustnessFindings, SideBySide, StudyDe
 from rgss.documents import LARGEST_FILE_BYTES, chunks_of
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible
+from rgss.reports.decision.assumption_rows import ASSUMPTION_HEADS, assumption_rows, assumption_sentences
 from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
 from rgss.reports.decision.words import UNKNOWN, amount, ids_text, moves_text, score, variants_text
 from rgss.trace.views import share_in_words
@@ -32,9 +33,22 @@ def decision_section(made: StudyDecision) -> str:
         parts += [*_choice(made, made.comparison), ""]
         parts += [*_deciding(made, found), ""]
         parts += [*_costs(found), ""]
+    if made.assumptions:
+        parts += [*_assumptions(made), ""]
     for line in () if found is None else not_computed_lines(found.analysis.not_computed):
         parts += [line, ""]
     return visible("\n".join([*parts, END]))
+
+
+def _assumptions(made: StudyDecision) -> Iterator[str]:
+    """The table of the modelling assumptions, and what it says."""
+    yield f"| {' | '.join(ASSUMPTION_HEADS)} |"
+    yield "|" + "---|" * len(ASSUMPTION_HEADS)
+    for row in assumption_rows(made):
+        first, *others = (cell.replace("|", "\\|") for cell in row.cells)
+        yield f"| `{first}` | {' | '.join(others)} |"
+    yield ""
+    yield " ".join(assumption_sentences(made))
 
 
 def text_with_place(file: Path) -> str:

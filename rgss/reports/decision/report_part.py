@@ -7,10 +7,12 @@ import itertools
 from rgss.decision import screening_summary
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.study_decision import LimitMoves, RobustnessFindings, StudyDecision
+from rgss.reports.decision.assumption_rows import ASSUMPTION_HEADS, assumption_rows, assumption_sentences
 from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
 from rgss.reports.decision.report_conflicts import conflict_reasons
 from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
+from rgss.reports.failure_drivers import cases_to_json, driver_sentence
 from rgss.reports.plain_numbers import Plain, plain_number
 from rgss.tradeoff import Contribution, PortfolioDecision
 from rgss.tradeoff.programs import Certificate
@@ -41,7 +43,13 @@ def decision_part(made: StudyDecision) -> Plain:
         "standing": [line for line in (standing_sentence(made), *uncertainty_sentences(made)) if line],
         "reasons": _reasons(made),
         "cautions": list(cautions(made)),
-        "readings": list(reading_lines(made)),
+        "readings": [] if made.assumptions else list(reading_lines(made)),
+        "modelling": {
+            "heads": list(ASSUMPTION_HEADS),
+            "rows": [{"cells": list(row.cells), "changes": row.changes} for row in assumption_rows(made)],
+            "sentences": list(assumption_sentences(made)),
+        },
+        "drivers": _drivers(made),
         "screening": "" if made.screened is None else screening_summary(made.screened),
         "fleet": "" if made.portfolio is None else portfolio_sentence(made.portfolio),
         "contributions": {
@@ -78,6 +86,19 @@ def _robustness(found: RobustnessFindings | None) -> Plain:
         "costs": costs_to_json(found.analysis),
         "refused": dict(found.analysis.refused),
         "not_computed": list(not_computed_lines(found.analysis.not_computed)),
+    }
+
+
+def _drivers(made: StudyDecision) -> Plain:
+    """Which draws go with which failures, in sentences, and the success of each case; empty where nothing was drawn."""
+    drivers = made.drivers
+    if drivers is None or not drivers.seeds:
+        return {}
+    return {
+        "trials": drivers.trials,
+        "seeds": drivers.seeds,
+        "sentences": [driver_sentence(one) for one in drivers.failures],
+        "cases": cases_to_json(made.cases),
     }
 
 

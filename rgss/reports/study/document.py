@@ -70,6 +70,7 @@ def report_document(
         "effects": effect_columns(found.effects),
         "trials": trial_columns(measured, notable),
         "planning": planning_columns(project, measured),
+        "planning_references": list(project.study.planning.references),
         "assumptions": assumptions_of(project),
         "provenance": provenance_of(project, measured, store, evidence=made.evidence),
     }

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.studies.planning.declared_planners import planner_problem, require_value
+    from rgss.studies.planning.declared_planners import planner_problem, read_parameter, require_value
     from rgss.studies.planning.section import PlanningChoice, PlanningEntry, read_planning
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
@@ -14,6 +14,7 @@ __all__ = [
     "PlanningChoice",
     "PlanningEntry",
     "planner_problem",
+    "read_parameter",
     "read_planning",
     "require_value",
 ]

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.trials.pieces.assembling import record_under
     from rgss.trials.pieces.bench_json import bench_from_json
     from rgss.trials.pieces.execution_json import execution_from_json
     from rgss.trials.pieces.input_digests import TrialDigests, TrialSpec, digests_of
@@ -29,6 +30,7 @@ __all__ = [
     "make",
     "plan_from_json",
     "record_of",
+    "record_under",
     "require_search",
     "run_trial",
     "tasks_of",

@@ -28,6 +28,7 @@ class _Move:
     detail: str
     verification_checks: int
     repairs: int
+    simplification_unlimited_from: int | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +57,7 @@ def plan_to_json(plan: TaskPlan) -> str:
             detail=move.detail,
             verification_checks=move.verification_checks,
             repairs=move.repairs,
+            simplification_unlimited_from=move.simplification_unlimited_from,
         )
         for move in plan.moves.values()
     )
@@ -86,6 +88,7 @@ def plan_from_json(text: str) -> TaskPlan:
             detail=move.detail,
             verification_checks=move.verification_checks,
             repairs=move.repairs,
+            simplification_unlimited_from=move.simplification_unlimited_from,
         )
         for move in read.moves
     }

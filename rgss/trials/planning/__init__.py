@@ -7,6 +7,7 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.trials.planning.direct_moves import DirectMove, direct_move
     from rgss.trials.planning.goal_reasons import GoalReason, Obstacle, reason_against
+    from rgss.trials.planning.other_limits import plan_under, with_limits_of
     from rgss.trials.planning.plan import plan_of, plan_task, unserved_waypoints
     from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
     from rgss.trials.planning.planner_searches import searches_of
@@ -23,8 +24,10 @@ __all__ = [
     "direct_move",
     "plan_of",
     "plan_task",
+    "plan_under",
     "reason_against",
     "searches_of",
     "state_cost",
     "unserved_waypoints",
+    "with_limits_of",
 ]

@@ -192,6 +192,7 @@ def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: Plannin
         detail=_unverified_detail(result, settings) if result.outcome is PlanOutcome.NOT_VERIFIED else "",
         verification_checks=result.verification_checks,
         repairs=result.repairs,
+        simplification_unlimited_from=result.simplification_unlimited_from,
     )
 
 

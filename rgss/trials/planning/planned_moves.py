@@ -26,6 +26,8 @@ class PlannedMove:
         detail: The obstacle, if the problem itself is ill posed or the path is not valid.
         verification_checks: Those of `checks` that verified the path.
         repairs: Motions of the path that were planned anew, because they were not valid.
+        simplification_unlimited_from: A limit of the simplification in checks from which on no limit changes its
+            result; None if its own did.
     """
 
     phase: Phase
@@ -39,6 +41,7 @@ class PlannedMove:
     detail: str = ""
     verification_checks: int = 0
     repairs: int = 0
+    simplification_unlimited_from: int | None = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,4 +87,5 @@ class TaskPlan:
             detail="",
             verification_checks=0,
             repairs=0,
+            simplification_unlimited_from=0,
         )

@@ -137,7 +137,7 @@ def test_the_document_is_described(page, rgss, with_evidence):
         r"|.*\.(centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
         r"|^sensitivity\..*\.(effective_weights|regrets|weights)\..+$"
     )
-    own = re.compile(r"^(conclusion|robustness|sensitivity|what_if|fleet|model_gaps|readings)\b")
+    own = re.compile(r"^(conclusion|robustness|sensitivity|what_if|fleet|model_gaps|readings|modelling_assumptions)\b")
     found = {key for key in keys_of(document) if (own.match(key) or "." not in key) and not by_id.match(key)}
 
     # Both ends of a bent function have the same keys.
@@ -162,6 +162,7 @@ def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
     whole = {"schema", "study", "double_counting", "shared_parts", "conclusion", "robustness", "fleet", "what_if"}
     whole |= {"evidence", "screening", "model_gaps", "readings", "sensitivity", "elicitation"}
+    whole |= {"modelling_assumptions", "failure_drivers", "cases"}
 
     assert nothing.status == 1
     assert {key for key in found if key.split(".")[0].rstrip("[]") not in whole} == named

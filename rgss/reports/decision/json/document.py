@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.json.assumptions import modelling_assumption_to_json
 from rgss.reports.decision.json.conclusion import conclusion_to_json
 from rgss.reports.decision.json.decision import checks_to_json, decision_to_json
 from rgss.reports.decision.json.elicitation import elicitation_to_json
 from rgss.reports.decision.json.robustness import robustness_to_json, scenario_to_json
 from rgss.reports.decision.json.screening import screening_to_json
 from rgss.reports.decision.json.sensitivity import sensitivity_to_json
+from rgss.reports.failure_drivers import cases_to_json, drivers_to_json
 from rgss.tradeoff import PortfolioDecision
 
 SCHEMA = 2
@@ -52,6 +54,9 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         }
         for one in made.readings
     ]
+    document["modelling_assumptions"] = [modelling_assumption_to_json(one) for one in made.assumptions]
+    document["failure_drivers"] = None if made.drivers is None else drivers_to_json(made.drivers)
+    document["cases"] = cases_to_json(made.cases)
     document["conclusion"] = conclusion_to_json(made)
     document["robustness"] = None if made.robustness is None else robustness_to_json(made.robustness.analysis)
     document["sensitivity"] = None if made.sensitivity is None else sensitivity_to_json(made.sensitivity)
@@ -63,6 +68,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
         else {
             **scenario_to_json(what_if.scenario),
             "readings": [{"measure": one.measure, "alternative": one.alternative} for one in what_if.scenario.readings],
+            "settings": [{"id": one.id, "before": one.before, "after": one.after} for one in what_if.scenario.settings],
             "decision_before": decision_to_json(what_if.before.decision),
         }
     )

@@ -9,6 +9,7 @@ from rgss.reports.decision.answers_in_words import elicitation_sentences
 from rgss.reports.decision.sentences import cautions, reading_lines
 from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
 from rgss.reports.decision.text.effects import effects_lines
+from rgss.reports.decision.text.modelling import drivers_lines, modelling_lines
 from rgss.reports.decision.text.robustness import robustness_lines
 from rgss.reports.decision.text.screening import reopened_lines, screening_lines
 from rgss.reports.decision.text.sensitivity import sensitivity_lines
@@ -33,9 +34,12 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
             yield from sensitivity_lines(made.sensitivity)
         if effects:
             yield from effects_lines(made.robustness.effects)
-    if made.readings:
+    if made.assumptions:
+        yield from modelling_lines(made)
+    elif made.readings:
         yield from ("", "Readings of the source (--what-if)")
         yield from (f"  {line}" for line in reading_lines(made))
+    yield from drivers_lines(made)
     if made.portfolio is not None:
         yield from portfolio_lines(made.portfolio)
     yield ""

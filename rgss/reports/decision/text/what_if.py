@@ -20,6 +20,8 @@ def what_if_lines(what_if: WhatIf) -> Iterator[str]:
     yield "What if"
     for change in scenario.changes:
         yield f"  {change.id}: {amount(change.before, change.unit)} → {amount(change.after, change.unit)}"
+    for setting in scenario.settings:
+        yield f"  {setting.id}: {setting.before} → {setting.after}"
     for reading in scenario.readings:
         yield f"  {reading.supposition}: {reading.rationale}"
     if scenario.rescaled:

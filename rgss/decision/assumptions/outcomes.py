@@ -1,0 +1,142 @@
+"""The choice under each alternative of each assumption that is questioned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rgss.assessment import VariantMeasures
+from rgss.decision.assumptions.questions import Question, questions_of
+from rgss.decision.choosing import choose
+from rgss.decision.what_if import Scenario, ScenarioEvidenceReader, suppose
+from rgss.errors import RgssError
+from rgss.evidence import EvidenceStore
+from rgss.studies import Project
+from rgss.tradeoff import Decision
+from rgss.trials.pieces import TrialSpec
+
+_AS_STATED = "as stated"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AssumptionOutcome:
+    """The choice under one alternative of one assumption.
+
+    Attributes:
+        question: The assumption and its alternative.
+        taken_as: What the study takes it as.
+        chosen: The variant that is then chosen; None if none is, or that is not known.
+        ties: All that are then as good.
+        feasible: Number of variants that then meet every requirement by their estimates.
+        is_same: Whether the study's choice is still among the best; None if that is not known.
+        trials: Number of trials that it needs.
+        missing: Number of those that would have to be run.
+        read_off: Number of those that were read off stored searches.
+        otherwise: Number of trials that then succeed and do not in the study, and of those that do and then do not.
+        otherwise_of_choice: Number of these that are trials of the study's choice.
+        excluded_by: Requirements that the study's evidence excludes the other choice by.
+        reason: Why there is no answer; empty where there is one, or trials are missing.
+    """
+
+    question: Question
+    taken_as: str = ""
+    chosen: int | None = None
+    ties: tuple[int, ...] = ()
+    feasible: int = 0
+    is_same: bool | None = None
+    trials: int = 0
+    missing: int = 0
+    read_off: int = 0
+    otherwise: tuple[int, int] = (0, 0)
+    otherwise_of_choice: int = 0
+    excluded_by: tuple[str, ...] = ()
+    reason: str = ""
+
+
+def assumption_outcomes(
+    project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore
+) -> tuple[AssumptionOutcome, ...]:
+    """The choice under each alternative, one at a time, as far as the evidence tells; nothing is simulated.
+
+    Args:
+        project: The project with its study, without suppositions.
+        measured: Every variant with its estimates and records.
+        store: The evidence.
+
+    Raises:
+        EvidenceError: Trials of the study have no evidence.
+        TradeoffError: The choice is ill posed, or no optimum was proved.
+        DefinitionError: As for `trade_problem`.
+    """
+    decision = choose(project, measured)
+    reader = ScenarioEvidenceReader(project, measured, store)
+    return tuple(_outcome(project, measured, decision, reader, question) for question in questions_of(project))
+
+
+def missing_trials(
+    project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore
+) -> tuple[TrialSpec, ...]:
+    """The trials that the questions need and the evidence does not tell, each once.
+
+    Args:
+        project: The project with its study, without suppositions.
+        measured: Every variant with its estimates and records.
+        store: The evidence.
+
+    Raises:
+        EvidenceError: The store is damaged.
+        DefinitionError: An alternative is none.
+    """
+    reader = ScenarioEvidenceReader(project, measured, store)
+    scenarios = (suppose(project, [question.supposition]) for question in questions_of(project))
+    return tuple(spec for scenario in scenarios for spec in reader.read(scenario).missing)
+
+
+def _outcome(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    decision: Decision,
+    reader: ScenarioEvidenceReader,
+    question: Question,
+) -> AssumptionOutcome:
+    try:
+        scenario = suppose(project, [question.supposition])
+        found = reader.read(scenario)
+        if found.missing:
+            return AssumptionOutcome(
+                question=question,
+                taken_as=_taken_as(scenario),
+                trials=found.trials,
+                missing=len(found.missing),
+                read_off=found.read_off,
+            )
+        other = choose(scenario.project, found.measured)
+    except RgssError as error:
+        return AssumptionOutcome(question=question, reason=error.message)
+    before, after = _successes(measured), _successes(found.measured)
+    return AssumptionOutcome(
+        question=question,
+        taken_as=_taken_as(scenario),
+        chosen=other.chosen,
+        ties=other.ties,
+        feasible=other.counts.feasible,
+        is_same=decision.chosen in other.ties if other.ties else decision.chosen is None,
+        trials=found.trials,
+        read_off=found.read_off,
+        otherwise=(len(after - before), len(before - after)),
+        otherwise_of_choice=sum(variant == decision.chosen for variant, _ in before ^ after),
+        excluded_by=next((one.requirements for one in decision.infeasible if one.variant == other.chosen), ()),
+    )
+
+
+def _taken_as(scenario: Scenario) -> str:
+    if scenario.settings:
+        return scenario.settings[0].before
+    if len(scenario.changes) == 1:
+        (change,) = scenario.changes
+        return f"{change.before:g}" if change.unit == "1" else f"{change.before:g} {change.unit}"
+    return _AS_STATED
+
+
+def _successes(measured: Sequence[VariantMeasures]) -> set[tuple[int, int]]:
+    return {(record.variant, record.seed) for entry in measured for record in entry.records if record.success}

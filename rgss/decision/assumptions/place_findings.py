@@ -1,0 +1,60 @@
+"""Findings about what a study questions: assumptions, alternatives and ranges of inputs that are not there."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator
+from dataclasses import replace
+
+from rgss.decision.what_if import assumed_numbers, suppose
+from rgss.errors import RgssError
+from rgss.findings import Finding, Severity
+from rgss.studies import Project
+
+_ALL = "all"
+
+
+def assumption_findings(project: Project) -> tuple[Finding, ...]:
+    """What is wrong with the alternatives of assumptions, and with the names of ranges, at their places in the file.
+
+    Args:
+        project: The project with its study.
+    """
+    return (*_alternative_findings(project), *_range_findings(project))
+
+
+def _alternative_findings(project: Project) -> Iterator[Finding]:
+    for one in project.study.assumptions:
+        for alternative, place in zip(one.alternatives, one.places, strict=True):
+            try:
+                suppose(project, [f"{one.about}={alternative}"])
+            except RgssError as error:  # noqa: PERF203 - all problems are reported at once
+                message = error.message.removeprefix("--what-if: ")
+                yield replace(place, severity=Severity.ERROR, message=message, hint=error.hint)
+
+
+def _range_findings(project: Project) -> Iterator[Finding]:
+    known = input_names(project)
+    for one in project.study.trade_off.sensitivity.ranges:
+        if one.input not in known:
+            near = difflib.get_close_matches(one.input, known, n=3)
+            hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(known[:4])}"
+            message = f"{one.input!r} is no input of this decision"
+            yield replace(one.place, severity=Severity.ERROR, message=message, hint=hint)
+
+
+def input_names(project: Project) -> tuple[str, ...]:
+    """Names that a range may have: weights, ends and shapes of value functions, thresholds, assumed numbers.
+
+    Args:
+        project: The project with its study.
+    """
+    trade_off = project.study.trade_off
+    measures = list(trade_off.weighting.weights)
+    return (
+        *(f"weight.{measure}" for measure in measures),
+        *(f"value.{one.measure}.{key}" for one in trade_off.valued for key in one.anchors),
+        *(f"shape.{measure}" for measure in (*measures, _ALL)),
+        *(f"{one.id}.threshold" for one in project.requirements.system if one.criterion is not None),
+        *(number.id for number in assumed_numbers(project)),
+    )

@@ -1,0 +1,72 @@
+"""Which assumptions of a study are questioned: those of its file, else a list that follows from the study."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rgss.decision.what_if import COST, PRICES, assumed_numbers, model_settings, readings_of
+from rgss.evidence import Fidelity
+from rgss.studies import Project
+
+_CHARGE = "planning.charge_per_check"
+_LIMIT = "planning.time_limit"
+_FIDELITY = "fidelity"
+_NOMINAL = "uncertainty.nominal"
+_CHARGE_FACTORS = (0.5, 2.0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Question:
+    """An assumption, and what it is taken as instead.
+
+    Attributes:
+        about: The assumption, as ``--what-if`` takes it.
+        alternative: Another value of it.
+    """
+
+    about: str
+    alternative: str
+
+    @property
+    def supposition(self) -> str:
+        """The text that ``--what-if`` takes."""
+        return f"{self.about}={self.alternative}"
+
+
+def questions_of(project: Project) -> tuple[Question, ...]:
+    """The assumptions that are questioned, each alternative by itself.
+
+    They are those that the study's file gives alternatives; where it gives none, the charge of a check halved and
+    doubled, each planning limit of a design for all designs, the world without uncertainty, kinematic trials, and
+    assumed prices of 0. Readings of the source follow from the measures' file.
+
+    Args:
+        project: The project with its study.
+    """
+    listed = [
+        Question(about=one.about, alternative=alternative)
+        for one in project.study.assumptions
+        for alternative in one.alternatives
+    ]
+    readings = [Question(about=one.id, alternative=one.alternative) for one in readings_of(project)]
+    return tuple(dict.fromkeys((*(listed or _derived(project)), *readings)))
+
+
+def _derived(project: Project) -> Iterator[Question]:
+    study, settings = project.study, model_settings(project)
+    if study.planning.counted:
+        for factor in _CHARGE_FACTORS:
+            charge_ms = 1e3 * factor * study.planning.charge_per_check_s
+            yield Question(about=_CHARGE, alternative=f"{charge_ms:g} ms")
+    setting = {parameter.id for parameter in project.designs.parameters if parameter.sets == _LIMIT}
+    limits = {float(one.parameters[name]) for one in project.designs.expand() for name in setting}
+    if len(limits) > 1 and _LIMIT in settings:
+        for limit in sorted(limits):
+            yield Question(about=_LIMIT, alternative=f"{limit:g} s")
+    if project.uncertainty.values or project.workload.cases:
+        yield Question(about=_NOMINAL, alternative="true")
+    if study.fidelity is not Fidelity.KINEMATIC:
+        yield Question(about=_FIDELITY, alternative=Fidelity.KINEMATIC.value)
+    if any(number.name == COST and number.value > 0.0 for number in assumed_numbers(project)):
+        yield Question(about=PRICES, alternative="0")

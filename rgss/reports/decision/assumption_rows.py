@@ -1,0 +1,119 @@
+"""Table of the modelling assumptions: what each is taken as, and the choice under an alternative, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rgss.decision.assumptions import AssumptionOutcome
+from rgss.decision.study_decision import StudyDecision
+from rgss.reports.decision.words import UNKNOWN, ids_text
+
+ASSUMPTION_HEADS = ("assumption", "taken as", "instead", "then chosen", "changes the choice")
+_FIDELITY = "fidelity"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AssumptionRow:
+    """A row of the table.
+
+    Attributes:
+        cells: Its cells, under `ASSUMPTION_HEADS`.
+        changes: Whether the choice changes; None if that is not known.
+    """
+
+    cells: tuple[str, ...]
+    changes: bool | None
+
+
+def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
+    """The rows of the table, in the order of the questions.
+
+    Args:
+        made: The decision.
+    """
+    return tuple(
+        AssumptionRow(
+            cells=(
+                one.question.about,
+                one.taken_as or UNKNOWN,
+                one.question.alternative,
+                _choice(one),
+                _change(one),
+            ),
+            changes=None if one.is_same is None else not one.is_same,
+        )
+        for one in made.assumptions
+    )
+
+
+def assumption_sentences(made: StudyDecision) -> Iterator[str]:
+    """What the table says in a sentence, how to complete it, and whether less physics decides otherwise.
+
+    Args:
+        made: The decision.
+    """
+    if not made.assumptions:
+        return
+    known = [one for one in made.assumptions if one.is_same is not None]
+    changing = list(dict.fromkeys(one.question.about for one in known if not one.is_same))
+    if changing:
+        yield f"The choice depends on {', '.join(changing)}."
+    elif known:
+        yield "No assumption whose trials are known changes the choice."
+    missing = [one for one in made.assumptions if one.missing]
+    if missing:
+        trials = sum(one.missing for one in missing)
+        yield (
+            f"{len(missing)} of {len(made.assumptions)} rows need trials that were not run, {trials} in all: "
+            f"'rgss trade' with --what-if \"{missing[0].question.supposition}\" --run runs those of one row, "
+            "with --run alone those of all."
+        )
+    yield from _fidelity_sentences(made)
+
+
+def _fidelity_sentences(made: StudyDecision) -> Iterator[str]:
+    for one in made.assumptions:
+        if one.question.about != _FIDELITY or one.reason:
+            continue
+        here, other = one.taken_as, one.question.alternative
+        if one.missing:
+            yield f"Whether {other} trials decide as {here} trials do is not known: they were not run."
+            continue
+        gained, lost = one.otherwise
+        ends = (
+            f"{gained + lost} of {one.trials} trials end otherwise ({gained} succeed only as {other} trials, "
+            f"{lost} only as {here} trials)"
+        )
+        if not one.is_same:
+            why = f"; {here} trials exclude that by {', '.join(one.excluded_by)}" if one.excluded_by else ""
+            then = "nothing" if one.chosen is None else f"variant {one.chosen}"
+            yield f"{other.capitalize()} trials decide otherwise, and choose {then}{why}; {ends}."
+        elif gained + lost:
+            own = f"{one.otherwise_of_choice or 'none'} of these are trials of the chosen design"
+            yield (
+                f"{other.capitalize()} trials decide as {here} trials do, although {ends}: {own}. By their estimates "
+                f"{one.feasible} designs meet every requirement in {other} trials, {made.decision.counts.feasible} in "
+                f"{here} trials."
+            )
+        else:
+            yield f"{other.capitalize()} trials decide as {here} trials do, because all {one.trials} trials end alike."
+
+
+def _choice(one: AssumptionOutcome) -> str:
+    if one.reason:
+        return f"no answer: {one.reason}"
+    if one.missing:
+        return f"needs {one.missing} of {one.trials} trials"
+    if one.chosen is None:
+        return "nothing is feasible"
+    others = ids_text(tuple(variant for variant in one.ties if variant != one.chosen))
+    return f"variant {one.chosen}{f' ({others} as good)' if others else ''}, {one.feasible} feasible"
+
+
+def _change(one: AssumptionOutcome) -> str:
+    if one.is_same is None:
+        return UNKNOWN
+    if one.is_same:
+        return "no"
+    return "yes, to nothing" if one.chosen is None else f"yes, to variant {one.chosen}"

@@ -1,0 +1,32 @@
+"""Modelling assumptions that are questioned, in the JSON document of a decision."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rgss.decision.assumptions import AssumptionOutcome
+
+
+def modelling_assumption_to_json(one: AssumptionOutcome) -> dict[str, Any]:
+    """The choice under one alternative of one assumption.
+
+    Args:
+        one: The outcome.
+    """
+    return {
+        "assumption": one.question.about,
+        "taken_as": one.taken_as,
+        "alternative": one.question.alternative,
+        "chosen": one.chosen,
+        "ties": list(one.ties),
+        "feasible": one.feasible,
+        "changes_choice": None if one.is_same is None else not one.is_same,
+        "excluded_by": list(one.excluded_by),
+        "trials": one.trials,
+        "missing_trials": one.missing,
+        "read_off": one.read_off,
+        "trials_gained": one.otherwise[0],
+        "trials_lost": one.otherwise[1],
+        "of_the_choice": one.otherwise_of_choice,
+        "reason": one.reason,
+    }
