@@ -4,9 +4,10 @@ import random
 
 import pytest
 
-from rgss.decision.until_decided import replicate_until_decided, summary
+from rgss.decision.until_decided import replicate_until_decided
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
+from rgss.reports.decision.until_decided import until_decided_summary
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of
 from rgss.tradeoff.sequential import Reason, SequentialRule
@@ -59,7 +60,7 @@ def test_replicates_go_where_they_can_change_the_decision(shipped, store, runner
     assert set(result.verdicts) == set(result.trials)
     again = replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)
     assert again == result
-    text = summary(result)
+    text = until_decided_summary(result)
     assert text.startswith(f"variant {result.variant}: cap reached with {len(result.contenders)} contenders")
     assert f"{result.total} trials in {result.looks} looks" in text
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rgss.assessment import VariantMeasures
+from rgss.assessment import SeedGroup, VariantMeasures, sequential_seeds
 from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.screening_result import ScreeningResult
@@ -49,6 +49,7 @@ class StudyDecision:
         elicited_by: The same of stakeholders, by name.
         gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
         readings: What each reading of the source would lead to; empty if not analysed.
+        seeds: The seeds that were read, where variants may have different numbers; empty otherwise.
     """
 
     study: str
@@ -72,6 +73,7 @@ class StudyDecision:
     elicited_by: Mapping[str, ElicitedWeights] = field(default_factory=dict)
     gaps: tuple[ModelGap, ...] = ()
     readings: tuple[ReadingOutcome, ...] = ()
+    seeds: tuple[SeedGroup, ...] = ()
 
     @property
     def is_final(self) -> bool:
@@ -194,6 +196,7 @@ def study_decision(
         what_if=what_if,
         gaps=_gaps(project, measured, decision),
         readings=readings,
+        seeds=sequential_seeds(project, measured),
     )
 
 

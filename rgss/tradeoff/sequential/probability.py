@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.tradeoff.problem import ObservedRows, posterior_means
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
+
+_TIE = 1e-9
 
 DRAWS = 2_000
 """So often the evidence is drawn anew."""
@@ -30,6 +33,35 @@ def probability_of_good_selection(
     Returns:
         The share of the draws in which the choice is feasible and good, or nothing is feasible.
     """
+    values, feasible = _posterior(evidence, draws=draws, seed=seed)
+    if chosen is None:
+        return float(np.mean(~feasible.any(axis=1)))
+    row = evidence.table.row_of(chosen)
+    best = np.where(feasible, values, -np.inf).max(axis=1)
+    return float(np.mean(feasible[:, row] & (values[:, row] >= best - margin)))
+
+
+def probabilities_of_best(evidence: SequentialEvidence, *, seed: int, draws: int = DRAWS) -> NDArray[np.float64]:
+    """The posterior probability that each alternative is the best feasible one, if one is feasible, shape (n,).
+
+    Ties share a draw evenly, so that the sum is 1; 0 for all where no draw has a feasible alternative.
+
+    Args:
+        evidence: The evidence.
+        seed: Seed of the draws.
+        draws: How many.
+    """
+    values, feasible = _posterior(evidence, draws=draws, seed=seed)
+    some = feasible.any(axis=1)
+    if not some.any():
+        return np.zeros(len(evidence.table))
+    worth = np.where(feasible[some], values[some], -np.inf)
+    first = worth >= worth.max(axis=1, keepdims=True) - _TIE
+    return np.asarray((first / first.sum(axis=1, keepdims=True)).mean(axis=0), dtype=np.float64)
+
+
+def _posterior(evidence: SequentialEvidence, *, draws: int, seed: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Values and feasibility of the alternatives in posterior draws, shape (draws, n) each."""
     rows = [ObservedRows(values=one.values, is_proportion=one.is_proportion) for one in evidence.observed]
     found = posterior_means(rows, draws=draws, generator=np.random.default_rng(seed))
     values = np.tile(evidence.fixed_value, (draws, 1))
@@ -42,9 +74,4 @@ def probability_of_good_selection(
         for threshold in one.thresholds.values():
             margins = threshold.comparison.margin(1.0, 0.0) * (drawn - threshold.value)
             feasible &= known & (margins >= -1e-12)
-    feasible &= ~np.isnan(values)
-    if chosen is None:
-        return float(np.mean(~feasible.any(axis=1)))
-    row = evidence.table.row_of(chosen)
-    best = np.where(feasible, values, -np.inf).max(axis=1)
-    return float(np.mean(feasible[:, row] & (values[:, row] >= best - margin)))
+    return values, feasible & ~np.isnan(values)

@@ -92,9 +92,8 @@ def test_the_budget_ends_what_the_cap_would_not(replicate):
     rule = SequentialRule(batch=20, cap=400, budget=100)
     answer, counts, _ = replicate(drawn({1: 0.95, 2: 0.95, 3: 0.95}), {1: 0.5, 2: 0.5, 3: 0.5}, rule)
     assert answer.reason is Reason.BUDGET
-    assert sum(counts.values()) == 100
-    # The choice comes first where a look has room for a part only.
-    assert counts[answer.variant] == max(counts.values())
+    # All that may be the best are raised together, so that they are compared on the same seeds.
+    assert counts == {1: 33, 2: 33, 3: 33}
 
 
 def test_a_budget_with_room_to_spare_changes_nothing(replicate):
