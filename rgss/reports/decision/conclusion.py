@@ -125,10 +125,13 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
     names = variants_text(found.variants(tuple(one.row for one in members)))
     why = "within the practical margin, " if rival.within_margin else ""
     tied = f"Tied: {names} ({why}as good with a probability of {share_in_words(rival.probability)})"
-    if rival.by_feasibility:
-        return f"{tied}; only where the choice misses a requirement, so that its verdicts decide and no value does."
     if not any(found.analysis.feasible[one.row] for one in members):
         return f"{tied}; not feasible by the estimates, which more replicates could change."
+    if rival.by_feasibility:
+        return (
+            f"{tied}; it is ahead only where the choice misses a requirement: replicates that settle the open verdicts "
+            "break the tie, and no difference of value does."
+        )
     if rival.measure is None:
         return f"{tied}; no estimate differs, so that only a measure that tells them apart breaks the tie."
     if rival.replicates is None:

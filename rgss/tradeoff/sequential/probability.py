@@ -41,23 +41,30 @@ def probability_of_good_selection(
     return float(np.mean(feasible[:, row] & (values[:, row] >= best - margin)))
 
 
-def probabilities_of_best(evidence: SequentialEvidence, *, seed: int, draws: int = DRAWS) -> NDArray[np.float64]:
-    """The posterior probability that each alternative is the best feasible one, if one is feasible, shape (n,).
+def probabilities_of_loss(
+    evidence: SequentialEvidence, chosen: int | None, *, margin: float, seed: int, draws: int = DRAWS
+) -> NDArray[np.float64]:
+    """The posterior probability that each alternative is the best and the choice is not good, shape (n,).
 
-    Ties share a draw evenly, so that the sum is 1; 0 for all where no draw has a feasible alternative.
+    The choice is good where it is feasible and within the margin of the best: what it is tied with in every draw
+    has probability 0. Equals share a draw evenly.
 
     Args:
         evidence: The evidence.
+        chosen: The choice; None if nothing is feasible by the estimates, which is never good.
+        margin: The difference of value that is practically none.
         seed: Seed of the draws.
         draws: How many.
     """
     values, feasible = _posterior(evidence, draws=draws, seed=seed)
-    some = feasible.any(axis=1)
-    if not some.any():
-        return np.zeros(len(evidence.table))
-    worth = np.where(feasible[some], values[some], -np.inf)
-    first = worth >= worth.max(axis=1, keepdims=True) - _TIE
-    return np.asarray((first / first.sum(axis=1, keepdims=True)).mean(axis=0), dtype=np.float64)
+    worth = np.where(feasible, values, -np.inf)
+    highest = worth.max(axis=1, keepdims=True)
+    lost = feasible.any(axis=1)
+    if chosen is not None:
+        row = evidence.table.row_of(chosen)
+        lost &= ~(feasible[:, row] & (worth[:, row] >= highest[:, 0] - margin))
+    first = (worth >= highest - _TIE) & lost[:, None]
+    return np.asarray((first / np.maximum(first.sum(axis=1, keepdims=True), 1)).mean(axis=0), dtype=np.float64)
 
 
 def _posterior(evidence: SequentialEvidence, *, draws: int, seed: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:

@@ -31,7 +31,7 @@ import numpy as np
 
 from rgss.measures import Verdict
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
-from rgss.tradeoff.sequential.allocation import likely_best, raised_together
+from rgss.tradeoff.sequential.allocation import likely_better, raised_together
 from rgss.tradeoff.sequential.comparison import is_infeasible, threshold_evidence
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.rule import SequentialRule, affordable_replicates, check_pilot
@@ -124,7 +124,7 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     accepted = chosen is not None and is_accepted(evidence, rule, progress, chosen)
     decided = (accepted and not open_pairs) or not any(progress.dropped.get(each) != INFEASIBLE for each in ids)
     if rule.budget is not None and not decided:
-        members = likely_best(evidence, open_pairs, chosen, seed=progress.looks)
+        members = likely_better(evidence, rule, chosen, open_pairs, seed=progress.looks)
         wanted = dict.fromkeys(members, rule.cap)
         affordable = raised_together(evidence, rule, members)
     else:
