@@ -86,10 +86,11 @@ def _advice(result: UntilDecided, command: str) -> str:
             f"If trials go on as so far, {MOST_FORECAST} replicates do not settle all of it: accept the tie, widen "
             f"until_decided.margin, or go on with '{command} {_raised(result, result.total)}'."
         )
+    name = "cap" if result.reason is Reason.CAP else "budget"
     return (
         f"If trials go on as so far, some {_rounded(found.trials)} trials more settle the decision"
         f"{_beyond_cap(result, found)}; to go on where it stopped, type "
-        f"'{command} {_raised(result, found.trials)}', or raise until_decided.budget."
+        f"'{command} {_raised(result, found.trials)}', or raise until_decided.{name}."
     )
 
 
