@@ -59,10 +59,10 @@ def probabilities_of_loss(
     values, feasible = _posterior(evidence, draws=draws, seed=seed)
     worth = np.where(feasible, values, -np.inf)
     highest = worth.max(axis=1, keepdims=True)
-    lost = feasible.any(axis=1)
+    lost: NDArray[np.bool_] = np.asarray(feasible.any(axis=1))
     if chosen is not None:
         row = evidence.table.row_of(chosen)
-        lost &= ~(feasible[:, row] & (worth[:, row] >= highest[:, 0] - margin))
+        lost = lost & ~(feasible[:, row] & (worth[:, row] >= highest[:, 0] - margin))
     first = (worth >= highest - _TIE) & lost[:, None]
     return np.asarray((first / np.maximum(first.sum(axis=1, keepdims=True), 1)).mean(axis=0), dtype=np.float64)
 

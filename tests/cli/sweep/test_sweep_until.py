@@ -134,10 +134,10 @@ def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, mon
     assert told.output.splitlines()[0].startswith("variant 2: budget of 600 trials spent with 3 contenders")
     assert told.output.splitlines()[1:] == [
         (
-            "Open: whether variants 1, 3 are worth more than variant 2 by more than 0.05; whether variant 2, which has 12 "
-            "replicates, meets SYS-024 (about 96 replicates). If trials go on as so far, some 250 trials more settle the "
-            f"decision; to go on where it stopped, type 'rgss sweep --project {folder} --budget 300', or raise "
-            "until_decided.budget."
+            "Open: whether variants 1, 3 are worth more than variant 2 by more than 0.05; whether variant 2, which has "
+            "12 replicates, meets SYS-024 (about 96 replicates). If trials go on as so far, some 250 trials more "
+            f"settle the decision; to go on where it stopped, type 'rgss sweep --project {folder} --budget 300', or "
+            "raise until_decided.budget."
         )
     ]
     assert rgss("sweep", "--dry-run", "--project", folder).output.splitlines()[-1].startswith("Then up to ")
