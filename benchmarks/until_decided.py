@@ -29,7 +29,8 @@ from rgss.tradeoff import Alternative, Comparison, PiecewiseValue, Threshold, Tr
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.probability import probability_of_good_selection
 from rgss.tradeoff.sequential.rule import SequentialRule
-from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, next_batch
+from rgss.tradeoff.sequential.sequential import Decided, Reason, next_batch
+from rgss.tradeoff.sequential.settling import Progress
 from rgss.trials.pieces.input_digests import TrialSpec
 
 FIXED = 200

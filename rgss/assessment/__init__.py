@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     )
     from rgss.assessment.recorded_verdicts import VerdictRecord, read_record
     from rgss.assessment.recording import record_after_sweep, record_verdicts
-    from rgss.assessment.replicates import replicates_of
+    from rgss.assessment.replicates import common_seeds, replicates_of, specs_read
+    from rgss.assessment.seed_groups import SeedGroup, sequential_seeds
+    from rgss.assessment.stored_replicates import read_specs
     from rgss.assessment.workload_cases import CaseSuccess, measured_in_case, success_by_case
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
@@ -34,19 +36,24 @@ __all__ = [
     "DriversOfFailures",
     "EstimateBounds",
     "FailureDrivers",
+    "SeedGroup",
     "VariantMeasures",
     "VerdictRecord",
     "bounds_by_measure",
+    "common_seeds",
     "drivers_of_failures",
     "evidence_state",
     "measure_variants",
     "measured_in_case",
     "project_marks",
     "read_record",
+    "read_specs",
     "record_after_sweep",
     "record_verdicts",
     "replicates_of",
     "require_complete",
     "requirements_with_criteria",
+    "sequential_seeds",
+    "specs_read",
     "success_by_case",
 ]

@@ -8,13 +8,13 @@ from types import MappingProxyType
 
 from rgss.assessment.recorded_verdicts import Basis, Book, RecordedVerdict, VerdictRecord, study_key
 from rgss.assessment.staleness import BasisReader, causes_since, outdated_trials
+from rgss.assessment.stored_replicates import read_specs
 from rgss.designs import DesignVariant, sources
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, TrialRecord
 from rgss.measures import Estimate, StaleCause, Verdict, evaluate, judge
 from rgss.requirements import Criterion, Requirement
-from rgss.studies import Project, trial_specs
-from rgss.sweep import key_of
+from rgss.studies import Project
 from rgss.trials.code import assume_engines
 from rgss.trials.pieces import TrialSpec
 
@@ -57,6 +57,7 @@ def measure_variants(
 ) -> tuple[VariantMeasures, ...]:
     """Estimate every measure of every variant from the evidence that is there, and judge the requirements.
 
+    Which trials are read is a rule of `rgss.assessment.stored_replicates`: variants may have different numbers.
     Only evidence of the project, the code and the engines as they are now is estimated from. A
     verdict that needs a trial of which there is but older evidence is stale, and so is one whose
     requirement, measure or design changed since it was recorded. Where no trial was run a verdict
@@ -76,9 +77,7 @@ def measure_variants(
     """
     assume_engines(() if store is None else (trial.provenance.versions for trial in store.iterate()))
     variants = project.designs.expand() if among is None else among
-    specs: dict[int, dict[str, TrialSpec]] = {}
-    for spec in trial_specs(project, variants=variants):
-        specs.setdefault(spec.variant, {})[key_of(spec)] = spec
+    specs = read_specs(project, store, variants)
     found: Mapping[str, TrialRecord] = {}
     outdated: dict[int, list[tuple[StaleCause, ...]]] = {}
     if store is not None:

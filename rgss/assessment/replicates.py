@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from rgss.assessment.measuring import VariantMeasures
 from rgss.designs import sources
@@ -15,9 +16,12 @@ from rgss.measures import (
     Population,
     Value,
     design_values,
+    evaluate,
     ratio_values,
     trial_values,
 )
+from rgss.studies import Project, trial_specs
+from rgss.trials.pieces import TrialSpec
 
 
 def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, tuple[float | None, ...]]:
@@ -42,6 +46,52 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
     return {
         measure.id: _row(measure, trials, successes) for measure in measures.measures if measure.estimate is not None
     }
+
+
+def common_seeds(project: Project, measured: Sequence[VariantMeasures]) -> tuple[VariantMeasures, ...]:
+    """Every variant with the estimates by those seeds alone that all variants have.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its estimates and records, in the order of their seeds.
+
+    Returns:
+        The same where all have equal numbers; verdicts are those of all seeds.
+    """
+    fewest = min((len(entry.records) for entry in measured), default=0)
+    return tuple(
+        entry
+        if len(entry.records) == fewest
+        else replace(
+            entry,
+            trials=entry.trials[:fewest],
+            records=entry.records[:fewest],
+            estimates=evaluate(
+                project.measures,
+                fixed=sources(entry.variant),
+                trials=[record.metrics for record in entry.records[:fewest]],
+                variant=entry.variant.id,
+            ),
+        )
+        for entry in measured
+    )
+
+
+def specs_read(project: Project, measured: Sequence[VariantMeasures]) -> tuple[TrialSpec, ...]:
+    """The trials that the estimates come from, variants of equal seeds together.
+
+    Args:
+        project: The project with its study.
+        measured: Every variant with its records.
+    """
+    alike: dict[tuple[int, ...], list[VariantMeasures]] = {}
+    for entry in measured:
+        alike.setdefault(tuple(record.seed for record in entry.records), []).append(entry)
+    return tuple(
+        spec
+        for seeds, group in alike.items()
+        for spec in trial_specs(project, variants=[entry.variant for entry in group], seeds=seeds)
+    )
 
 
 def _row(

@@ -52,6 +52,7 @@ def confirm(
     study = replace(
         project.study,
         replicates=seeds,
+        is_sequential=False,
         screening=None,
         # Of few designs there is no table of levels.
         trade_off=replace(project.study.trade_off, choose_levels=False),

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rgss.decision.screening_result import ScreenedVariant, ScreeningResult, screening_summary
     from rgss.decision.staged_sweep import sweep_in_stages
     from rgss.decision.tracing import trace_evidence
-    from rgss.decision.until_decided import UntilDecided, replicate_until_decided, summary
+    from rgss.decision.until_decided import UntilDecided, replicate_until_decided
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -41,7 +41,6 @@ __all__ = [
     "screening_specs",
     "screening_summary",
     "shared_measures",
-    "summary",
     "surviving_specs",
     "sweep_in_stages",
     "trace_evidence",

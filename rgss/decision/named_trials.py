@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from rgss.assessment import read_specs
 from rgss.decision.screening import screen, screening_specs, surviving_specs
 from rgss.decision.screening_result import ScreeningResult
 from rgss.errors import DefinitionError, DocumentError
@@ -37,7 +38,8 @@ class NamingStudy:
     Attributes:
         file: Its file, relative to the project.
         project: The project with this study.
-        own: The trials that it asks for, at its fidelity and with its number of replicates.
+        own: The trials that it asks for, at its fidelity and with its number of replicates; of a study that
+            replicates until decided also all up to its cap as far as the evidence has the seeds.
         all: These, and what ``--fidelity`` and ``--replicates`` make of them as far as the
             evidence has the seeds.
     """
@@ -85,6 +87,8 @@ def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[s
     Raises:
         EvidenceError: The store is damaged.
     """
+    if study.project.study.is_sequential and study.project.study.screening is None:
+        return frozenset(_keys_read(study.project, store))
     screened = screen(study.project, store)
     return study.own.trials if screened is None else _keys(_screened_specs(study.project, screened))
 
@@ -100,10 +104,18 @@ def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
         EvidenceError: The store is damaged.
     """
     assume_engines(trial.provenance.versions for trial in store.iterate())
+    if project.study.is_sequential and project.study.screening is None:
+        return frozenset(_keys_read(project, store))
     screened = screen(project, store)
     return _keys(
         (*trial_specs(project), *screening_specs(project)) if screened is None else _screened_specs(project, screened)
     )
+
+
+def _keys_read(project: Project, store: EvidenceStore | None) -> Iterator[str]:
+    """The keys of the trials that an assessment reads, those that are missing of the study's own included."""
+    for keys in read_specs(project, store, project.designs.expand()).values():
+        yield from keys
 
 
 def _screened_specs(project: Project, screened: ScreeningResult) -> tuple[TrialSpec, ...]:
@@ -115,9 +127,14 @@ def _keys(specs: Sequence[TrialSpec]) -> frozenset[str]:
 
 
 def _naming(name: str, project: Project, seeds: Mapping[str, Iterable[int]]) -> NamingStudy:
+    study = project.study
     own = (*trial_specs(project), *screening_specs(project))
+    if study.is_sequential:
+        last = study.seed + study.until_decided.cap
+        added = sorted(seed for seed in seeds.get(study.fidelity.value, ()) if study.seeds[-1] < seed < last)
+        own = (*own, *trial_specs(project, seeds=added))
     every = {spec.seed for spec in own}
-    first = project.study.seed
+    first = study.seed
     more: list[TrialSpec] = []
     for fidelity in Fidelity:
         replicates = every | {seed for seed in seeds.get(fidelity.value, ()) if 0 <= seed - first < MOST_REPLICATES}

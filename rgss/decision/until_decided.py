@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rgss.assessment import VariantMeasures
 from rgss.decision.choosing import proportion_measures, trade_problem
@@ -14,7 +14,16 @@ from rgss.evidence import EvidenceStore, TrialRecord
 from rgss.measures import Verdict, evaluate
 from rgss.studies import Project, trial_specs
 from rgss.sweep import key_of
-from rgss.tradeoff.sequential import Decided, Progress, Reason, SequentialEvidence, SequentialRule, next_batch
+from rgss.tradeoff.sequential import (
+    Decided,
+    Forecast,
+    Progress,
+    Reason,
+    SequentialEvidence,
+    SequentialRule,
+    forecast,
+    next_batch,
+)
 from rgss.trials.pieces import TrialSpec
 
 
@@ -32,6 +41,8 @@ class UntilDecided:
             `rgss.tradeoff.sequential.probability.probability_of_good_selection`.
         looks: How often was looked.
         rule: By which rule.
+        unsettled: The variants that may be worth more than the choice by the margin.
+        forecast: The replicates that would settle what is open; None if the decision is settled, or nothing chosen.
     """
 
     reason: Reason
@@ -42,6 +53,8 @@ class UntilDecided:
     probability: float
     looks: int
     rule: SequentialRule
+    unsettled: tuple[int, ...] = ()
+    forecast: Forecast | None = None
 
     @property
     def open_requirements(self) -> tuple[str, ...]:
@@ -88,11 +101,12 @@ def replicate_until_decided(
     wanted = {variant.id: rule.pilot for variant in variants}
     progress = Progress()
     proportions = proportion_measures(project)
+    twins = _twins(project, variants)
     while True:
         specs = read.missing(wanted)
         run(specs)
         read.read(specs)
-        evidence = SequentialEvidence.of(trade_problem(project, read.measured()), proportions)
+        evidence = SequentialEvidence.of(trade_problem(project, read.measured()), proportions, twins=twins)
         answer = next_batch(evidence, rule, progress)
         progress = answer.progress
         if on_look is not None:
@@ -115,25 +129,20 @@ def replicate_until_decided(
         ),
         looks=progress.looks,
         rule=rule,
+        unsettled=tuple(sorted(answer.unsettled)),
+        forecast=None
+        if answer.reason is Reason.DECIDED or answer.variant is None
+        else forecast(evidence, rule, progress, answer.variant, answer.unsettled),
     )
 
 
-def summary(result: UntilDecided) -> str:
-    """One line that says what came of it."""
-    share = result.total / (len(result.trials) * result.rule.cap)
-    chosen = "no variant" if result.variant is None else f"variant {result.variant}"
-    others = len(set(result.contenders) - {result.variant})
-    nearly = f", {others} of the others may equal it within {result.rule.margin:g}" if others else ""
-    ended = {
-        Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
-        Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
-        Reason.BUDGET: f"budget of {result.rule.budget} trials spent with {len(result.contenders)} contenders"
-        + (f", open: {', '.join(result.open_requirements)}" if result.open_requirements else ""),
-    }[result.reason]
-    return (
-        f"{chosen}: {ended}, probability of good selection {result.probability:.3f}; {result.total} trials in "
-        f"{result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
-    )
+def _twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[int, int]:
+    """By variant, the first one whose trials are the same whatever the seed: the two differ in what no trial sees."""
+    first: dict[str, int] = {}
+    found = {}
+    for spec in trial_specs(project, variants=variants, seeds=[project.study.seed]):
+        found[spec.variant] = first.setdefault(key_of(replace(spec, variant=0)), spec.variant)
+    return found
 
 
 class _Evidence:

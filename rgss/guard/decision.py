@@ -18,7 +18,7 @@ from rgss.studies import Project
 from rgss.tradeoff import AdditiveValue
 from rgss.tradeoff.problem import FEWEST_REPLICATES, bootstrap, nondominated
 from rgss.tradeoff.programs import enumerate_alternatives, single_values
-from rgss.tradeoff.robustness import noisy_outcomes, pareto_front, replicate_number
+from rgss.tradeoff.robustness import common_replicates, noisy_outcomes, pareto_front
 
 RESAMPLES = 1_000
 """So often the seeds are drawn anew, where there are too many distinct draws to look at each."""
@@ -173,7 +173,7 @@ def _choice_explained(
         return {}
     table = enumerate_alternatives(problem).table
     try:
-        number = replicate_number(table)
+        number = common_replicates(table)
         resamples = bootstrap(number, draws=RESAMPLES, generator=np.random.default_rng(trials.project.study.seed))
     except TradeoffError:
         return {}

@@ -96,8 +96,8 @@ class Project:
         return replace(self, study=replace(self.study, is_nominal=True))
 
     def with_replicates(self, replicates: int) -> Project:
-        """The same project with another number of replicates."""
-        return replace(self, study=replace(self.study, replicates=replicates))
+        """The same project with a fixed number of replicates, the same for every variant."""
+        return replace(self, study=replace(self.study, replicates=replicates, is_sequential=False))
 
 
 def find_project(folder: Path | None) -> Path:

@@ -72,6 +72,7 @@ class StudyDefinition:
         screening: The trials that come first, and which designs go on from them; None if all do.
         regression: Which metrics are guarded against a baseline; None if none are.
         until_decided: When replication until decided goes on, and when it stops.
+        is_sequential: Whether the file states that rule, so that variants may have more replicates than `replicates`.
         uncertainty: What differs from trial to trial, in place of what the scene says of the same quantities.
         workload: The objects that the trials carry.
         is_nominal: Whether neither is applied, nor the scene's uncertainty.
@@ -95,6 +96,7 @@ class StudyDefinition:
     screening: Screening | None = None
     regression: RegressionGuard | None = None
     until_decided: SequentialRule = field(default_factory=SequentialRule)
+    is_sequential: bool = False
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
     workload: Workload = ONE_WORKLOAD
     is_nominal: bool = False
@@ -105,6 +107,11 @@ class StudyDefinition:
     def seeds(self) -> tuple[int, ...]:
         """The seed of each replicate, the same for every variant."""
         return tuple(range(self.seed, self.seed + self.replicates))
+
+    @property
+    def sweeps_until_decided(self) -> bool:
+        """Whether a sweep goes on until decided of itself: the rule is stated, and so is what it may spend."""
+        return self.is_sequential and self.until_decided.budget is not None
 
 
 def read_study(
@@ -143,7 +150,7 @@ def read_study(
     planning = read_planning(entry.planning, document, findings)
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
-    until_decided = read_until_decided(entry.until_decided, document, findings)
+    until_decided = read_until_decided(entry.until_decided, document, findings, replicates=entry.replicates)
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings)
     workload = read_workload(entry.workload, document, findings)
     places = TradeOffPlaces(
@@ -172,6 +179,7 @@ def read_study(
         screening=screening,
         regression=regression,
         until_decided=until_decided,
+        is_sequential=entry.until_decided is not None,
         uncertainty=uncertainty,
         workload=workload,
         is_nominal=entry.nominal,

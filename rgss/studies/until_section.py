@@ -14,6 +14,9 @@ MOST_TRIALS = 10_000
 """Trials of a variant that replication until decided may ask for."""
 
 _DEFAULT = SequentialRule()
+FEWEST_PILOT = 2
+"""Replicates of a pilot without which nothing is known of their noise."""
+
 _Count = Annotated[int, Field(ge=1, le=MOST_TRIALS)]
 
 
@@ -23,35 +26,42 @@ class UntilDecidedEntry(DocumentModel):
     error_rate: Dimensionless = _DEFAULT.error_rate
     margin: Dimensionless = _DEFAULT.margin
     slack: Dimensionless = _DEFAULT.slack
-    pilot: Annotated[int, Field(ge=2, le=MOST_TRIALS)] = _DEFAULT.pilot
+    pilot: Annotated[int, Field(ge=FEWEST_PILOT, le=MOST_TRIALS)] | None = None
     batch: _Count = _DEFAULT.batch
     cap: _Count = _DEFAULT.cap
     verdict_cap: Annotated[int, Field(ge=0, le=MOST_TRIALS)] = _DEFAULT.verdict_cap
     budget: Annotated[int, Field(ge=1)] | None = None
 
 
-def read_until_decided(entry: UntilDecidedEntry | None, document: Document, findings: list[Finding]) -> SequentialRule:
+def read_until_decided(
+    entry: UntilDecidedEntry | None, document: Document, findings: list[Finding], *, replicates: int
+) -> SequentialRule:
     """The rule that a study's file states; the default one if it states none.
+
+    A pilot that is left out has the study's replicates, and without a budget at least those of the default rule.
 
     Args:
         entry: The section as it stands in the file; None if there is none.
         document: The file.
         findings: Takes what is wrong.
+        replicates: The study's replicates, which are read of every variant.
 
     Returns:
         The rule. It is the study's if nothing was found.
     """
     if entry is None:
         return _DEFAULT
-    found = list(_problems(entry))
+    fewest = _DEFAULT.pilot if entry.budget is None else FEWEST_PILOT
+    pilot = max(fewest, replicates) if entry.pilot is None else entry.pilot
+    found = list(_problems(entry, pilot, replicates))
     for key, message, hint in found:
         # What is left away has no place of its own.
         place = ("until_decided", key) if key in entry.model_fields_set else ("until_decided",)
         findings.append(document.finding("study.until-decided", message, place, hint=hint))
-    return _DEFAULT if found else SequentialRule(**entry.model_dump())
+    return _DEFAULT if found else SequentialRule(**{**entry.model_dump(), "pilot": pilot})
 
 
-def _problems(entry: UntilDecidedEntry) -> list[tuple[str, str, str]]:
+def _problems(entry: UntilDecidedEntry, pilot: int, replicates: int) -> list[tuple[str, str, str]]:
     """The key, the message and the hint of each thing that is wrong."""
     found = []
     if not 0.0 < entry.error_rate < 0.5:
@@ -62,10 +72,13 @@ def _problems(entry: UntilDecidedEntry) -> list[tuple[str, str, str]]:
         found.append(("margin", message, "give one such as 0.05"))
     if not 0.0 <= entry.slack < 1.0:
         found.append(("slack", f"a slack of {entry.slack:g} is no share of a threshold", "give one such as 10 %"))
-    for key, count in (("pilot", entry.pilot), ("verdict_cap", entry.verdict_cap)):
+    for key, count in (("pilot", pilot), ("verdict_cap", entry.verdict_cap)):
         if count > entry.cap:
             message = f"{key} is {count} trials of a variant, and the cap {entry.cap}"
             found.append(
                 (key if key in entry.model_fields_set else "cap", message, "raise the cap, or lower the other")
             )
+    if pilot < replicates:
+        message = f"pilot must be at least the study's replicates, {replicates}, got {pilot}"
+        found.append(("pilot", message, "raise it, or lower the replicates"))
     return found

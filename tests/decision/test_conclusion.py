@@ -139,6 +139,17 @@ def test_a_tie_says_what_could_break_it(made, replicates, measure, words):
     )
 
 
+def test_a_tie_by_feasibility_names_no_number_of_replicates(made):
+    row = int(made.robustness.analysis.feasible.argmax())
+    rival = Rival(row=row, probability=0.25, within_margin=False, replicates=None, measure="t_e", by_feasibility=True)
+    tie = list(uncertainty_sentences(with_rivals(made, rival)))[1]
+    assert tie.endswith(
+        "it is ahead only where the choice misses a requirement: replicates that settle the open verdicts break the "
+        "tie, and no difference of value does."
+    )
+    assert "would part them" not in tie
+
+
 def test_a_choice_without_ties_says_so(made):
     assert list(uncertainty_sentences(with_rivals(made)))[1] == "No other variant is tied with it."
 

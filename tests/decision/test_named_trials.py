@@ -2,7 +2,7 @@
 
 import pytest
 
-from rgss.decision.named_trials import naming_studies
+from rgss.decision.named_trials import asked_trials, naming_studies
 from rgss.errors import DefinitionError, DocumentError
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
@@ -46,6 +46,16 @@ def test_other_fidelities_and_more_replicates_are_named_as_far_as_there_is_evide
     assert not study.all.trials & keys(project.with_fidelity("kinematic"), seeds=[9])
     assert study.own.trials == keys(project)
     assert study.own.pieces < study.all.pieces
+
+
+def test_what_a_study_adds_until_decided_is_its_own(folder, edit):
+    edit(STUDY, "planning:\n", "until_decided: {cap: 20}\nplanning:\n")
+    study = reference(naming_studies(folder, {"contact": {1, 9, 30}}))
+    project = load_project(folder)
+    assert study.own.trials == keys(project) | keys(project, seeds=[9])
+    assert keys(project, seeds=[30]) < study.all.trials
+    # Without evidence a sweep has the study's own trials to make, and no more is known.
+    assert asked_trials(study, None) == keys(project)
 
 
 def test_an_edit_changes_what_is_named(folder, edit):

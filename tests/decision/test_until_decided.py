@@ -4,9 +4,10 @@ import random
 
 import pytest
 
-from rgss.decision.until_decided import replicate_until_decided, summary
+from rgss.decision.until_decided import replicate_until_decided
 from rgss.errors import EvidenceError
 from rgss.evidence import EvidenceStore, Provenance
+from rgss.reports.decision.until_decided import until_decided_summary
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.trial_keys import key_of
 from rgss.tradeoff.sequential import Reason, SequentialRule
@@ -59,9 +60,45 @@ def test_replicates_go_where_they_can_change_the_decision(shipped, store, runner
     assert set(result.verdicts) == set(result.trials)
     again = replicate_until_decided(shipped, store, lambda specs: None, rule=RULE)
     assert again == result
-    text = summary(result)
+    text = until_decided_summary(result)
     assert text.startswith(f"variant {result.variant}: cap reached with {len(result.contenders)} contenders")
     assert f"{result.total} trials in {result.looks} looks" in text
+
+
+def test_a_sweep_that_is_interrupted_goes_on_to_the_same_end(shipped, tmp_path, runner, store, record_of):
+    rule = SequentialRule(pilot=2, batch=2, cap=12, verdict_cap=2, budget=190)
+    whole = replicate_until_decided(shipped, store, runner, rule=rule)
+    assert whole.reason is Reason.BUDGET
+    assert whole.total <= 190
+    assert whole.unsettled
+    records = {trial.key: trial.record for trial in store.all()}
+
+    class InterruptError(Exception):
+        pass
+
+    with EvidenceStore.open(tmp_path / "other.sqlite") as other:
+        left = 0
+
+        def interrupted(specs):
+            # In another order, and ended after so many trials of a look that has more.
+            nonlocal left
+            for spec in reversed(specs):
+                key = key_of(spec)
+                if other.get(key) is not None:
+                    continue
+                if left == 0:
+                    raise InterruptError
+                left -= 1
+                other.put(key, records[key], Provenance(inputs={}, versions={}))
+
+        for allowed in (100, 45, 2):
+            left = allowed
+            with pytest.raises(InterruptError):
+                replicate_until_decided(shipped, other, interrupted, rule=rule)
+        assert len(other) == 147 < whole.total
+        left = 1_000
+        assert replicate_until_decided(shipped, other, interrupted, rule=rule) == whole
+        assert {trial.key: trial.record for trial in other.all()} == records
 
 
 def test_trials_that_were_not_run_are_told(shipped, store):

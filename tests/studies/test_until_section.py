@@ -43,6 +43,33 @@ def test_what_is_left_away_is_as_it_always_was(shipped, folder, section):
     assert load_project(folder).study.until_decided == SequentialRule(cap=60)
 
 
+def test_with_a_budget_a_sweep_goes_on_until_decided(shipped, folder, section):
+    section("until_decided: {budget: 900, cap: 60}\n")
+    study = load_project(folder).study
+    # The pilot are the replicates that the study has of every variant.
+    assert study.until_decided == SequentialRule(cap=60, budget=900, pilot=study.replicates)
+    assert study.sweeps_until_decided
+    assert not load_project(folder).with_replicates(4).study.sweeps_until_decided
+    assert not shipped.study.is_sequential
+
+
+def test_without_a_budget_a_sweep_does_not(folder, section):
+    section("until_decided: {cap: 60}\n")
+    study = load_project(folder).study
+    assert study.is_sequential
+    assert not study.sweeps_until_decided
+
+
+def test_a_pilot_below_the_replicates_is_found(folder, section, edit, place_of, problems):
+    section("until_decided: {pilot: 4}\n")
+    edit(STUDY, f"replicates: {load_project(folder).study.replicates}\n", "replicates: 6\n")
+    (found,) = problems()
+    assert found == (
+        f"{place_of(STUDY, '4}')}: error: pilot must be at least the study's replicates, 6, got 4 "
+        "(raise it, or lower the replicates) [study.until-decided]"
+    )
+
+
 def test_no_trial_depends_on_it(shipped, folder, section):
     section(SECTION)
     variants = [shipped.designs.variant(1)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict, replace
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from rgss.decision import UntilDecided
     from rgss.studies import Project
     from rgss.sweep import LostTrials, WorkerLimits
+    from rgss.tradeoff.sequential import Forecast
     from rgss.trials.pieces import TrialSpec
 
 
@@ -31,11 +33,12 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
         EvidenceError: Trials that it needs could not be run.
         TradeoffError: The study decides in a way that has no sequential rule.
     """
+    from rgss.assessment import record_after_sweep
     from rgss.cli.main import CLEAN, RUN_FAILED
     from rgss.cli.output import print_json, shown_path
     from rgss.cli.sweep.backend import execution_backend
     from rgss.cli.sweep.runner import SweepRunner, report_lost
-    from rgss.decision import replicate_until_decided, summary
+    from rgss.decision import replicate_until_decided
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
 
@@ -43,13 +46,19 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     rule = project.study.until_decided
     if options.cap is not None:
         rule = replace(rule, cap=options.cap)
+    if options.budget is not None:
+        rule = replace(rule, budget=_budget(options.budget))
     lost: list[LostTrials] = []
     label = shown_path(project.evidence)
     with execution_backend(options, limits) as backend, EvidenceStore.open(project.evidence, label=label) as store:
         runner = SweepRunner.of(options, project, store, backend)
 
+        run_now: set[int] = set()
+
         def run(specs: Sequence[TrialSpec]) -> None:
-            lost.extend(runner.run(specs).result.lost)
+            finished = runner.run(specs)
+            run_now.update(finished.tally.run_now)
+            lost.extend(finished.result.lost)
 
         try:
             found = replicate_until_decided(project, store, run, rule=rule, on_look=_report_look)
@@ -60,12 +69,44 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
             report_lost(lost)
             print(f"rgss: {error}", file=sys.stderr)
             return RUN_FAILED
+        if run_now and project.study.is_sequential:
+            record_after_sweep(project, store, run_now)
     if options.json:
         print_json(_as_json(found))
     else:
-        print(summary(found))
+        _print_result(options, project, found)
     report_lost(lost)
     return RUN_FAILED if lost else CLEAN
+
+
+def _print_result(options: argparse.Namespace, project: Project, found: UntilDecided) -> None:
+    from rgss.cli.output import print_lines
+    from rgss.reports.decision import open_paragraph, until_decided_summary
+
+    words = ["rgss", "sweep", *([options.study] if options.study else [])]
+    for name in ("project", "fidelity"):
+        value = getattr(options, name)
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    if options.nominal:
+        words.append("--nominal")
+    if not project.study.sweeps_until_decided:
+        words += ["--until", "decided"]
+    lines = [until_decided_summary(found), open_paragraph(found, command=shlex.join(words))]
+    if not project.study.is_sequential:
+        lines.append(
+            f"The study states no until_decided, so that 'rgss trade' reads its {project.study.replicates} replicates "
+            "of each variant and not those that were added."
+        )
+    print_lines(line for line in lines if line)
+
+
+def _budget(trials: int) -> int:
+    from rgss.errors import DefinitionError
+
+    if trials < 1:
+        raise DefinitionError(f"--budget must be at least 1 trial, got {trials}", hint="leave it away for the study's")
+    return trials
 
 
 def _refuse_contradictions(options: argparse.Namespace, project: Project) -> None:
@@ -89,12 +130,23 @@ def _report_look(look: int, trials: int) -> None:
         print(f"look {look}: {trials} trials", file=sys.stderr)
 
 
+def _forecast(found: Forecast) -> dict[str, object]:
+    return {
+        "trials": found.trials,
+        "accepted": found.accepted,
+        "requirements": dict(found.requirements),
+        "rivals": [{"variant": variant, "replicates": count} for variant, count in found.rivals.items()],
+    }
+
+
 def _as_json(found: UntilDecided) -> dict[str, object]:
     return {
         "reason": found.reason.value,
         "variant": found.variant,
         "contenders": list(found.contenders),
         "open": list(found.open_requirements),
+        "unsettled": list(found.unsettled),
+        "forecast": None if found.forecast is None else _forecast(found.forecast),
         "probability": found.probability,
         **asdict(found.rule),
         "looks": found.looks,

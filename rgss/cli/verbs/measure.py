@@ -44,12 +44,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Show the measures; what has no evidence is shown as not known."""
-    from rgss.assessment import measured_in_case, read_record, record_verdicts
+    from rgss.assessment import measured_in_case, read_record, record_verdicts, sequential_seeds
     from rgss.cli.output import print_json, shown_path
     from rgss.decision import measure_survivors
     from rgss.errors import DefinitionError
     from rgss.evidence import EvidenceStore
-    from rgss.reports.decision import screening_lines
+    from rgss.reports.decision import screening_lines, seeds_sentences
 
     project = chosen_project(options)
     if options.variant is not None:
@@ -83,6 +83,9 @@ def run(options: argparse.Namespace) -> int:
         _print_all(project, measured)
     if screened is not None and options.variant is None and not (options.json or options.drivers):
         print("\n" + "\n".join(screening_lines(screened)))
+    lines = [] if options.json or options.drivers else list(seeds_sentences(sequential_seeds(project, measured)))
+    if lines:
+        print("\n" + "\n".join(lines))
     return 0
 
 

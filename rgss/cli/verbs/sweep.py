@@ -40,10 +40,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--until",
         choices=("decided",),
-        help="add trials only to variants that can still change the decision or a verdict",
+        help="add trials only to variants that can still change the decision or a verdict (without it where the study "
+        "states until_decided.budget)",
     )
     parser.add_argument(
         "--cap", type=int, metavar="N", help="with --until: most trials of a variant (default: the study's)"
+    )
+    parser.add_argument(
+        "--budget", type=int, metavar="N", help="with --until: most trials of all variants (default: the study's)"
     )
     parser.add_argument("--dry-run", action="store_true", help="say what would be made and why, and make nothing")
     parser.add_argument(
@@ -78,9 +82,11 @@ def run(options: argparse.Namespace) -> int:
     project = chosen_project(options)
     jobs_of(options)
     limits = _limits(options)
-    if options.cap is not None and options.until is None:
-        raise DefinitionError("--cap needs --until decided", hint="--replicates is the fixed number of trials")
-    if options.until is not None:
+    until = options.until is not None or (project.study.sweeps_until_decided and not options.only)
+    for given, option in ((options.cap, "--cap"), (options.budget, "--budget")):
+        if given is not None and not until:
+            raise DefinitionError(f"{option} needs --until decided", hint="--replicates is the fixed number of trials")
+    if until and (options.until is not None or not options.dry_run):
         return sweep_until_decided(options, project, limits)
     variants = picked(project.designs, options.only or ())
     if options.dry_run:
@@ -142,6 +148,9 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
         print_json(dry_run_as_json(found, label))
     else:
         print(*dry_run_lines(found, label), sep="\n")
+        if project.study.sweeps_until_decided and not options.only:
+            more = (project.study.until_decided.budget or 0) - len(specs)
+            print(f"Then up to {more} trials more, where the decision is open (until_decided.budget).")
     return CLEAN
 
 

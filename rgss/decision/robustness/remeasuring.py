@@ -92,10 +92,10 @@ class Remeasuring:
                 observed = [replicates_of(measures, self._changed(row, number, value)) for row in rows]
             old = self.table.samples[column]
             values = old.values.copy()
-            fresh = np.array([one[measure] for one in observed], dtype=np.float64)
+            fresh = _padded([one[measure] for one in observed], values.shape[1])
             if column != measure:
                 # An end of an interval moves with the mean; its replicates stand as far away as they did.
-                observed_now = np.array(self._replicates(measure, rows), dtype=np.float64)
+                observed_now = _padded(self._replicates(measure, rows), values.shape[1])
                 fresh += (_mean(old.values[rows]) - _mean(observed_now))[:, None]
             values[rows] = fresh
             quantities[rows, place] += _mean(values[rows]) - _mean(old.values[rows])
@@ -132,6 +132,14 @@ class Remeasuring:
 
     def _replicates(self, measure: str, rows: NDArray[np.intp]) -> list[tuple[float | None, ...]]:
         return [replicates_of(self.project.measures, self.measured[row])[measure] for row in rows]
+
+
+def _padded(rows: Sequence[Sequence[float | None]], width: int) -> Column:
+    """Replicates as rows of one width; NaN where unknown, and where a variant has fewer than others."""
+    values = np.full((len(rows), width), np.nan)
+    for place, row in enumerate(rows):
+        values[place, : len(row)] = np.array(row, dtype=np.float64)
+    return values
 
 
 def _mean(replicates: Column) -> Column:

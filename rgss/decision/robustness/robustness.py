@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.assessment import VariantMeasures
+from rgss.assessment import VariantMeasures, common_seeds
 from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.decision.level_structure import level_numbers
 from rgss.decision.robustness.assumptions import AssumptionFinding, assumption_findings
@@ -38,9 +38,9 @@ from rgss.tradeoff.robustness import (
     RankReversal,
     admitted_weights,
     choice_uncertainty,
+    common_replicates,
     pareto_front,
     rank_reversals,
-    replicate_number,
     sample_anchored,
     smaa2,
     weight_ranges,
@@ -68,7 +68,7 @@ class _Posed:
         feasible: Which alternatives meet every demand, shape (n,).
         weights: The weights, shape (m,).
         margin: The practical margin.
-        replicates: Fewest replicates of an alternative.
+        replicates: Replicates of each alternative, shape (n,).
     """
 
     problem: TradeProblem
@@ -76,7 +76,7 @@ class _Posed:
     feasible: NDArray[np.bool_]
     weights: NDArray[np.float64]
     margin: float
-    replicates: int
+    replicates: NDArray[np.int64]
 
     def uncertainty(self, posterior: PosteriorOutcomes, chosen: int) -> ChoiceUncertainty:
         """The uncertainty of a choice."""
@@ -123,6 +123,8 @@ def analyse_robustness(
     parts = PartComputer()
     generator = np.random.default_rng(project.study.seed)
     resamples = _resamples(table, generator, refused)
+    # Levels are compared on the same seeds, which not all variants have where replicates were added to some.
+    alike = common_seeds(project, measured)
     values = single_values(problem, table)
     weights = np.array([problem.weighting.weights[measure] for measure in problem.weighting.deciding_measures])
     chosen = None if decision.chosen is None else table.row_of(decision.chosen)
@@ -138,7 +140,7 @@ def analyse_robustness(
             feasible=feasible,
             weights=weights,
             margin=project.study.trade_off.practical_margin,
-            replicates=min(len(entry.records) for entry in measured),
+            replicates=np.array([len(entry.records) for entry in measured]),
         )
         weighting = _weighting(posed, chosen, posterior, generator, parts)
         assumed = _assumed(Remeasuring.of(project, measured, table), problem, chosen, parts, refused)
@@ -157,7 +159,7 @@ def analyse_robustness(
         prices=parts.compute(Part.PRICES, lambda: requirement_prices(problem, table), ()),
         reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
         stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
-        effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, measured, resamples), _NO_EFFECTS),
+        effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, alike, resamples), _NO_EFFECTS),
         draws=0 if posterior is None else posterior.outcomes.shape[0],
         resamples=0 if resamples is None else len(resamples.probabilities),
         all_resamples=resamples is not None and resamples.exact,
@@ -190,7 +192,7 @@ def _no_weights(problem: TradeProblem, chosen: int | None) -> str:
 
 def _resamples(table: EvidenceTable, generator: np.random.Generator, refused: dict[str, str]) -> Resamples | None:
     try:
-        number = replicate_number(table)
+        number = common_replicates(table)
         return bootstrap(number, draws=DRAWN_RESAMPLES, generator=generator) if number else None
     except TradeoffError as error:
         refused["noise"] = str(error)

@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rgss.assessment import CaseSuccess, DriversOfFailures, VariantMeasures, drivers_of_failures, success_by_case
+from rgss.assessment import (
+    CaseSuccess,
+    DriversOfFailures,
+    SeedGroup,
+    VariantMeasures,
+    drivers_of_failures,
+    sequential_seeds,
+    success_by_case,
+)
 from rgss.decision.assumptions import AssumptionOutcome
 from rgss.decision.choosing import choose, double_counting, shared_measures, trade_problem
 from rgss.decision.robustness import Robustness, analyse_robustness
@@ -53,6 +61,7 @@ class StudyDecision:
         assumptions: The choice under each alternative of each assumption; empty if not asked for.
         drivers: Which draws go with which failures; None if not analysed.
         cases: The success of each case of the workload; empty without a workload.
+        seeds: The seeds that were read, where variants may have different numbers; empty otherwise.
     """
 
     study: str
@@ -79,6 +88,7 @@ class StudyDecision:
     assumptions: tuple[AssumptionOutcome, ...] = ()
     drivers: DriversOfFailures | None = None
     cases: tuple[CaseSuccess, ...] = ()
+    seeds: tuple[SeedGroup, ...] = ()
 
     @property
     def is_final(self) -> bool:
@@ -211,6 +221,7 @@ def study_decision(
         assumptions=assumptions,
         drivers=None if found is None else _drivers(measured),
         cases=success_by_case(project, measured),
+        seeds=sequential_seeds(project, measured),
     )
 
 

@@ -3,7 +3,7 @@
 from rgss.evidence.store.census import numerics_census
 from rgss.evidence.store.collection import Garbage, collect_garbage, find_garbage
 from rgss.evidence.store.connection import error_of
-from rgss.evidence.store.contents import Contents, TrialName, contents_of
+from rgss.evidence.store.contents import Contents, TrialName, contents_of, trial_names
 from rgss.evidence.store.exporting import export_trials, require_exportable
 from rgss.evidence.store.store import EvidenceStore
 from rgss.evidence.store.verification import Verification, salvage, take_away, verify
@@ -23,5 +23,6 @@ __all__ = [
     "require_exportable",
     "salvage",
     "take_away",
+    "trial_names",
     "verify",
 ]

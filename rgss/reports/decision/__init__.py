@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.reports.decision.answers_in_words import elicitation_sentences
+    from rgss.reports.decision.conclusion import seeds_sentences
     from rgss.reports.decision.json import (
         decision_to_json,
         elicitation_to_json,
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from rgss.reports.decision.sentences import gap_sentence
     from rgss.reports.decision.text import decision_lines, question_lines, screening_lines, weighing_lines
     from rgss.reports.decision.tornado_picture import tornado_svg
+    from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary
     from rgss.reports.decision.words import quantity_text
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
@@ -33,15 +35,18 @@ __all__ = [
     "elicitation_sentences",
     "elicitation_to_json",
     "gap_sentence",
+    "open_paragraph",
     "quantity_text",
     "question_lines",
     "robustness_to_json",
     "screening_lines",
     "screening_to_json",
+    "seeds_sentences",
     "sensitivity_part",
     "text_with_place",
     "tornado_svg",
     "trade_document",
+    "until_decided_summary",
     "weighing_lines",
     "with_section",
 ]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from rgss.assessment import SeedGroup
 from rgss.decision.study_decision import Feasibility, RobustnessFindings, StudyDecision
 from rgss.reports.decision.words import ids_text, variants_text
 from rgss.trace.views import share_in_words
@@ -55,6 +56,32 @@ def standing_sentence(made: StudyDecision) -> str:
     return f"Requirements of variant {chosen.variant}: {'; '.join(parts)}; {len(chosen.not_run)} not run{why}."
 
 
+def seeds_sentences(groups: Sequence[SeedGroup]) -> Iterator[str]:
+    """The seeds that were read of each variant, and what that means for intervals; nothing for fixed replicates.
+
+    Args:
+        groups: Variants of equal seeds, the fewest seeds first.
+    """
+    if not groups:
+        return
+    read = "; ".join(
+        f"{one.first} to {one.last} of {variants_text(one.variants)}"
+        if one.first < one.last
+        else f"{one.first} of {variants_text(one.variants)}"
+        for one in groups
+    )
+    yield f"Seeds read: {read}."
+    if len(groups) > 1:
+        yield (
+            f"Effects of levels are of the {groups[0].replicates} seeds that all variants have; '--replicates "
+            f"{groups[0].replicates}' reads these alone."
+        )
+    yield (
+        "Replicates were added where the decision was open: intervals and verdicts are those of a number fixed "
+        "beforehand, and may err more often than they state; 'rgss sweep --json' gives verdicts that allow for it."
+    )
+
+
 def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
     """The probability of the choice, what is tied with it, and what more replicates are worth.
 
@@ -81,7 +108,7 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
 def _ties(found: RobustnessFindings, one: ChoiceUncertainty) -> Iterator[str]:
     groups: dict[tuple[object, ...], list[Rival]] = {}
     for rival in one.rivals:
-        key = (round(rival.probability, 3), rival.within_margin, rival.replicates, rival.measure)
+        key = (round(rival.probability, 3), rival.within_margin, rival.replicates, rival.measure, rival.by_feasibility)
         groups.setdefault(key, []).append(rival)
     if not groups:
         yield "No other variant is tied with it."
@@ -100,6 +127,11 @@ def _tie(found: RobustnessFindings, members: list[Rival]) -> str:
     tied = f"Tied: {names} ({why}as good with a probability of {share_in_words(rival.probability)})"
     if not any(found.analysis.feasible[one.row] for one in members):
         return f"{tied}; not feasible by the estimates, which more replicates could change."
+    if rival.by_feasibility:
+        return (
+            f"{tied}; it is ahead only where the choice misses a requirement: replicates that settle the open verdicts "
+            "break the tie, and no difference of value does."
+        )
     if rival.measure is None:
         return f"{tied}; no estimate differs, so that only a measure that tells them apart breaks the tie."
     if rival.replicates is None:

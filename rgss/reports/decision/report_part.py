@@ -8,7 +8,7 @@ from rgss.decision import screening_summary
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.study_decision import LimitMoves, RobustnessFindings, StudyDecision
 from rgss.reports.decision.assumption_rows import ASSUMPTION_HEADS, assumption_rows, assumption_sentences
-from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
+from rgss.reports.decision.conclusion import headline, seeds_sentences, standing_sentence, uncertainty_sentences
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
 from rgss.reports.decision.report_conflicts import conflict_reasons
 from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
@@ -40,7 +40,11 @@ def decision_part(made: StudyDecision) -> Plain:
         "counts": {"alternatives": decision.counts.alternatives, "feasible": decision.counts.feasible},
         "demands": dict(decision.demands),
         "headline": headline(made),
-        "standing": [line for line in (standing_sentence(made), *uncertainty_sentences(made)) if line],
+        "standing": [
+            line
+            for line in (standing_sentence(made), *uncertainty_sentences(made), *seeds_sentences(made.seeds))
+            if line
+        ],
         "reasons": _reasons(made),
         "cautions": list(cautions(made)),
         "readings": [] if made.assumptions else list(reading_lines(made)),

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rgss.assessment import VariantMeasures
+from rgss.assessment import VariantMeasures, specs_read
 from rgss.evidence import PlanOutcome, TrialRecord
 from rgss.reports.plain_numbers import Plain, plain_number, plain_numbers
-from rgss.studies import Project, trial_specs
+from rgss.studies import Project
 from rgss.sweep import key_of
 from rgss.trials.code import versions
 from rgss.trials.pieces import TrialSpec, digests_of
@@ -42,7 +42,7 @@ def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> P
     now = versions()
     longest: dict[str, tuple[TrialSpec, TrialRecord]] = {}
     sharing: dict[str, list[int]] = {}
-    for spec in trial_specs(project, variants=[entry.variant for entry in measured]):
+    for spec in specs_read(project, measured):
         key = key_of(spec)
         if key not in records:
             continue

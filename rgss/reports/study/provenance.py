@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from rgss.assessment import VariantMeasures
+from rgss.assessment import VariantMeasures, sequential_seeds
 from rgss.documents import load_document
 from rgss.errors import DocumentError
 from rgss.evidence import EvidenceStore
@@ -40,7 +40,7 @@ def provenance_of(
             ["catalogue", study.catalogue],
             ["scene", study.scene],
             ["fidelity", study.fidelity.value],
-            ["seeds", ", ".join(map(str, study.seeds[:20])) + (" …" if len(study.seeds) > 20 else "")],
+            ["seeds", _seeds(project, measured)],
             ["variants", str(len(measured))],
             ["trials", str(len(keys))],
             ["planning clock", "counted checks" if planning.counted else "wall"],
@@ -55,6 +55,14 @@ def provenance_of(
         "made_on": "" if first is None else first.provenance.machine,
         "made_by": "" if first is None else first.provenance.revision,
     }
+
+
+def _seeds(project: Project, measured: Sequence[VariantMeasures]) -> str:
+    groups = sequential_seeds(project, measured)
+    if groups:
+        return "; ".join(f"{one.first} to {one.last} of {len(one.variants)} variants" for one in groups)
+    seeds = project.study.seeds
+    return ", ".join(map(str, seeds[:20])) + (" …" if len(seeds) > 20 else "")
 
 
 def assumptions_of(project: Project) -> list[Plain]:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.effects import Effect, FactorialAnalysis, factorial_effects, largest_complete_block
     from rgss.tradeoff.robustness.flip import WeightRange, WeightShift, weight_ranges, weight_shifts
     from rgss.tradeoff.robustness.kept_alternatives import KeptAlternative, KeptFor, worth_keeping
-    from rgss.tradeoff.robustness.outcomes import admitted_weights, condition_masks, noisy_outcomes, replicate_number
+    from rgss.tradeoff.robustness.outcomes import admitted_weights, common_replicates, condition_masks, noisy_outcomes
     from rgss.tradeoff.robustness.overlap import Overlap, SharedPart, overlapping_measures, shared_parts
     from rgss.tradeoff.robustness.pareto import ParetoFront, Support, pareto_front
     from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
@@ -57,6 +57,7 @@ __all__ = [
     "changes_of_best",
     "choice_uncertainty",
     "classes_of",
+    "common_replicates",
     "condition_masks",
     "factorial_effects",
     "first_order_indices",
@@ -67,7 +68,6 @@ __all__ = [
     "pareto_front",
     "price_list",
     "rank_reversals",
-    "replicate_number",
     "sample_anchored",
     "scanned_range",
     "shared_parts",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from rgss.errors import TradeoffError
 from rgss.tradeoff.problem import EvidenceTable, Mask, Resamples
 from rgss.tradeoff.programs import Preferences, condition_column, keeps
 from rgss.tradeoff.robustness.acceptability import Outcomes
@@ -34,19 +33,12 @@ def condition_masks(preferences: Preferences, table: EvidenceTable) -> list[Mask
     ]
 
 
-def replicate_number(table: EvidenceTable) -> int:
-    """How many replicates every alternative has; 0 where nothing is observed in trials.
+def common_replicates(table: EvidenceTable) -> int:
+    """The number of replicates that all alternatives have in common; 0 where nothing is observed in trials.
 
-    Raises:
-        TradeoffError: Alternatives or measures have different numbers of them.
+    Replicate k of every alternative has the same seed, so that these are the first ones.
     """
-    numbers = {int(number) for samples in table.samples.values() for number in samples.ran.sum(axis=1)}
-    if len(numbers) > 1:
-        raise TradeoffError(
-            f"alternatives have from {min(numbers)} to {max(numbers)} replicates",
-            hint="noise is drawn from replicates that all share; run 'rgss sweep' for the others",
-        )
-    return numbers.pop() if numbers else 0
+    return min((int(number) for samples in table.samples.values() for number in samples.ran.sum(axis=1)), default=0)
 
 
 def noisy_outcomes(preferences: Preferences, table: EvidenceTable, resamples: Resamples) -> Outcomes:

@@ -33,6 +33,7 @@ class Rival:
         within_margin: Whether its estimated value is within the practical margin of the choice's.
         replicates: Replicates in all with which their difference would exceed its noise; None where
             no number does, for they do not differ or a demand decides.
+        by_feasibility: Whether it is not tied by its value: it is ahead only where the choice is not feasible.
         measure: The measure in whose value they differ most by the estimates; None where they do not differ.
     """
 
@@ -41,6 +42,7 @@ class Rival:
     within_margin: bool
     replicates: int | None
     measure: str | None
+    by_feasibility: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -73,7 +75,7 @@ def choice_uncertainty(
     chosen: int,
     *,
     margin: float,
-    replicates: int,
+    replicates: NDArray[np.int64],
     estimated: NDArray[np.bool_],
     single: Array,
     more: tuple[int, ...] = (1, 10),
@@ -84,7 +86,7 @@ def choice_uncertainty(
         found: Posterior draws of the evidence.
         chosen: Row of the choice.
         margin: The practical margin of values.
-        replicates: Replicates that the estimates come from.
+        replicates: Replicates that the estimates of each alternative come from, shape (n,).
         estimated: Which alternatives are feasible by their estimates, shape (n,).
         single: Their single values by their estimates, shape (n, m).
         more: Numbers of more replicates that are valued.
@@ -104,11 +106,11 @@ def choice_uncertainty(
         none_feasible=float((~feasible.any(axis=1)).mean()),
         rivals=_rivals(found, chosen, margin, replicates, estimated, single),
         gains=tuple((count, _expected_gain(worth, count / (replicates + count))) for count in more),
-        perfect=_expected_gain(worth, 1.0),
+        perfect=_expected_gain(worth, np.ones(len(replicates))),
     )
 
 
-def _expected_gain(worth: Array, share: float) -> float:
+def _expected_gain(worth: Array, share: Array) -> float:
     """Expected gain of choosing after more evidence, by matched moments.
 
     The mean after m more replicates varies as the draws do, narrower by √(m / (n + m)) (Heath,
@@ -117,10 +119,10 @@ def _expected_gain(worth: Array, share: float) -> float:
 
     Args:
         worth: Value of each alternative in each draw, shape (b, n).
-        share: m / (n + m).
+        share: m / (n + m) of each alternative, shape (n,).
     """
     means = worth.mean(axis=0)
-    moved = means + math.sqrt(share) * (worth - means)
+    moved = means + np.sqrt(share) * (worth - means)
     return max(0.0, float(moved.max(axis=1).mean() - means.max()))
 
 
@@ -128,7 +130,7 @@ def _rivals(
     found: PosteriorOutcomes,
     chosen: int,
     margin: float,
-    replicates: int,
+    replicates: NDArray[np.int64],
     estimated: NDArray[np.bool_],
     single: Array,
 ) -> tuple[Rival, ...]:
@@ -151,13 +153,18 @@ def _rivals(
             continue
         known = np.isfinite(both)
         spread = float(both[known].std()) if known.any() else math.nan
+        by_value = float((ahead & feasible[:, chosen]).mean())
+        by_feasibility = not near and by_value < TIE_PROBABILITY
+        fewest = int(min(replicates[row], replicates[chosen]))
+        counted = bool(estimated[row]) and not by_feasibility
         rivals.append(
             Rival(
                 row=row,
                 probability=probability,
                 within_margin=near,
-                replicates=_replicates_needed(difference, spread, replicates) if estimated[row] else None,
+                replicates=_replicates_needed(difference, spread, fewest) if counted else None,
                 measure=_widest(weighting.deciding_measures, gaps),
+                by_feasibility=by_feasibility,
             )
         )
     return tuple(sorted(rivals, key=lambda one: -one.probability))

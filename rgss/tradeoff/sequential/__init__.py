@@ -6,18 +6,23 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.tradeoff.sequential.evidence import SequentialEvidence
+    from rgss.tradeoff.sequential.forecasting import MOST_FORECAST, Forecast, forecast
     from rgss.tradeoff.sequential.probability import probability_of_good_selection
     from rgss.tradeoff.sequential.rule import SequentialRule
-    from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, next_batch
+    from rgss.tradeoff.sequential.sequential import Decided, Reason, next_batch
+    from rgss.tradeoff.sequential.settling import Progress
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
 __all__ = [
+    "MOST_FORECAST",
     "Decided",
+    "Forecast",
     "Progress",
     "Reason",
     "SequentialEvidence",
     "SequentialRule",
+    "forecast",
     "next_batch",
     "probability_of_good_selection",
 ]

@@ -71,6 +71,7 @@ class SequentialEvidence:
         fixed_met: Which alternatives meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
         feasible: Which alternatives meet everything by their estimates, shape (n,).
+        twins: The group of alternatives with which each has all trials in common, whatever the seed, shape (n,).
     """
 
     table: EvidenceTable
@@ -81,14 +82,18 @@ class SequentialEvidence:
     fixed_met: NDArray[np.bool_]
     values: NDArray[np.float64]
     feasible: NDArray[np.bool_]
+    twins: NDArray[np.intp]
 
     @staticmethod
-    def of(problem: TradeProblem, proportions: Collection[str]) -> SequentialEvidence:
+    def of(
+        problem: TradeProblem, proportions: Collection[str], *, twins: Mapping[int, int] | None = None
+    ) -> SequentialEvidence:
         """The evidence of a trade-off.
 
         Args:
             problem: The trade-off, whose alternatives hold their replicates.
             proportions: The measures that are shares of trials.
+            twins: By alternative, the group with which it has all trials in common; each its own by default.
 
         Raises:
             TradeoffError: The trade-off is none of weighted values under thresholds on estimates.
@@ -129,7 +134,28 @@ class SequentialEvidence:
             fixed_met=_met(table, fixed),
             values=values,
             feasible=_met(table, problem.thresholds) & ~np.isnan(values),
+            twins=np.array([(twins or {}).get(each, each) for each in table.variants.tolist()], dtype=np.intp),
         )
+
+    def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:
+        """Whether no replicate can show that an alternative is worth more than a rival by a margin.
+
+        So it is where both have the same trials whatever the seed, and no measure tells them apart in those that
+        were run: then they differ by their designs alone, which are known.
+
+        Args:
+            row: The alternative.
+            rival: The rival.
+            margin: The difference of value that is practically none.
+        """
+        if self.twins[row] != self.twins[rival] or (self.fixed_met[row] and not self.fixed_met[rival]):
+            return False
+        shared = int(min(self.replicates[row], self.replicates[rival]))
+        alike = all(
+            np.array_equal(one.values[row, :shared], one.values[rival, :shared], equal_nan=True)
+            for one in self.observed
+        )
+        return alike and float(self.fixed_value[row] - self.fixed_value[rival]) <= margin
 
     def optimistic_values(self) -> NDArray[np.float64]:
         """The values if each proportion were higher by two standard deviations of a fair coin, shape (n,).

@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 from rgss.tradeoff.problem import ObservedRows, posterior_means
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 
+_TIE = 1e-9
+
 DRAWS = 2_000
 """So often the evidence is drawn anew."""
 
@@ -39,6 +41,42 @@ def probability_of_good_selection(
     Returns:
         The share of the draws in which the choice is feasible and good, or nothing is feasible.
     """
+    values, feasible = _posterior(evidence, draws=draws, seed=seed)
+    if chosen is None:
+        return float(np.mean(~feasible.any(axis=1)))
+    row = evidence.table.row_of(chosen)
+    best = np.where(feasible, values, -np.inf).max(axis=1)
+    return float(np.mean(feasible[:, row] & (values[:, row] >= best - margin)))
+
+
+def probabilities_of_loss(
+    evidence: SequentialEvidence, chosen: int | None, *, margin: float, seed: int, draws: int = DRAWS
+) -> NDArray[np.float64]:
+    """The posterior probability that each alternative is the best and the choice is not good, shape (n,).
+
+    The choice is good where it is feasible and within the margin of the best: what it is tied with in every draw
+    has probability 0. Equals share a draw evenly.
+
+    Args:
+        evidence: The evidence.
+        chosen: The choice; None if nothing is feasible by the estimates, which is never good.
+        margin: The difference of value that is practically none.
+        seed: Seed of the draws.
+        draws: How many.
+    """
+    values, feasible = _posterior(evidence, draws=draws, seed=seed)
+    worth = np.where(feasible, values, -np.inf)
+    highest = worth.max(axis=1, keepdims=True)
+    lost: NDArray[np.bool_] = np.asarray(feasible.any(axis=1))
+    if chosen is not None:
+        row = evidence.table.row_of(chosen)
+        lost = lost & ~(feasible[:, row] & (worth[:, row] >= highest[:, 0] - margin))
+    first = (worth >= highest - _TIE) & lost[:, None]
+    return np.asarray((first / np.maximum(first.sum(axis=1, keepdims=True), 1)).mean(axis=0), dtype=np.float64)
+
+
+def _posterior(evidence: SequentialEvidence, *, draws: int, seed: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Values and feasibility of the alternatives in posterior draws, shape (draws, n) each."""
     rows = [ObservedRows(values=one.values, is_proportion=one.is_proportion) for one in evidence.observed]
     found = posterior_means(rows, draws=draws, generator=np.random.default_rng(seed), levels=levels)
     values = np.tile(evidence.fixed_value, (draws, 1))
@@ -51,9 +89,4 @@ def probability_of_good_selection(
         for threshold in one.thresholds.values():
             margins = threshold.comparison.margin(1.0, 0.0) * (drawn - threshold.value)
             feasible &= known & (margins >= -1e-12)
-    feasible &= ~np.isnan(values)
-    if chosen is None:
-        return float(np.mean(~feasible.any(axis=1)))
-    row = evidence.table.row_of(chosen)
-    best = np.where(feasible, values, -np.inf).max(axis=1)
-    return float(np.mean(feasible[:, row] & (values[:, row] >= best - margin)))
+    return values, feasible & ~np.isnan(values)

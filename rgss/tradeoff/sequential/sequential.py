@@ -31,17 +31,24 @@ import numpy as np
 
 from rgss.measures import Verdict
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
-from rgss.tradeoff.sequential.comparison import is_acceptable, is_beaten, is_infeasible, threshold_evidence
+from rgss.tradeoff.sequential.allocation import likely_better, raised_together
+from rgss.tradeoff.sequential.comparison import is_infeasible, threshold_evidence
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.rule import SequentialRule, affordable_replicates, check_pilot
+from rgss.tradeoff.sequential.settling import (
+    BEATEN,
+    BEATEN_SHARE,
+    INFEASIBLE,
+    Progress,
+    beats,
+    is_accepted,
+    unsettled,
+)
 
-_INFEASIBLE_SHARE, _ACCEPTED_SHARE, _BEATEN_SHARE = 0.1, 0.1, 0.8
-_RIVALS_SHARE = 0.9
+_INFEASIBLE_SHARE = 0.1
 _GROUP_SHARES = (0.75, 0.25)
 _TIE = 1e-9
 _LEVEL_STEP = 1.3
-
-INFEASIBLE, BEATEN = "infeasible", "beaten"
 
 
 class Reason(str, Enum):
@@ -53,23 +60,6 @@ class Reason(str, Enum):
     """The budget of trials has no room for what is still open."""
     CAP = "cap"
     """Alternatives that may be the best have as many replicates as are allowed."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Progress:
-    """What earlier looks found; it only grows.
-
-    Attributes:
-        looks: How often was looked.
-        rivals: The alternatives that others are compared with, with their weights, which sum to 1.
-        dropped: The alternatives that cannot be chosen, and why.
-        settled: By alternative and place of a threshold, whether it is met, where that is proven.
-    """
-
-    looks: int = 0
-    rivals: tuple[tuple[int, float], ...] = ()
-    dropped: Mapping[int, str] = field(default_factory=dict, hash=False)
-    settled: Mapping[tuple[int, int], bool] = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,6 +86,7 @@ class Decided:
             may fall short of, by less than the margin.
         verdicts: By alternative, the verdict on each requirement.
         progress: What was found.
+        unsettled: The alternatives that may be worth more than the choice by the margin.
     """
 
     reason: Reason
@@ -103,6 +94,7 @@ class Decided:
     contenders: tuple[int, ...]
     verdicts: Mapping[int, Mapping[str, Verdict]] = field(hash=False)
     progress: Progress
+    unsettled: frozenset[int] = frozenset()
 
 
 def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress) -> Allocation | Decided:
@@ -127,12 +119,48 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     progress = replace(progress, settled=_settled(evidence, rule, progress))
     progress = replace(progress, dropped=_dropped(evidence, rule, progress))
     contenders = tuple(each for each in ids if each not in progress.dropped)
-    chosen = _chosen(evidence, contenders)
-    open_pairs = _unsettled(evidence, rule, progress, chosen)
-    accepted = chosen is not None and _is_accepted(evidence, rule, progress, chosen)
+    chosen = _chosen(evidence, contenders, focused=rule.budget is not None)
+    open_pairs = unsettled(evidence, rule, progress, chosen, ids)
+    accepted = chosen is not None and is_accepted(evidence, rule, progress, chosen)
     decided = (accepted and not open_pairs) or not any(progress.dropped.get(each) != INFEASIBLE for each in ids)
+    if rule.budget is not None and not decided:
+        members = likely_better(evidence, rule, chosen, open_pairs, seed=progress.looks)
+        wanted = dict.fromkeys(members, rule.cap)
+        affordable = raised_together(evidence, rule, members)
+    else:
+        wanted = _wanted(evidence, rule, progress, chosen=chosen, open_pairs=open_pairs, decided=decided)
+        affordable = affordable_replicates(evidence, rule, wanted, first=chosen)
+    if affordable and evidence.observed:
+        return Allocation(replicates=affordable, progress=progress)
+    ended = Reason.BUDGET if _is_spent(evidence, wanted) else Reason.CAP
+    return Decided(
+        reason=Reason.DECIDED if decided else ended,
+        variant=chosen,
+        contenders=contenders,
+        verdicts=_verdicts(evidence, progress),
+        progress=progress,
+        unsettled=frozenset() if decided else open_pairs,
+    )
+
+
+def _is_spent(evidence: SequentialEvidence, wanted: Mapping[int, int]) -> bool:
+    """Whether it is the budget that leaves alternatives without the replicates that they should have."""
+    ran = {variant: evidence.replicates[evidence.table.row_of(variant)] for variant in wanted}
+    return bool(evidence.observed) and any(ran[variant] < most for variant, most in wanted.items())
+
+
+def _wanted(
+    evidence: SequentialEvidence,
+    rule: SequentialRule,
+    progress: Progress,
+    *,
+    chosen: int | None,
+    open_pairs: frozenset[int],
+    decided: bool,
+) -> dict[int, int]:
+    """The replicates that everything that is open should have after the next look."""
     wanted: dict[int, int] = {}
-    for row, variant in enumerate(ids):
+    for row, variant in enumerate(evidence.table.variants.tolist()):
         ran = int(evidence.replicates[row])
         most = 0
         if not decided and (variant == chosen or variant in open_pairs):
@@ -141,17 +169,7 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
             most = rule.verdict_cap
         if ran < most:
             wanted[variant] = min(ran + rule.batch, most)
-    affordable = affordable_replicates(evidence, rule, wanted, first=chosen)
-    if affordable and evidence.observed:
-        return Allocation(replicates=affordable, progress=progress)
-    ended = Reason.BUDGET if wanted and evidence.observed else Reason.CAP
-    return Decided(
-        reason=Reason.DECIDED if decided else ended,
-        variant=chosen,
-        contenders=contenders,
-        verdicts=_verdicts(evidence, progress),
-        progress=progress,
-    )
+    return wanted
 
 
 def _rivals(evidence: SequentialEvidence, slack: float) -> tuple[tuple[int, float], ...]:
@@ -217,7 +235,7 @@ def _is_beaten(evidence: SequentialEvidence, rule: SequentialRule, row: int, riv
     The smallest level at which a rival's test rejects is one over an e-value; were the alternative
     the best, each would have an expectation of at most 1, and so would their weighted mean.
     """
-    total = rule.error_rate * _BEATEN_SHARE
+    total = rule.error_rate * BEATEN_SHARE
     variant = int(evidence.table.variants[row])
     found = 0.0
     for rival, weight in rivals.items():
@@ -225,7 +243,7 @@ def _is_beaten(evidence: SequentialEvidence, rule: SequentialRule, row: int, riv
             continue
         needed = (1.0 / total - found) / weight
         evident, tried = 0.0, 1.0 / total
-        while tried > evident and _beats(evidence, rule, row, rival, 1.0 / tried, lead=0.0, after=rule.pilot):
+        while tried > evident and beats(evidence, rule, row, rival, 1.0 / tried, lead=0.0, after=rule.pilot):
             evident = tried
             tried = min(tried * _LEVEL_STEP, needed)
         if evident >= needed:
@@ -234,51 +252,16 @@ def _is_beaten(evidence: SequentialEvidence, rule: SequentialRule, row: int, riv
     return False
 
 
-def _unsettled(
-    evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, chosen: int | None
-) -> frozenset[int]:
-    """The alternatives that may be worth more than the choice by the margin, as far as is proven."""
-    possible = frozenset(
-        variant for variant in evidence.table.variants.tolist() if progress.dropped.get(variant) != INFEASIBLE
-    )
-    if chosen is None:
-        return possible - {variant for variant, why in progress.dropped.items() if why == BEATEN}
-    rivals = dict(progress.rivals)
-    share = _RIVALS_SHARE * rivals[chosen] if chosen in rivals else (1.0 - _RIVALS_SHARE) / len(evidence.table)
-    level = rule.error_rate * _BEATEN_SHARE * share
-    # The pilot named the rivals, so that it cannot speak for them again.
-    after = rule.pilot if chosen in rivals else 0
-    return frozenset(
-        variant
-        for variant in possible - {chosen}
-        if not _beats(evidence, rule, evidence.table.row_of(variant), chosen, level, lead=rule.margin, after=after)
-    )
-
-
-def _is_accepted(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, chosen: int) -> bool:
-    """Whether the choice is proven to violate no threshold by more than the slack."""
-    rivals = dict(progress.rivals)
-    level = rule.error_rate * _ACCEPTED_SHARE / 2.0
-    level /= len(rivals) if chosen in rivals else len(evidence.table)
-    after = rule.pilot if chosen in rivals else 0
-    return is_acceptable(evidence, evidence.table.row_of(chosen), level=level, slack=rule.slack, after=after)
-
-
-def _beats(
-    evidence: SequentialEvidence, rule: SequentialRule, row: int, rival: int, level: float, *, lead: float, after: int
-) -> bool:
-    place = evidence.table.row_of(rival)
-    return is_beaten(evidence, row, place, level=level, after=after, lead=lead, slack=rule.slack)
-
-
-def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...]) -> int | None:
+def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focused: bool) -> int | None:
     """The contender of the highest value that is feasible by its estimates; the smallest id of ties.
 
-    Only those with the most replicates count: who was left alone is known too vaguely to lead.
+    Only those with the most replicates count: who was left alone is known too vaguely to lead. Under a budget
+    all count, for whoever leads is replicated first, and the assessment reads the same estimates.
     """
     rows = [row for row in map(evidence.table.row_of, contenders) if evidence.feasible[row]]
     most = max((evidence.replicates[row] for row in rows), default=0)
-    best = _best([row for row in rows if evidence.replicates[row] == most], evidence.values.tolist())
+    known = [row for row in rows if focused or evidence.replicates[row] == most]
+    best = _best(known, evidence.values.tolist())
     return int(evidence.table.variants[best[0]]) if best else None
 
 

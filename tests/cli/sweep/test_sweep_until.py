@@ -7,8 +7,9 @@ import pytest
 import rgss.decision.until_decided as until
 from rgss.evidence import RunFailure, RunFailureKind
 from rgss.measures import Verdict
+from rgss.reports.decision.until_decided import open_paragraph
 from rgss.sweep.results import LostTrials, SweepResult
-from rgss.tradeoff.sequential import Reason, SequentialRule
+from rgss.tradeoff.sequential import Forecast, Reason, SequentialRule
 
 
 @pytest.mark.parametrize(
@@ -96,6 +97,100 @@ def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypat
 
     assert asked == [SequentialRule(margin=0.02, cap=90), SequentialRule(margin=0.02, cap=60)]
     assert "decided at an error rate of 0.05, 2 of the others may equal it within 0.02, prob" in told.output
+
+
+def ended(rule, **more):
+    return until.UntilDecided(
+        **{
+            "reason": Reason.BUDGET,
+            "variant": 2,
+            "contenders": (1, 2, 3),
+            "verdicts": {},
+            "trials": {1: 4, 2: 12, 3: 12},
+            "probability": 0.5,
+            "looks": 3,
+            "rule": rule,
+            "unsettled": (1, 3),
+            "forecast": Forecast(rivals={1: 24, 3: 48}, requirements={"SYS-024": 96}, accepted=48, trials=230),
+            **more,
+        }
+    )
+
+
+def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, monkeypatch):
+    study = folder / "studies" / "pick_place.yaml"
+    study.write_text(f"{study.read_text(encoding='utf-8')}\nuntil_decided: {{budget: 600}}\n", encoding="utf-8")
+    asked = []
+
+    def replicate(*_, rule, **__):
+        asked.append(rule)
+        return ended(rule)
+
+    monkeypatch.setattr("rgss.decision.replicate_until_decided", replicate)
+    told = rgss("sweep", "--project", folder)
+    rgss("sweep", "--budget", "900", "--project", folder)
+
+    assert [rule.budget for rule in asked] == [600, 900]
+    assert told.output.splitlines()[0].startswith("variant 2: budget of 600 trials spent with 3 contenders")
+    assert told.output.splitlines()[1:] == [
+        (
+            "Open: whether variants 1, 3 are worth more than variant 2 by more than 0.05; whether variant 2, which has "
+            "12 replicates, meets SYS-024 (about 96 replicates). If trials go on as so far, some 250 trials more "
+            f"settle the decision; to go on where it stopped, type 'rgss sweep --project {folder} --budget 300', or "
+            "raise until_decided.budget."
+        )
+    ]
+    assert rgss("sweep", "--dry-run", "--project", folder).output.splitlines()[-1].startswith("Then up to ")
+    assert len(asked) == 2
+
+
+@pytest.mark.parametrize(
+    ("found", "words"),
+    [
+        ({"reason": Reason.DECIDED}, ""),
+        ({"variant": None, "forecast": None, "unsettled": ()}, "Open: no variant meets every requirement by its"),
+        (
+            {"forecast": Forecast(rivals={1: None}, requirements={}, accepted=12, trials=None), "unsettled": (1,)},
+            (
+                "Open: whether variant 1 is worth more than variant 2 by more than 0.05. If trials go on as so far, "
+                "12800 replicates do not settle all of it: accept the tie, widen until_decided.margin, or go on with "
+                "'rgss sweep --budget 100'."
+            ),
+        ),
+        (
+            {
+                "reason": Reason.CAP,
+                "unsettled": (),
+                "forecast": Forecast(rivals={}, requirements={}, accepted=400, trials=388),
+            },
+            (
+                "Open: whether variant 2 keeps every requirement within the slack. If trials go on as so far, some 400 "
+                "trials more settle the decision (up to 400 of a variant, more than the cap of 200); to go on where it "
+                "stopped, type 'rgss sweep --cap 400', or raise until_decided.cap."
+            ),
+        ),
+    ],
+)
+def test_what_is_open_in_words(found, words):
+    text = open_paragraph(ended(SequentialRule(budget=28), **found), command="rgss sweep")
+    assert text.startswith(words)
+    assert bool(text) == bool(words)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["--budget", "40"], "--budget needs --until decided (--replicates is the fixed number of trials)"),
+        (
+            ["--until", "decided", "--budget", "0"],
+            "--budget must be at least 1 trial, got 0 (leave it away for the study's)",
+        ),
+    ],
+)
+def test_budgets_that_are_none(rgss, untouched, arguments, complaint):
+    told = rgss("sweep", *arguments, "--project", untouched)
+
+    assert (told.status, told.output, told.complaint) == (2, "", f"rgss: {complaint}")
 
 
 def test_trials_that_cannot_be_run_are_a_failure_of_the_run(rgss, folder, monkeypatch):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rgss.errors import TradeoffError
 from rgss.tradeoff import (
     Alternative,
     ChanceBound,
@@ -23,9 +22,9 @@ from rgss.tradeoff.problem.resampling import bootstrap
 from rgss.tradeoff.programs.columns import single_values
 from rgss.tradeoff.robustness.outcomes import (
     admitted_weights,
+    common_replicates,
     condition_masks,
     noisy_outcomes,
-    replicate_number,
 )
 from rgss.tradeoff.robustness.resampled_outcomes import ResampledTables
 
@@ -111,11 +110,6 @@ def test_admitted_weights_are_what_was_elicited():
     assert admitted_weights(problem_of([(1.0,), (2.0,)], weight_bounds=fixed)).directions().shape == (2, 0)
 
 
-def test_the_number_of_replicates():
-    assert replicate_number(tabulated(problem_of([(1.0, 3.0), (2.0, None)]).alternatives)) == 2
-    with pytest.raises(TradeoffError) as caught:
-        replicate_number(tabulated(problem_of([(1.0, 3.0), (2.0,)]).alternatives))
-    assert str(caught.value) == (
-        "alternatives have from 1 to 2 replicates "
-        "(noise is drawn from replicates that all share; run 'rgss sweep' for the others)"
-    )
+def test_the_replicates_that_all_alternatives_have():
+    assert common_replicates(tabulated(problem_of([(1.0, 3.0), (2.0, None)]).alternatives)) == 2
+    assert common_replicates(tabulated(problem_of([(1.0, 3.0, 4.0), (2.0,)]).alternatives)) == 1

@@ -23,6 +23,7 @@ def conclusion_to_json(made: StudyDecision) -> Plain:
         "chosen": None if found.chosen is None else _standing(found.chosen),
         "variants": [{"variant": one.variant, "feasibility": one.feasibility.value} for one in found.standings],
         "uncertainty": _uncertainty(made),
+        "seeds": [{"first": one.first, "last": one.last, "variants": list(one.variants)} for one in made.seeds],
     }
 
 
@@ -58,6 +59,7 @@ def _uncertainty(made: StudyDecision) -> Plain | None:
                 "within_margin": rival.within_margin,
                 "replicates": rival.replicates,
                 "measure": rival.measure,
+                "by_feasibility": rival.by_feasibility,
             }
             for rival in one.rivals
         ],

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rgss.decision.study_decision import StudyDecision
 from rgss.reports.decision.answers_in_words import elicitation_sentences
+from rgss.reports.decision.conclusion import seeds_sentences
 from rgss.reports.decision.sentences import cautions, reading_lines
 from rgss.reports.decision.text.decision import certificate_lines, choice_lines, portfolio_lines
 from rgss.reports.decision.text.effects import effects_lines
@@ -23,7 +24,7 @@ def decision_lines(made: StudyDecision, *, effects: bool = False) -> Iterator[st
         made: The decision.
         effects: Whether the effects of each level on the measures of effectiveness are shown too.
     """
-    yield from (f"Study {made.study}: {made.variants} variants, {made.trials} trials", "")
+    yield from (f"Study {made.study}: {made.variants} variants, {made.trials} trials", *seeds_sentences(made.seeds), "")
     if made.what_if is not None:
         yield from what_if_lines(made.what_if)
         yield from ("", "The decision under these suppositions", "")

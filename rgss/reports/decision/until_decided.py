@@ -1,0 +1,110 @@
+"""Sentences on what replication until decided came to, and on what it leaves open."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rgss.decision import UntilDecided
+from rgss.reports.decision.words import ids_text
+from rgss.tradeoff.sequential import MOST_FORECAST, Forecast, Reason
+
+_ROUND_TO = 50
+
+
+def until_decided_summary(result: UntilDecided) -> str:
+    """One line that says what came of it.
+
+    Args:
+        result: What it came to.
+    """
+    share = result.total / (len(result.trials) * result.rule.cap)
+    chosen = "no variant" if result.variant is None else f"variant {result.variant}"
+    others = len(set(result.contenders) - {result.variant})
+    nearly = f", {others} of the others may equal it within {result.rule.margin:g}" if others else ""
+    ended = {
+        Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
+        Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
+        Reason.BUDGET: f"budget of {result.rule.budget} trials spent with {len(result.contenders)} contenders"
+        + (f", open: {', '.join(result.open_requirements)}" if result.open_requirements else ""),
+    }[result.reason]
+    return (
+        f"{chosen}: {ended}, probability of good selection {result.probability:.3f}; {result.total} trials in "
+        f"{result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
+    )
+
+
+def open_paragraph(result: UntilDecided, *, command: str) -> str:
+    """What is open when replication ends, what would settle it, and what to type; empty where it is decided.
+
+    Args:
+        result: What it came to.
+        command: The command that goes on, to which an option is appended.
+    """
+    if result.reason is Reason.DECIDED:
+        return ""
+    return " ".join([*_open(result), _advice(result, command)])
+
+
+def _open(result: UntilDecided) -> Iterator[str]:
+    if result.variant is None:
+        yield (
+            "Open: no variant meets every requirement by its estimates, and of "
+            f"{_variants(result.contenders)} it is not shown that they miss one."
+        )
+        return
+    parts = []
+    if result.unsettled:
+        are = "is" if len(result.unsettled) == 1 else "are"
+        parts.append(
+            f"whether {_variants(result.unsettled)} {are} worth more than variant {result.variant} by more than "
+            f"{result.rule.margin:g}"
+        )
+    found = result.forecast
+    if found is not None and found.requirements:
+        needs = ", ".join(f"{name} ({_replicates(count)})" for name, count in sorted(found.requirements.items()))
+        ran = result.trials[result.variant]
+        parts.append(f"whether variant {result.variant}, which has {ran} replicates, meets {needs}")
+    elif not parts:
+        parts.append(f"whether variant {result.variant} keeps every requirement within the slack")
+    yield f"Open: {'; '.join(parts)}."
+
+
+def _replicates(count: int | None) -> str:
+    return f"more than {MOST_FORECAST} replicates" if count is None else f"about {count} replicates"
+
+
+def _variants(ids: tuple[int, ...]) -> str:
+    return f"variant {ids[0]}" if len(ids) == 1 else f"variants {ids_text(ids)}"
+
+
+def _advice(result: UntilDecided, command: str) -> str:
+    found = result.forecast
+    if found is None:
+        return f"To go on where it stopped, type '{command} {_raised(result, result.total)}'."
+    if found.trials is None:
+        return (
+            f"If trials go on as so far, {MOST_FORECAST} replicates do not settle all of it: accept the tie, widen "
+            f"until_decided.margin, or go on with '{command} {_raised(result, result.total)}'."
+        )
+    name = "cap" if result.reason is Reason.CAP else "budget"
+    return (
+        f"If trials go on as so far, some {_rounded(found.trials)} trials more settle the decision"
+        f"{_beyond_cap(result, found)}; to go on where it stopped, type "
+        f"'{command} {_raised(result, found.trials)}', or raise until_decided.{name}."
+    )
+
+
+def _raised(result: UntilDecided, more: int) -> str:
+    """The option that gives it so many trials more."""
+    if result.reason is Reason.CAP:
+        return f"--cap {2 * result.rule.cap}"
+    return f"--budget {_rounded(result.total + more)}"
+
+
+def _beyond_cap(result: UntilDecided, found: Forecast) -> str:
+    most = max([count or 0 for count in (found.accepted, *found.rivals.values())])
+    return f" (up to {most} of a variant, more than the cap of {result.rule.cap})" if most > result.rule.cap else ""
+
+
+def _rounded(trials: int) -> int:
+    return max(_ROUND_TO, -(-trials // _ROUND_TO) * _ROUND_TO)

@@ -1,0 +1,80 @@
+"""Where a budget of replicates goes: to the alternatives that may be the best, as far as is known.
+
+Without a budget every alternative that is not settled is replicated, so that the promise of the rule is kept as soon
+as it can be. A budget that is too small for that is spent where the choice is open: on the alternatives that the
+posterior draws (`rgss.tradeoff.sequential.probability`) find better than the choice most often, as top-two
+procedures do (Russo, "Simple Bayesian algorithms for best-arm identification", 2020). What is tied with the choice in
+every draw gets nothing for that. They are raised together, those with the fewest replicates first, so that all of them
+are compared on common random numbers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+
+from rgss.tradeoff.sequential.evidence import SequentialEvidence
+from rgss.tradeoff.sequential.probability import probabilities_of_loss
+from rgss.tradeoff.sequential.rule import SequentialRule
+
+COVERED = 0.8
+"""Posterior probability that the best is among the alternatives that are replicated next."""
+
+FEWEST_RAISED = 2
+"""Alternatives that a part of a look is for, at least."""
+
+_ROUNDING = 1e-12
+
+
+def likely_better(
+    evidence: SequentialEvidence, rule: SequentialRule, chosen: int | None, among: Collection[int], *, seed: int
+) -> tuple[int, ...]:
+    """The choice, and the fewest others that hold what is better by the margin with the probability `COVERED`.
+
+    Where no draw has anything better, all that are not settled.
+
+    Args:
+        evidence: The evidence so far.
+        rule: The rule.
+        chosen: The choice; None if nothing is feasible by the estimates.
+        among: The alternatives that are not settled.
+        seed: Seed of the posterior draws.
+
+    Returns:
+        Their ids, the choice first, then by falling probability; equals by ascending id.
+    """
+    chances = probabilities_of_loss(evidence, chosen, margin=rule.margin, seed=seed)
+    open_ = {variant: float(chances[evidence.table.row_of(variant)]) for variant in among if variant != chosen}
+    total = math.fsum(open_.values())
+    needed = COVERED * total - _ROUNDING if total > 0.0 else math.inf
+    members = [] if chosen is None else [chosen]
+    covered = 0.0
+    for variant in sorted(open_, key=lambda each: (-open_[each], each)):
+        if covered >= needed:
+            break
+        covered += open_[variant]
+        members.append(variant)
+    return tuple(members)
+
+
+def raised_together(evidence: SequentialEvidence, rule: SequentialRule, members: Sequence[int]) -> Mapping[int, int]:
+    """The number of replicates that each of some alternatives should have after the next look.
+
+    All are raised to the same number, a batch above the fewest that one of them has. Where the budget has no room
+    for that the number is lower; where it has none for a replicate of each with the fewest, the last ones are left out.
+
+    Args:
+        evidence: The evidence so far.
+        rule: The rule.
+        members: The alternatives, the most important first.
+    """
+    ran = {variant: int(evidence.replicates[evidence.table.row_of(variant)]) for variant in members}
+    below = {variant: count for variant, count in ran.items() if count < rule.cap}
+    fewest = min(below.values(), default=rule.cap)
+    left = math.inf if rule.budget is None else rule.budget - int(evidence.replicates.sum())
+    for target in range(min(fewest + rule.batch, rule.cap), fewest, -1):
+        raised = {variant: target for variant, count in below.items() if count < target}
+        if sum(target - below[variant] for variant in raised) <= left:
+            return raised
+    # The choice alone is compared with nothing.
+    return raised_together(evidence, rule, members[:-1]) if len(members) > FEWEST_RAISED else {}

@@ -1,0 +1,62 @@
+"""Ties by value and by feasibility, compared with a direct count over the draws."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from rgss.tradeoff.robustness.uncertainty import choice_uncertainty
+
+
+def found_of(totals, feasible):
+    """Posterior draws as the uncertainty reads them, of one measure that is the value."""
+    weighting = SimpleNamespace(weights={"v": 1.0}, deciding_measures=("v",))
+    return SimpleNamespace(
+        totals=totals,
+        outcomes=SimpleNamespace(feasible=feasible),
+        preferences=SimpleNamespace(weighting=weighting),
+        table=range(totals.shape[1]),
+    )
+
+
+@pytest.fixture
+def drawn():
+    """The choice is worth 0.1 more than the second and is feasible in two draws of three; the third is near."""
+    generator = np.random.default_rng(3)
+    totals = np.column_stack([np.full(900, 0.6), np.full(900, 0.5), 0.595 + 0.02 * generator.standard_normal(900)])
+    feasible = np.ones((900, 3), dtype=bool)
+    feasible[::3, 0] = False
+    return totals, feasible
+
+
+def rivals(drawn, counts):
+    totals, feasible = drawn
+    single = np.array([[0.6], [0.5], [0.595]])
+    one = choice_uncertainty(
+        found_of(totals, feasible), 0, margin=0.01, replicates=counts, estimated=np.ones(3, dtype=bool), single=single
+    )
+    return {rival.row: rival for rival in one.rivals}, one
+
+
+def test_who_is_ahead_only_where_the_choice_is_infeasible_gets_no_number(drawn):
+    found, _ = rivals(drawn, np.array([30, 30, 30]))
+    _, feasible = drawn
+    assert found[1].probability == pytest.approx(np.mean(feasible[:, 1] & ~feasible[:, 0]))
+    assert (found[1].by_feasibility, found[1].replicates) == (True, None)
+    assert not found[2].by_feasibility
+    assert found[2].replicates is not None
+
+
+def test_the_fewer_of_two_numbers_of_replicates_count(drawn):
+    equal, _ = rivals(drawn, np.array([30, 30, 30]))
+    fewer, _ = rivals(drawn, np.array([30, 30, 10]))
+    assert equal[2].replicates / fewer[2].replicates == pytest.approx(3.0, rel=0.01)
+
+
+def test_more_replicates_are_worth_less_where_there_are_many(drawn):
+    _, few = rivals(drawn, np.array([4, 4, 4]))
+    _, many = rivals(drawn, np.array([4, 400, 400]))
+    assert dict(many.gains)[10] <= dict(few.gains)[10]
+    assert many.perfect == few.perfect
