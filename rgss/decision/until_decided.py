@@ -102,11 +102,14 @@ def replicate_until_decided(
     progress = Progress()
     proportions = proportion_measures(project)
     twins = _twins(project, variants)
+    levels = level_numbers(project.designs, sorted(variant.id for variant in variants))
     while True:
         specs = read.missing(wanted)
         run(specs)
         read.read(specs)
-        evidence = SequentialEvidence.of(trade_problem(project, read.measured()), proportions, twins=twins)
+        evidence = SequentialEvidence.of(
+            trade_problem(project, read.measured()), proportions, twins=twins, levels=levels
+        )
         answer = next_batch(evidence, rule, progress)
         progress = answer.progress
         if on_look is not None:
@@ -125,7 +128,6 @@ def replicate_until_decided(
             answer.variant,
             margin=rule.margin,
             seed=project.study.seed,
-            levels=level_numbers(project.designs, evidence.table.variants.tolist()),
         ),
         looks=progress.looks,
         rule=rule,

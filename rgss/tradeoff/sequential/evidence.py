@@ -72,6 +72,8 @@ class SequentialEvidence:
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
         feasible: Which alternatives meet everything by their estimates, shape (n,).
         twins: The group of alternatives with which each has all trials in common, whatever the seed, shape (n,).
+        levels: The level of each alternative in each factor of its design, shape (n, f), from which posterior draws
+            learn; None where designs are not made of levels.
     """
 
     table: EvidenceTable
@@ -83,10 +85,15 @@ class SequentialEvidence:
     values: NDArray[np.float64]
     feasible: NDArray[np.bool_]
     twins: NDArray[np.intp]
+    levels: NDArray[np.intp] | None = None
 
     @staticmethod
     def of(
-        problem: TradeProblem, proportions: Collection[str], *, twins: Mapping[int, int] | None = None
+        problem: TradeProblem,
+        proportions: Collection[str],
+        *,
+        twins: Mapping[int, int] | None = None,
+        levels: NDArray[np.intp] | None = None,
     ) -> SequentialEvidence:
         """The evidence of a trade-off.
 
@@ -94,6 +101,7 @@ class SequentialEvidence:
             problem: The trade-off, whose alternatives hold their replicates.
             proportions: The measures that are shares of trials.
             twins: By alternative, the group with which it has all trials in common; each its own by default.
+            levels: The level of each alternative, by ascending id, in each factor of its design, shape (n, f).
 
         Raises:
             TradeoffError: The trade-off is none of weighted values under thresholds on estimates.
@@ -135,6 +143,7 @@ class SequentialEvidence:
             values=values,
             feasible=_met(table, problem.thresholds) & ~np.isnan(values),
             twins=np.array([(twins or {}).get(each, each) for each in table.variants.tolist()], dtype=np.intp),
+            levels=levels,
         )
 
     def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:

@@ -20,7 +20,6 @@ def probability_of_good_selection(
     *,
     margin: float,
     seed: int,
-    levels: NDArray[np.intp] | None = None,
     draws: int = DRAWS,
 ) -> float:
     """The posterior probability that nothing feasible is worth more than the choice by the margin.
@@ -34,8 +33,6 @@ def probability_of_good_selection(
         chosen: The choice; None that there is nothing feasible.
         margin: The difference of value that is practically none.
         seed: Seed of the draws.
-        levels: The level of each alternative in each factor of its design, shape (n, f), in the order of
-            the evidence's table; None where designs are not made of levels.
         draws: How many.
 
     Returns:
@@ -78,7 +75,7 @@ def probabilities_of_loss(
 def _posterior(evidence: SequentialEvidence, *, draws: int, seed: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Values and feasibility of the alternatives in posterior draws, shape (draws, n) each."""
     rows = [ObservedRows(values=one.values, is_proportion=one.is_proportion) for one in evidence.observed]
-    found = posterior_means(rows, draws=draws, generator=np.random.default_rng(seed), levels=levels)
+    found = posterior_means(rows, draws=draws, generator=np.random.default_rng(seed), levels=evidence.levels)
     values = np.tile(evidence.fixed_value, (draws, 1))
     feasible = np.tile(evidence.fixed_met, (draws, 1))
     for one, drawn in zip(evidence.observed, found, strict=True):
