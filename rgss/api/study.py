@@ -147,7 +147,7 @@ class Study:
         """The trade-off, as it is or under suppositions.
 
         Args:
-            what_if: What is to be supposed, such as ``{"weight.t_e": 0.4, "SYS-012.threshold": "0.9 kg"}``.
+            what_if: What is to be supposed, such as ``{"weight.t_p": 0.4, "SYS-012.threshold": "0.9 kg"}``.
 
         Raises:
             EvidenceError: Trials have no evidence.
