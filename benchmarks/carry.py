@@ -235,6 +235,6 @@ def rows_of(project: Project) -> list[Carried]:
 if __name__ == "__main__":
     import sys
 
-    loaded = load_project(Path(__file__).resolve().parents[1])
+    loaded = load_project(Path(__file__).resolve().parents[1], "studies/nominal_world.yaml")
     write_carry(sys.stdout, rows_of(loaded))
     write_forces(sys.stdout, loaded)

@@ -249,7 +249,7 @@ def pool(file: Path, seeds: int) -> int:
     from rgss.sweep.results import FinishedTrial
     from rgss.sweep.running import sweep
 
-    project = load_project(Path()).with_fidelity("kinematic")
+    project = load_project(Path(), "studies/nominal_world.yaml").with_fidelity("kinematic")
     specs = trial_specs(project, seeds=range(1, seeds + 1))
     fastest = max(spec.tool_speed_m_s for spec in specs)
     chosen = {(trial_class(spec), spec.seed): spec for spec in specs if spec.tool_speed_m_s == fastest}
@@ -270,7 +270,7 @@ def pool(file: Path, seeds: int) -> int:
 
 def study(file: Path, seeds: int) -> int:
     """Decide the reference study again and again; 1 unless it agrees with fixed replication at a quarter."""
-    project = load_project(Path()).with_fidelity("kinematic")
+    project = load_project(Path(), "studies/nominal_world.yaml").with_fidelity("kinematic")
     observed = _read(file)
     template, classes = _template(project)
     out = sys.stdout

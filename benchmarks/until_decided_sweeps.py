@@ -30,7 +30,7 @@ from typing import Any
 
 from sweep_runs import REPOSITORY, Bench
 
-STUDY = "studies/pick_place.yaml"
+STUDY = "studies/nominal_world.yaml"
 MOST_SHARE = 0.25
 
 

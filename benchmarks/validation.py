@@ -41,7 +41,7 @@ REPETITIONS = 5
 
 def main() -> None:
     """Write every table."""
-    project = load_project(PROJECT)
+    project = load_project(PROJECT, "studies/nominal_world.yaml")
     out = sys.stdout
     out.write("# Validation of the simulation\n\n")
     out.write("Written by `python benchmarks/validation.py > docs/validation.md`; do not edit.\n\n")

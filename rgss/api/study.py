@@ -150,7 +150,7 @@ class Study:
         """The trade-off, as it is or under suppositions.
 
         Args:
-            what_if: What is to be supposed, such as ``{"weight.t_e": 0.4, "SYS-012.threshold": "0.9 kg"}`` or
+            what_if: What is to be supposed, such as ``{"weight.t_p": 0.4, "SYS-012.threshold": "0.9 kg"}`` or
                 ``{"planning.charge_per_check": "0.5 ms"}``.
             run: Whether trials are run that the suppositions need and nobody ran; they are kept as evidence.
             jobs: Number of worker processes for them, as for `sweep`.

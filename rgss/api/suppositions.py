@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 WhatIf = Mapping[str, float | str] | Sequence[str] | str
-"""Suppositions: ``{"weight.t_e": 0.4}``, or texts as ``--what-if`` takes them."""
+"""Suppositions: ``{"weight.t_p": 0.4}``, or texts as ``--what-if`` takes them."""
 
 
 def suppositions_of(what_if: WhatIf) -> list[str]:

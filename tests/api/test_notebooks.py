@@ -17,7 +17,7 @@ import rgss
 from rgss.decision.named_trials import naming_studies
 from rgss.requirements import load_requirements
 from rgss.trace.evidence.software import run_properties
-from tests.fixtures.shipped_project import REPOSITORY, copy_project
+from tests.fixtures.shipped_project import REPOSITORY, copy_as_shipped
 
 from .conftest import ASKED
 
@@ -43,7 +43,7 @@ def codes(path):
 @pytest.fixture
 def run(tmp_path):
     """Runs a notebook of a copy of the project, with settings of its own and no network."""
-    folder = copy_project(tmp_path / "project")
+    folder = copy_as_shipped(tmp_path / "project")
     own = {"IPYTHONDIR": "ipython", "JUPYTER_CONFIG_DIR": "jupyter", "JUPYTER_DATA_DIR": "data", "MPLCONFIGDIR": "mpl"}
     environment = {name: value for name, value in os.environ.items() if name != "MPLBACKEND"}
     environment |= {name: str(tmp_path / value) for name, value in own.items()}

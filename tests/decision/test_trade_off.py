@@ -69,7 +69,7 @@ def test_value_functions(problem_of):
     problem = problem_of(
         *values(
             "{measure: P_max, weight: 0.2, worst: {requirement: SYS-012}, best: {requirement: SYS-012, times: 1.75}}",
-            "{measure: t_e, weight: 0.2, worst: 25 s, best: 5 s,"
+            "{measure: t_e_simulated, weight: 0.2, worst: 25 s, best: 5 s,"
             " between: [{at: {requirement: SYS-005, times: 0.6}, worth: 0.8}]}",
             "{measure: t_p, weight: 0.2, worst: 15 s, best: 1 s, halfway: 12 s}",
             "{measure: S, weight: 0.2, worst: 80 %, best: 1}",
@@ -78,7 +78,7 @@ def test_value_functions(problem_of):
     )
     assert problem.value_functions == (
         PiecewiseValue(measure="P_max", worst=0.8, best=0.8 * 1.75),
-        PiecewiseValue(measure="t_e", worst=25.0, best=5.0, interior=((15.0, 0.8),)),
+        PiecewiseValue(measure="t_e_simulated", worst=25.0, best=5.0, interior=((15.0, 0.8),)),
         ExponentialValue(measure="t_p", worst=15.0, best=1.0, halfway=12.0),
         PiecewiseValue(measure="S", worst=0.8, best=1.0),
         TargetValue(measure="v_m_peak", target=0.5, too_low=0.2, too_high=1.0),
@@ -157,7 +157,7 @@ def test_demands_on_replicates(problem_of):
         "tail: [{measure: t_p, at_most: 5000 ms, worst_share: 40 %}]",
     )
     assert [risk.name for risk in problem.risks] == [
-        "chance:SYS-005: P[t_e <= 25 s] >= 0.6",
+        "chance:SYS-005: P[t_e_simulated <= 25 s] >= 0.6",
         "tail:t_p: mean of the worst 40 % of t_p <= 5 s",
     ]
 
@@ -166,13 +166,13 @@ def test_too_few_replicates_for_a_chance(problem_of):
     with pytest.raises(TradeoffError) as error:
         problem_of(*BOTH, "chance: [{requirement: SYS-005, probability: 0.9}]")
     assert error.value.message == "chance:SYS-005 needs 10 replicates, variant 1 has 3"
-    assert error.value.hint == "run at least 10 replicates, or ask for less: P[t_e <= 25 s] >= 0.9"
+    assert error.value.hint == "run at least 10 replicates, or ask for less: P[t_e_simulated <= 25 s] >= 0.9"
 
 
 def test_the_replicates_are_what_the_estimates_stand_on(problem_of, measured):
     problem = problem_of(*BOTH, "tail: [{measure: S, at_least: 0.5, worst_share: 0.5}]")
     for entry, alternative in zip(measured, problem.alternatives, strict=True):
-        assert set(alternative.samples) == {"t_e", "t_p", "S", "S_mean"}
+        assert set(alternative.samples) == {"t_e", "t_e_simulated", "t_p", "S", "S_mean"}
         for measure, row in alternative.samples.items():
             known = [quantity for quantity in row if quantity is not None]
             assert len(row) == 3

@@ -188,6 +188,7 @@ def test_the_readings_of_the_source_are_alternatives(reference: MeasureSet) -> N
         ("F_max", "force_of_the_hand"),
         ("t_e", "without_planning"),
         ("t_e", "simulated"),
+        ("t_e_simulated", "without_planning"),
         ("P_max", "simulated"),
     }
     assert {measure.id: measure.simulated_as for measure in reference.measures if measure.simulated_as} == {

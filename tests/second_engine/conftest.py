@@ -44,4 +44,4 @@ def gripper_with(geometries) -> Callable[..., Gripper]:
 
 @pytest.fixture(scope="session")
 def comparison() -> Comparison:
-    return Comparison(load_project(PROJECT))
+    return Comparison(load_project(PROJECT, "studies/nominal_world.yaml"))

@@ -46,7 +46,9 @@ def shipped() -> dict[str, object]:
 
 
 SHIPPED = shipped()
-SMALL_STUDY = {**SHIPPED["studies/pick_place.yaml"], "assumptions": []}
+# Names of uncertain quantities and of planners are looked up after the structure is read, so not these two sections.
+NOMINAL_STUDY = SHIPPED["studies/nominal_world.yaml"]
+SMALL_STUDY = {**NOMINAL_STUDY, "assumptions": []}
 
 
 def beginning_of(name):
@@ -139,7 +141,7 @@ def test_every_document_of_a_new_project_fits_its_schema(tmp_path):
         ("scene", beginning_of("scenes/restaurant.yaml")),
         ("robot", SHIPPED["scenes/robots/ur10.yaml"]),
         ("gripper", SHIPPED["scenes/grippers/kg-2.yaml"]),
-        ("study", {**SHIPPED["studies/pick_place.yaml"], "regression": None}),
+        ("study", {**NOMINAL_STUDY, "regression": None}),
         ("study", {**SMALL_STUDY, **RICH_STUDY, "regression": SHIPPED["studies/pick_place.yaml"].get("regression")}),
     ],
 )

@@ -29,10 +29,10 @@ def test_robot_and_grippers_are_those_of_the_shipped_project(name):
     assert packaged.read_bytes() == (REPOSITORY / name).read_bytes()
 
 
-def test_trials_are_made_as_in_the_shipped_study():
+def test_trials_are_made_as_in_the_nominal_study():
     packaged = resources.files("rgss.studies").joinpath("scaffold", "studies", "pick_place.yaml")
     with resources.as_file(packaged) as path:
-        new, shipped = read_document(path).data, read_document(REPOSITORY / "studies" / "pick_place.yaml").data
+        new, shipped = read_document(path).data, read_document(REPOSITORY / "studies" / "nominal_world.yaml").data
 
     assert (new["planning"], new["physics"]) == (shipped["planning"], shipped["physics"])
 

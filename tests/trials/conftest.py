@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import pytest
 
 from rgss.evidence import TrialRecord
 from rgss.studies.expansion import trial_specs
-from rgss.studies.project import Project, load_project
+from rgss.studies.project import Project
 from rgss.trials.pieces.input_digests import TrialSpec
 from rgss.trials.pieces.run import Pieces
-
-REPOSITORY = Path(__file__).parents[2]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,8 +29,8 @@ class Replicate:
 
 
 @pytest.fixture(scope="session")
-def project() -> Project:
-    return load_project(REPOSITORY)
+def project(shipped) -> Project:
+    return shipped
 
 
 @pytest.fixture(scope="session")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff import PortfolioDecision, SolverRun
 
 HELP = "decide which variant is best, say why, and what would change that"
-EXAMPLE = 'rgss trade --what-if weight.t_e=0.4 --what-if "SYS-012.threshold=0.9 kg"'
+EXAMPLE = 'rgss trade --what-if weight.t_p=0.4 --what-if "SYS-012.threshold=0.9 kg"'
 MORE_EXAMPLES = (
     ("rgss trade", "the decision, why, and what would change it"),
     ("rgss trade --fidelity kinematic", "by the evidence of quick trials"),

@@ -28,7 +28,7 @@ WEIGHT, VALUE = "weight", "value"
 PRICES = "prices"
 """A factor on every assumed price."""
 
-EXAMPLE = 'weight.t_e=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
+EXAMPLE = 'weight.t_p=0.4, "SYS-012.threshold=0.8 kg" or "catalogue.kg-2-light.cost=4500 USD"'
 
 
 def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
@@ -36,7 +36,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
 
     Args:
         project: The project with its study.
-        suppositions: Texts such as ``weight.t_e=0.4`` or ``SYS-012.threshold=0.8 kg``.
+        suppositions: Texts such as ``weight.t_p=0.4`` or ``SYS-012.threshold=0.8 kg``.
 
     Raises:
         DefinitionError: A text is malformed, names what is not there, has a value of another unit,

@@ -14,7 +14,7 @@ from rgss.cli.pictures.options import captioned, made_pictures
 from rgss.evidence import Failure, Phase
 
 REPOSITORY = Path(__file__).parents[3]
-RUN = ["run", "65", "--seed", "1", "--project", str(REPOSITORY)]
+RUN = ["run", "65", "--seed", "1", "--project", str(REPOSITORY), "--study", "studies/nominal_world.yaml"]
 SMALL = ["--size", "200x200", "--camera", "overview", "--fps", "1"]
 
 

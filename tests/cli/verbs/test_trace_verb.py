@@ -78,7 +78,8 @@ def test_a_trial_is_told_by_the_key_that_the_store_knows_it_by(rgss, with_eviden
 
     assert [(stored[step["id"]].variant, stored[step["id"]].seed) for step in told] == [(10, 1), (10, 2), (10, 3)]
     assert f"; rgss replay {told[0]['id'][:12]}; " in told[0]["note"]
-    assert "path_length_m = 0.6 0.6 0.6 0.6 0.6" in told[0]["note"]
+    assert "t_e_simulated = 11.11 s; " in told[0]["note"]
+    assert told[0]["note"].endswith("task_time_s = 11.11")
 
 
 def test_without_evidence_links_are_shown_and_verdicts_not_run(rgss, untouched):

@@ -94,8 +94,8 @@ FINDINGS = [
         "3:41: error: unknown key 'requiremnt' (did you mean",
     ),
     (
-        values("{measure: t_e, weight: 1, worst: {requirement: SYS-005}, best: 30 s}"),
-        "3:70: error: less t_e is better, but this values more of it higher (a requirement's",
+        values("{measure: t_e_simulated, weight: 1, worst: {requirement: SYS-005}, best: 30 s}"),
+        "3:80: error: less t_e_simulated is better, but this values more of it higher (a requirement's",
     ),
     # weights
     (
