@@ -25,24 +25,3 @@ if TYPE_CHECKING:
     from rgss.assessment.replicates import replicates_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "Aspect",
-    "Driver",
-    "DriversOfFailures",
-    "EstimateBounds",
-    "FailureDrivers",
-    "VariantMeasures",
-    "VerdictRecord",
-    "bounds_by_measure",
-    "drivers_of_failures",
-    "evidence_state",
-    "measure_variants",
-    "project_marks",
-    "read_record",
-    "record_after_sweep",
-    "record_verdicts",
-    "replicates_of",
-    "require_complete",
-    "requirements_with_criteria",
-]

@@ -12,37 +12,3 @@ from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Sc
 from rgss.scenes.scene_file import load_scene
 from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.waypoints import Waypoint, waypoint_poses
-
-__all__ = [
-    "FORCE_WINDOW_S",
-    "GRIPPER_BASE_LINK",
-    "LANDING_LIMIT_M_S",
-    "RIBS",
-    "Box",
-    "Cylinder",
-    "Gripper",
-    "GripperDocument",
-    "GripperFile",
-    "GripperGeometry",
-    "Joint",
-    "PlaceRegion",
-    "Pose",
-    "Robot",
-    "RobotDocument",
-    "Scene",
-    "SceneBody",
-    "SceneDocument",
-    "Shape",
-    "Task",
-    "Waypoint",
-    "Workpiece",
-    "assembled_urdf",
-    "finger_joint",
-    "finger_link",
-    "load_gripper",
-    "load_gripper_file",
-    "load_robot",
-    "load_scene",
-    "pad_ribs",
-    "waypoint_poses",
-]

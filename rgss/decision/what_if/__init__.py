@@ -20,19 +20,3 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.what_if import suppose
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "COST",
-    "Change",
-    "ModelNumber",
-    "Reading",
-    "Scenario",
-    "assumed_numbers",
-    "measured_in",
-    "measures_with",
-    "readings_of",
-    "simulated_numbers",
-    "suppose",
-    "symbols_of",
-    "variant_with",
-]

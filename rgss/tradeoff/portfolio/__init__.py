@@ -16,13 +16,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.portfolio.work import Cut
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "Assignment",
-    "Cut",
-    "PortfolioAim",
-    "PortfolioDecision",
-    "PortfolioProblem",
-    "PortfolioTask",
-    "decide_portfolio",
-]

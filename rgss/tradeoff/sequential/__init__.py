@@ -11,13 +11,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, next_batch
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "Decided",
-    "Progress",
-    "Reason",
-    "SequentialEvidence",
-    "SequentialRule",
-    "next_batch",
-    "probability_of_good_selection",
-]
