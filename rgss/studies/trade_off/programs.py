@@ -159,7 +159,7 @@ def read_risks(
             if any(id_ == other.id for other in found):
                 places.report("repeated", f"{id_} is demanded twice", at, hint="keep one")
                 continue
-            found.append(choice.of(id_, bound, share))
+            found.append(choice(id=id_, bound=bound, share=share))
     return tuple(found)
 
 
