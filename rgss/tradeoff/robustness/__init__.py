@@ -7,8 +7,9 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.tradeoff.robustness.acceptability import Acceptability, Outcomes, OutcomeSource, smaa2
     from rgss.tradeoff.robustness.assumption_sensitivity import AssumptionRange, Standing, linear_range, scanned_range
+    from rgss.tradeoff.robustness.complete_block import largest_complete_block
     from rgss.tradeoff.robustness.cost_box import BoxProblem, BoxRange, box_range
-    from rgss.tradeoff.robustness.effects import Effect, FactorialAnalysis, factorial_effects, largest_complete_block
+    from rgss.tradeoff.robustness.effects import Effect, FactorialAnalysis, factorial_effects
     from rgss.tradeoff.robustness.flip import WeightRange, WeightShift, weight_ranges, weight_shifts
     from rgss.tradeoff.robustness.kept_alternatives import KeptAlternative, KeptFor, worth_keeping
     from rgss.tradeoff.robustness.outcomes import admitted_weights, condition_masks, noisy_outcomes, replicate_number

@@ -15,7 +15,7 @@ from rgss.reports.decision.json import portfolio_to_json
 from rgss.reports.decision.report_part import portfolio_sentence
 from rgss.reports.decision.text import certificate_lines, portfolio_lines
 from rgss.tradeoff import Agreement, Assignment, Check, CheckKind, Cut, DecisionStatus
-from rgss.tradeoff.portfolio.portfolio import PortfolioDecision
+from rgss.tradeoff.portfolio import PortfolioDecision
 
 PROVEN = PortfolioDecision(
     status=DecisionStatus.OPTIMAL,
