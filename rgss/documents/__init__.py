@@ -36,6 +36,13 @@ from rgss.documents.reader import LARGEST_FILE_BYTES, Document, read_document
 from rgss.documents.refusals import MOST_PROBLEMS, cut_short
 from rgss.documents.regular_file import chunks_of, open_regular
 from rgss.documents.schemas import json_schema
-from rgss.documents.spreadsheet_cells import neutralised, printable, restored, starts_like_a_formula
+from rgss.documents.spreadsheet_cells import (
+    LONGEST_EXCEL_TEXT,
+    neutralised,
+    printable,
+    restored,
+    starts_like_a_formula,
+    without_clock,
+)
 from rgss.documents.steering import escaped_for_json, escaped_for_xml, steers
 from rgss.documents.validation import LoadedDocument, load_document, validated
