@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project
 
 if TYPE_CHECKING:
     from rgss.decision import ScreeningResult
@@ -27,10 +27,7 @@ MORE_EXAMPLES = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    add_study(parser)
-    add_replicates(parser)
-    add_fidelity(parser)
-    add_nominal(parser)
+    add_evidence_choice(parser)
     parser.add_argument(
         "--what-if",
         action="append",
