@@ -14,7 +14,7 @@ class Assignment:
 
     Attributes:
         task: The task.
-        member: The member of the fleet that the alternative belongs to.
+        member: The member of the portfolio that the alternative belongs to.
         variant: The alternative.
         value: Its weighted value in this task.
     """
@@ -27,10 +27,10 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PortfolioDecision:
-    """The outcome of choosing a fleet.
+    """The outcome of choosing a portfolio.
 
     Attributes:
-        status: Optimal; best found where a limit ended the proof; infeasible if no fleet of the size
+        status: Optimal; best found where a limit ended the proof; infeasible if no portfolio of the size
             serves every task; undecided where a limit ended the search for one.
         members: The chosen members: of the tied best portfolios one with the fewest, and of these,
             where all were enumerated, the first in the order of their smallest variants.

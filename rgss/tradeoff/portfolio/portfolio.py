@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import Agreement, Check, CheckKind, DecisionStatus, SolverRun
 from rgss.tradeoff.portfolio.checks import (
-    FLEET_RUN,
     LARGEST_SOLVED,
+    PORTFOLIO_RUN,
     PortfolioAim,
     best_portfolio,
     portfolio_objective,
@@ -165,7 +165,7 @@ def _checked(
     """The better of a portfolio and the solvers', and what the solvers came to."""
     checks: list[Check] = []
     if values.size <= LARGEST_SOLVED:
-        rows, check = _compared(problem, values, weights, rows, FLEET_RUN, "HiGHS", CheckKind.SECOND_RUN)
+        rows, check = _compared(problem, values, weights, rows, PORTFOLIO_RUN, "HiGHS", CheckKind.SECOND_RUN)
         checks.append(check)
     for run in independent:
         if values.size > LARGEST_SOLVED:

@@ -49,20 +49,22 @@ class PortfolioProblem:
 
     def __post_init__(self) -> None:
         if not self.tasks:
-            raise TradeoffError("a fleet without tasks has nothing to do", hint="name at least one task")
+            raise TradeoffError("a portfolio without tasks has nothing to do", hint="name at least one task")
         names = [task.name for task in self.tasks]
         for name in names:
             if names.count(name) > 1:
                 raise TradeoffError(f"task {name!r} is given twice", hint="keep one of them")
         if self.at_most < 1:
-            raise TradeoffError(f"a fleet of at most {self.at_most} designs serves no task", hint="allow at least 1")
+            raise TradeoffError(
+                f"a portfolio of at most {self.at_most} designs serves no task", hint="allow at least 1"
+            )
         Weighting(weights={task.name: task.weight for task in self.tasks})
         variants = [one.variant for one in self.tasks[0].problem.alternatives]
         for task in self.tasks:
             if not isinstance(task.problem.program, AdditiveValue):
                 raise TradeoffError(
                     f"task {task.name!r} is decided by the {task.problem.program.name} program",
-                    hint="a fleet is chosen by weighted value; use the additive program",
+                    hint="a portfolio is chosen by weighted value; use the additive program",
                 )
             others = {one.variant for one in task.problem.alternatives}
             for variant in sorted(others.symmetric_difference(variants)):
