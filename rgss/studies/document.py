@@ -15,6 +15,7 @@ from rgss.documents import (
     Text,
 )
 from rgss.findings import shown
+from rgss.scenes import AssumptionEntry
 from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
 from rgss.studies.planning import PlanningEntry
 from rgss.studies.regression_section import RegressionEntry
@@ -83,13 +84,6 @@ class PromotionEntry(DocumentModel):
     requirements: Literal["possible"] | None = None
     keep: Annotated[int, Field(ge=1)] | None = None
     within: Dimensionless | None = None
-
-
-class AssumptionEntry(DocumentModel):
-    """What was assumed, and why."""
-
-    about: Text
-    rationale: Text
 
 
 class StudyDocument(DocumentModel):
