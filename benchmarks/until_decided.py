@@ -30,7 +30,7 @@ from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.probability import probability_of_good_selection
 from rgss.tradeoff.sequential.rule import SequentialRule
 from rgss.tradeoff.sequential.sequential import Decided, Progress, Reason, next_batch
-from rgss.trials.pieces.input_digests import TrialSpec
+from rgss.trials.trial_spec import TrialSpec
 
 FIXED = 200
 Rows = Mapping[int, Mapping[str, NDArray[np.float64]]]

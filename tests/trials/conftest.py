@@ -10,8 +10,8 @@ import pytest
 from rgss.evidence import TrialRecord
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
-from rgss.trials.pieces.input_digests import TrialSpec
 from rgss.trials.pieces.run import Pieces
+from rgss.trials.trial_spec import TrialSpec
 
 REPOSITORY = Path(__file__).parents[2]
 
