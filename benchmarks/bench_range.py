@@ -17,7 +17,9 @@ import numpy as np
 
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
-from rgss.trials.payload_bench.bench import BOUND, VALIDATED, BenchSpec, bench_spec, outside, run_bench
+from rgss.trials.payload_bench.bench import run_bench
+from rgss.trials.payload_bench.range import BOUND, VALIDATED, outside
+from rgss.trials.payload_bench.spec import BenchSpec, bench_spec
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 ITERATIONS = (20, 50)

@@ -18,10 +18,10 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
 from rgss.trials.execution import Execution
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.pieces.input_digests import TrialSpec
 from rgss.trials.planning import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
+from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell
 
 VARIANTS = {2: 28, 3: 10}

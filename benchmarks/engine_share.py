@@ -164,7 +164,7 @@ def measure(seeds: int, *, fidelity: str = "contact", project: Path = REPOSITORY
     from rgss.studies.project import load_project
     from rgss.sweep.task_queue import TaskQueue
     from rgss.sweep.trial_keys import trials_of
-    from rgss.trials.pieces.pieces import make
+    from rgss.trials.pieces.run import make
 
     loaded = load_project(project).with_replicates(seeds).with_fidelity(fidelity)
     sides = Sides()

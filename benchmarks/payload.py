@@ -12,7 +12,9 @@ from itertools import product
 from pathlib import Path
 
 from rgss.scenes import Gripper, load_gripper, load_scene
-from rgss.trials.payload_bench.bench import BenchSettings, bench_spec, probe, run_bench
+from rgss.trials.payload_bench.bench import run_bench
+from rgss.trials.payload_bench.rig import probe
+from rgss.trials.payload_bench.spec import BenchSettings, bench_spec
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 FINGERS, FRICTIONS, FORCES_N, ACCELERATIONS_M_S2 = (2, 3), (0.4, 0.7, 0.9), (5.0, 10.0, 20.0), (0.5, 1.0, 2.0, 4.0)

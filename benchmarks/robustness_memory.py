@@ -36,7 +36,7 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.project import FOLDERS, Project, load_project
 from rgss.sweep.trial_keys import key_of
 from rgss.trials.metrics import METRICS
-from rgss.trials.pieces.input_digests import TrialSpec
+from rgss.trials.trial_spec import TrialSpec
 
 LARGEST_MB = 1500
 """The memory that is allowed."""

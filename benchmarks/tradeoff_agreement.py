@@ -11,14 +11,14 @@ import sys
 import time
 from collections import Counter
 
-from tradeoff_cases import random_fleet, random_problem
-from tradeoff_oracle import expected, expected_fleet
+from tradeoff_cases import random_portfolio, random_problem
+from tradeoff_oracle import expected, expected_portfolio
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff import DecisionStatus, TradeProblem, decide, decide_portfolio
 
 PROGRAMS = ("additive", "lexicographic", "epsilon_constraint", "tchebycheff", "minimax_regret", "risk")
-KINDS = (*PROGRAMS, *(f"{program} over levels" for program in PROGRAMS), "fleet")
+KINDS = (*PROGRAMS, *(f"{program} over levels" for program in PROGRAMS), "portfolio")
 
 
 def main() -> int:
@@ -33,7 +33,7 @@ def main() -> int:
         counts: Counter[str] = Counter()
         for seed in range(number):
             try:
-                outcome = one_fleet(seed) if kind == "fleet" else one_problem(kind, seed)
+                outcome = one_portfolio(seed) if kind == "portfolio" else one_problem(kind, seed)
             except TradeoffError as error:
                 out.write(f"{error}\n")
                 outcome = []
@@ -72,10 +72,10 @@ def one_problem(kind: str, seed: int) -> list[str]:
     return [*kinds, "agree"] if agree else kinds
 
 
-def one_fleet(seed: int) -> list[str]:
-    """Choose one fleet; ``agree`` if its objective is the right one."""
-    problem = random_fleet(random.Random(f"fleet {seed}"))  # noqa: S311 - a sample, no secret
-    decision, best = decide_portfolio(problem), expected_fleet(problem)
+def one_portfolio(seed: int) -> list[str]:
+    """Choose one portfolio; ``agree`` if its objective is the right one."""
+    problem = random_portfolio(random.Random(f"fleet {seed}"))  # noqa: S311 - a sample, no secret
+    decision, best = decide_portfolio(problem), expected_portfolio(problem)
     if best is None:
         return ["infeasible", "agree"] if decision.status is DecisionStatus.INFEASIBLE else ["infeasible"]
     return ["agree"] if decision.objective is not None and math.isclose(decision.objective, best, abs_tol=1e-9) else []

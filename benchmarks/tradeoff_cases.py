@@ -86,7 +86,7 @@ def random_problem(rng: random.Random, program: str, *, levels: bool = False) ->
     )
 
 
-def random_fleet(rng: random.Random) -> PortfolioProblem:
+def random_portfolio(rng: random.Random) -> PortfolioProblem:
     """A random portfolio problem over one to four tasks."""
     count = rng.choice([1, 2, 4, 8, 14])
     variants = rng.sample(range(1, 100), count)

@@ -5,7 +5,7 @@ by the package, and by the solver with its checks alone (every third of those wi
 branch and bound, so that it depends on runs of the solver). In one of four, larger tables are merged, so that
 both forms of the program are tried.
 
-Run it from the repository's folder: ``python benchmarks/tradeoff_guard.py [LEVEL_PROBLEMS] [FLEETS] [FIRST_SEED]``.
+Run it from the repository's folder: ``python benchmarks/tradeoff_guard.py [LEVEL_PROBLEMS] [PORTFOLIOS] [FIRST_SEED]``.
 ``python benchmarks/tradeoff_guard.py options [PROBLEMS]`` counts what the solver alone gets wrong with each set
 of options, without any check.
 """
@@ -20,7 +20,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from tradeoff_guard_cases import FleetCase, LevelCase, fleet_case, level_case, seven_factors
+from tradeoff_guard_cases import LevelCase, PortfolioCase, level_case, portfolio_case, seven_factors
 
 import rgss.tradeoff.levels.guard
 import rgss.tradeoff.levels.problem
@@ -53,11 +53,11 @@ def main() -> int:
     if sys.argv[1:2] == ["options"]:
         return options(int(sys.argv[2]) if len(sys.argv) > 2 else 140)
     levels = int(sys.argv[1]) if len(sys.argv) > 1 else 2_000
-    fleets = int(sys.argv[2]) if len(sys.argv) > 2 else 500
+    portfolios = int(sys.argv[2]) if len(sys.argv) > 2 else 500
     first = int(sys.argv[3]) if len(sys.argv) > 3 else 0
     counts: Counter[tuple[str, str]] = Counter()
     start = time.perf_counter()
-    most = max(levels, 4 * fleets)
+    most = max(levels, 4 * portfolios)
     for place in range(most):
         if place < levels:
             case = level_case(first + place)
@@ -70,16 +70,18 @@ def main() -> int:
                 if outcome not in ("right", "infeasible, right"):
                     sys.stdout.write(f"level problem {first + place}, {path}: {outcome}\n")
                     sys.stdout.flush()
-        if place % 4 == 0 and place // 4 < fleets:
-            fleet = fleet_case(first + place // 4)
-            outcome = fleet_outcome(fleet)
-            counts[f"fleet, {fleet.problem.aim.value}", outcome] += 1
+        if place % 4 == 0 and place // 4 < portfolios:
+            portfolio = portfolio_case(first + place // 4)
+            outcome = portfolio_outcome(portfolio)
+            counts[f"portfolio, {portfolio.problem.aim.value}", outcome] += 1
             if outcome not in ("right", "infeasible, right"):
-                sys.stdout.write(f"fleet {first + place // 4}: {outcome}\n")
+                sys.stdout.write(f"portfolio {first + place // 4}: {outcome}\n")
         if place % 20 == 19 or place == most - 1:
             done = f"level problems {first} to {first + min(place + 1, levels) - 1}" if levels else ""
-            fleets_done = f"fleets {first} to {first + min(place // 4 + 1, fleets) - 1}" if fleets else ""
-            _write(counts, ", ".join(filter(None, (done, fleets_done))), time.perf_counter() - start)
+            portfolios_done = (
+                f"portfolios {first} to {first + min(place // 4 + 1, portfolios) - 1}" if portfolios else ""
+            )
+            _write(counts, ", ".join(filter(None, (done, portfolios_done))), time.perf_counter() - start)
     return int(any(outcome not in ("right", "infeasible, right") for _, outcome in counts))
 
 
@@ -120,8 +122,8 @@ def level_outcome(case: LevelCase, path: str, *, seed: int) -> str:
     return "right"
 
 
-def fleet_outcome(case: FleetCase) -> str:
-    """What the decision of a fleet is, compared with all portfolios."""
+def portfolio_outcome(case: PortfolioCase) -> str:
+    """What the decision of a portfolio is, compared with all portfolios."""
     problem = case.problem
     decision = decide_portfolio(problem)
     found: list[float | None] = []

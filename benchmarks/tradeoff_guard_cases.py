@@ -61,7 +61,7 @@ class LevelCase:
 
 
 @dataclass(frozen=True, slots=True)
-class FleetCase:
+class PortfolioCase:
     """A portfolio problem, with the value of each design in each task, -1 where it does not serve."""
 
     problem: PortfolioProblem
@@ -325,7 +325,7 @@ def _missed(
     return missed
 
 
-def fleet_case(seed: int) -> FleetCase:
+def portfolio_case(seed: int) -> PortfolioCase:
     """A random portfolio: ties, designs that do not serve a task, tasks of no weight, mean or worst."""
     rng = np.random.default_rng([seed, 11])
     shape = (int(rng.choice([6, 20, 40, 110])), int(rng.integers(2, 13)))
@@ -360,4 +360,4 @@ def fleet_case(seed: int) -> FleetCase:
         for task in range(shape[1])
     )
     aim = PortfolioAim.MEAN if rng.random() < 0.5 else PortfolioAim.WORST
-    return FleetCase(problem=PortfolioProblem(tasks=tasks, at_most=most, aim=aim), values=values, weights=weights)
+    return PortfolioCase(problem=PortfolioProblem(tasks=tasks, at_most=most, aim=aim), values=values, weights=weights)

@@ -253,8 +253,8 @@ def corners(problem: TradeProblem) -> list[tuple[float, ...]]:
     return found
 
 
-def expected_fleet(problem: PortfolioProblem) -> float | None:
-    """The best objective of all fleets of the size, by trying each; None if none serves every task."""
+def expected_portfolio(problem: PortfolioProblem) -> float | None:
+    """The best objective of all portfolios of the size, by trying each; None if none serves every task."""
     answers = [(task, expected(task.problem)) for task in problem.tasks]
     variants = [one.variant for one in problem.tasks[0].problem.alternatives]
     group = {variant: str(variant) if problem.groups is None else problem.groups[variant] for variant in variants}

@@ -31,7 +31,7 @@ from rgss.tradeoff.sequential.probability import probability_of_good_selection
 from rgss.tradeoff.sequential.rule import SequentialRule
 from rgss.tradeoff.sequential.sequential import Decided, Reason, next_batch
 from rgss.tradeoff.sequential.settling import Progress
-from rgss.trials.pieces.input_digests import TrialSpec
+from rgss.trials.trial_spec import TrialSpec
 
 FIXED = 200
 Rows = Mapping[int, Mapping[str, NDArray[np.float64]]]

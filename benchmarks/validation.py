@@ -20,11 +20,11 @@ from rgss.physics import World
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
 from rgss.trials.execution import Execution
-from rgss.trials.pieces.input_digests import TrialSpec
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.planning import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
+from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))

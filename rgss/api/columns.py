@@ -12,7 +12,7 @@ from rgss.api.column import Column, FrameDescription, Kind
 from rgss.api.metric_columns import phase_metric_columns, recorded_column, trial_metric_columns
 from rgss.api.sensitivity_columns import ASSUMPTIONS, STAKEHOLDERS, TORNADO, WORTH_KEEPING
 from rgss.api.shared_columns import AS_UNIT, MEASURE, SEED, UNIT, VARIANT
-from rgss.api.trade_columns import ACCEPTABILITY, CHANGES, EFFECTS, FLEET, PARETO, RANKING, WEIGHTS
+from rgss.api.trade_columns import ACCEPTABILITY, CHANGES, EFFECTS, PARETO, PORTFOLIO, RANKING, WEIGHTS
 
 _VARIANTS = FrameDescription(
     name="variants",
@@ -174,7 +174,7 @@ FRAMES: Mapping[str, FrameDescription] = MappingProxyType(
             WORTH_KEEPING,
             STAKEHOLDERS,
             ASSUMPTIONS,
-            FLEET,
+            PORTFOLIO,
             CHANGES,
             _COURSE,
         )

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from rgss.api.assumptions import assumptions_frame, scenario_measures
 from rgss.api.column import Column, Kind
 from rgss.api.columns import FRAMES
-from rgss.api.fleet import fleet_frame
 from rgss.api.frames import (
     described_frame,
     frame_of,
@@ -24,6 +23,7 @@ from rgss.api.frames import (
     verdicts_frame,
 )
 from rgss.api.missing_trials import sweep_hint, with_trials
+from rgss.api.portfolios import portfolio_of_study
 from rgss.api.suppositions import WhatIf, suppositions_of
 from rgss.api.sweep import sweep_study
 from rgss.api.trade import Trade
@@ -189,14 +189,14 @@ class Study:
         """What each uncertain input does to the lead of the choice; as of `trade`."""
         return self._trade.tornado()
 
-    def fleet(self) -> pd.DataFrame:
-        """The designs that together serve the studies of the fleet best, by each study's own evidence.
+    def portfolio(self) -> pd.DataFrame:
+        """The designs that together serve the studies of the portfolio best, by each study's own evidence.
 
         Raises:
-            DefinitionError: The study asks for no fleet.
+            DefinitionError: The study asks for no portfolio.
             EvidenceError, TradeoffError: Trials have no evidence, or the choice is ill posed.
         """
-        return fleet_frame(self.project)
+        return portfolio_of_study(self.project)
 
     def columns(self, frame: str) -> pd.DataFrame:
         """What the columns of a frame mean, with their units.

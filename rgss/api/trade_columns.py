@@ -136,15 +136,15 @@ CHANGES = FrameDescription(
 )
 
 
-FLEET = FrameDescription(
-    name="fleet",
-    row="a study that the fleet serves",
+PORTFOLIO = FrameDescription(
+    name="portfolio",
+    row="a study that the portfolio serves",
     index=(Column(name="study", meaning="file of the study"),),
     columns=(
-        Column(name="member", meaning="member of the fleet that serves it: a component, or a variant"),
+        Column(name="member", meaning="member of the portfolio that serves it: a component, or a variant"),
         Column(name="variant", meaning="id of the design variant that serves it", unit="1", kind=Kind.COUNT),
         Column(name="value", meaning="its weighted value in that study", unit="1", kind=Kind.NUMBER),
-        Column(name="status", meaning="of the fleet: optimal, or best found where that is not proven"),
-        Column(name="gap", meaning="by how much another fleet can be better at most", unit="1", kind=Kind.NUMBER),
+        Column(name="status", meaning="of the portfolio: optimal, or best found where that is not proven"),
+        Column(name="gap", meaning="by how much another portfolio can be better at most", unit="1", kind=Kind.NUMBER),
     ),
 )

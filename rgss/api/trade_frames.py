@@ -157,20 +157,20 @@ def changes_frame(scenario: Scenario | None) -> pd.DataFrame:
     return described_frame("changes", rows)
 
 
-def portfolio_frame(fleet: PortfolioDecision) -> pd.DataFrame:
-    """One row for each study that the fleet serves; none if no fleet serves all of them."""
+def portfolio_frame(portfolio: PortfolioDecision) -> pd.DataFrame:
+    """One row for each study that the portfolio serves; none if no portfolio serves all of them."""
     rows = [
         {
             "study": one.task,
             "member": one.member,
             "variant": one.variant,
             "value": one.value,
-            "status": fleet.status.value,
-            "gap": fleet.gap,
+            "status": portfolio.status.value,
+            "gap": portfolio.gap,
         }
-        for one in fleet.assignments
+        for one in portfolio.assignments
     ]
-    return described_frame("fleet", rows)
+    return described_frame("portfolio", rows)
 
 
 def _weighting(found: Robustness) -> WeightRobustness:

@@ -28,32 +28,3 @@ if TYPE_CHECKING:
     from rgss.assessment.workload_cases import CaseSuccess, measured_in_case, success_by_case
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "Aspect",
-    "CaseSuccess",
-    "Driver",
-    "DriversOfFailures",
-    "EstimateBounds",
-    "FailureDrivers",
-    "SeedGroup",
-    "VariantMeasures",
-    "VerdictRecord",
-    "bounds_by_measure",
-    "common_seeds",
-    "drivers_of_failures",
-    "evidence_state",
-    "measure_variants",
-    "measured_in_case",
-    "project_marks",
-    "read_record",
-    "read_specs",
-    "record_after_sweep",
-    "record_verdicts",
-    "replicates_of",
-    "require_complete",
-    "requirements_with_criteria",
-    "sequential_seeds",
-    "specs_read",
-    "success_by_case",
-]

@@ -33,6 +33,14 @@ def add_nominal(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_evidence_choice(parser: argparse.ArgumentParser) -> None:
+    """Add what chooses the trials of a study: study, replicates, fidelity and nominal values."""
+    add_study(parser)
+    add_replicates(parser)
+    add_fidelity(parser)
+    add_nominal(parser)
+
+
 def chosen_project(options: argparse.Namespace) -> Project:
     """The project with the study, the replicates and the fidelity that the options name, nominal if they say so.
 

@@ -23,21 +23,3 @@ if TYPE_CHECKING:
     )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "COMPARED_METRICS",
-    "MOST_RIVALS",
-    "Aspect",
-    "Confirmation",
-    "ConfirmationSetting",
-    "ConfirmedTrial",
-    "Engine",
-    "Selection",
-    "SettingResult",
-    "VerdictDifference",
-    "confirm",
-    "confirmation_settings",
-    "confirmation_trials",
-    "select",
-    "selected_by_id",
-]

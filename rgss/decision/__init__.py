@@ -21,28 +21,3 @@ if TYPE_CHECKING:
     from rgss.decision.until_decided import UntilDecided, replicate_until_decided
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "NamingStudy",
-    "ScreenedVariant",
-    "ScreeningResult",
-    "UntilDecided",
-    "asked_of",
-    "asked_trials",
-    "choose",
-    "choose_portfolio",
-    "double_counting",
-    "measure_survivors",
-    "naming_studies",
-    "portfolio_projects",
-    "reopened",
-    "replicate_until_decided",
-    "screen",
-    "screening_specs",
-    "screening_summary",
-    "shared_measures",
-    "surviving_specs",
-    "sweep_in_stages",
-    "trace_evidence",
-    "trade_problem",
-]

@@ -17,13 +17,13 @@ COMPONENT = "component."
 
 
 def portfolio_projects(project: Project) -> Mapping[str, Project]:
-    """The project with each of the studies that its fleet serves, by the study's file.
+    """The project with each of the studies that its portfolio serves, by the study's file.
 
     Raises:
-        DefinitionError: The study asks for no fleet.
+        DefinitionError: The study asks for no portfolio.
         DocumentError: A study's file is wrong.
     """
-    return {each.study: load_project(project.folder, each.study) for each in _fleet(project).studies}
+    return {each.study: load_project(project.folder, each.study) for each in _portfolio(project).studies}
 
 
 def choose_portfolio(
@@ -36,9 +36,9 @@ def choose_portfolio(
     """Choose the designs that together serve every study best.
 
     Args:
-        project: The project with the study that asks for the fleet.
+        project: The project with the study that asks for the portfolio.
         measured: For each of its studies the project with it and every variant with its estimates.
-        time_limit: Seconds to prove the fleet best, in place of a count of operations.
+        time_limit: Seconds to prove the portfolio best, in place of a count of operations.
         independent: Runs of other solvers than HiGHS, as further checks.
 
     Raises:
@@ -46,14 +46,14 @@ def choose_portfolio(
         TradeoffError: The choice is ill posed.
         DefinitionError: The studies have different designs, or no one knows what a member is.
     """
-    choice = _fleet(project)
+    choice = _portfolio(project)
     designs: dict[int, str] = {}
     for study, (_, variants) in measured.items():
         for one in variants:
             if designs.setdefault(one.variant.id, one.variant.digest) != one.variant.digest:
                 raise DefinitionError(
                     f"variant {one.variant.id} of {study} is another design than that of the other studies",
-                    hint="give the studies of a fleet the same design space and catalogue",
+                    hint="give the studies of a portfolio the same design space and catalogue",
                 )
     variants = next(iter(measured.values()))[1]
     return decide_portfolio(
@@ -73,13 +73,13 @@ def choose_portfolio(
     )
 
 
-def _fleet(project: Project) -> PortfolioEntry:
-    fleet = project.study.trade_off.fleet
-    if fleet is None:
+def _portfolio(project: Project) -> PortfolioEntry:
+    portfolio = project.study.trade_off.portfolio
+    if portfolio is None:
         raise DefinitionError(
-            f"study {project.study.id!r} asks for no fleet", hint="add 'fleet' to the study's trade_off"
+            f"study {project.study.id!r} asks for no portfolio", hint="add 'portfolio' to the study's trade_off"
         )
-    return fleet
+    return portfolio
 
 
 def _member(variant: DesignVariant, member: str) -> str:
@@ -89,5 +89,5 @@ def _member(variant: DesignVariant, member: str) -> str:
         known = dict(variant.levels)
     if member not in known:
         names = [*variant.levels, *(f"{COMPONENT}{role}" for role in variant.components)]
-        raise DefinitionError(f"no one knows the member {member!r} of a fleet", hint=f"members: {', '.join(names)}")
+        raise DefinitionError(f"unknown portfolio member {member!r}", hint=f"members: {', '.join(names)}")
     return known[member]

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import io
 import re
 
 from rgss.invisible_characters import visible
 
+LONGEST_EXCEL_TEXT = 32_767
+"""As many characters a cell of Excel holds."""
+
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+_CLOCK = re.compile(rb"(<dcterms:(created|modified)[^>]*>)[^<]*(</dcterms:)")
 _FORMULA = re.compile("^[ \u00a0\u3000]*[=+\\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
 _NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x84\x86-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 
@@ -38,3 +44,19 @@ def printable(text: str) -> str:
     Characters that reorder or hide text are shown by their code points.
     """
     return _NO_TEXT.sub("\ufffd", visible(text))
+
+
+def without_clock(workbook: bytes) -> bytes:
+    """The same Excel file without the time at which it was made, which stands in it twice."""
+    import zipfile
+
+    out = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(workbook)) as source, zipfile.ZipFile(out, "w") as target:
+        for name in source.namelist():
+            part = source.read(name)
+            if name == "docProps/core.xml":
+                part = _CLOCK.sub(rb"\g<1>1980-01-01T00:00:00Z\3", part)
+            entry = zipfile.ZipInfo(name, date_time=_EPOCH)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            target.writestr(entry, part)
+    return out.getvalue()

@@ -27,31 +27,3 @@ from rgss.evidence.records import (
     trial_key,
 )
 from rgss.evidence.store import EvidenceStore
-
-__all__ = [
-    "PLANNED_PHASES",
-    "EvidenceStore",
-    "Failure",
-    "Fidelity",
-    "Metric",
-    "Phase",
-    "PhaseOutcome",
-    "PhaseRecord",
-    "Piece",
-    "PieceKind",
-    "PlanOutcome",
-    "PlanningRecord",
-    "Provenance",
-    "RunFailure",
-    "RunFailureKind",
-    "StoredTrial",
-    "TrialRecord",
-    "inputs_digest",
-    "plain_json",
-    "read_json",
-    "record_digest",
-    "record_from_json",
-    "record_to_json",
-    "text_digest",
-    "trial_key",
-]

@@ -12,21 +12,3 @@ if TYPE_CHECKING:
     from rgss.exchange.ompl_database import write_ompl_database
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "ATTRIBUTES",
-    "ChangeKind",
-    "Content",
-    "ElementChange",
-    "FileChange",
-    "Part",
-    "Wishes",
-    "compare",
-    "content_of",
-    "not_as_planned",
-    "part_of",
-    "planned",
-    "rehearsed",
-    "write_ompl_database",
-    "written",
-]

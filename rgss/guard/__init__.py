@@ -11,11 +11,3 @@ if TYPE_CHECKING:
     from rgss.guard.runs import guard_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "baseline_name",
-    "compare_with_baseline",
-    "guard_findings",
-    "guard_of",
-    "make_baseline",
-]

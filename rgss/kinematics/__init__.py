@@ -8,23 +8,3 @@ from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.kinematics.inverse import InverseKinematics
 from rgss.kinematics.overlap_search import Overlap, Solid, overlaps
-
-__all__ = [
-    "Arm",
-    "ArmDynamics",
-    "CollisionContext",
-    "CollisionModel",
-    "FollowedLine",
-    "InverseKinematics",
-    "LineBreak",
-    "Load",
-    "NearestPair",
-    "Overlap",
-    "Solid",
-    "choose_branches",
-    "follow_line",
-    "gripper_loads",
-    "overlaps",
-    "straight_line",
-    "workpiece_load",
-]

@@ -13,7 +13,6 @@ from rgss.findings import Finding
 from rgss.measures.consistency import check_entries, check_roles
 from rgss.measures.definitions import (
     Constant,
-    Equation,
     Estimator,
     Measure,
     MeasureSet,
@@ -76,9 +75,7 @@ class _Builder:
             constants=tuple(_constant(entry, value) for entry, value in zip(entries.constants, values, strict=True)),
             inputs=entries.inputs,
             assumptions=entries.assumptions,
-            equations=tuple(
-                Equation(id=entry.id, relation=entry.relation, note=entry.note or "") for entry in entries.equations
-            ),
+            equations=entries.equations,
             measures=tuple(measures[entry.id] for entry in entries.measures),
             evaluation_order=tuple(measures[name] for name in order),
             used=used,

@@ -113,19 +113,12 @@ class Assumption(DocumentModel):
     concerns: tuple[Text, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Equation:
-    """A numbered relation that measures realise.
+class Equation(DocumentModel):
+    """A numbered relation that measures realise; its number is quoted, since 4.10 would be a number."""
 
-    Attributes:
-        id: Its number, such as ``4.1``.
-        relation: The relation as it is published.
-        note: How it is realised where that is not the expression itself; may be empty.
-    """
-
-    id: str
-    relation: str
-    note: str
+    id: Text
+    relation: Text
+    note: Text | None = None
 
 
 def _as_text(value: Any) -> Any:

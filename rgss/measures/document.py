@@ -10,6 +10,7 @@ from rgss.documents import DocumentModel, Identifier, Text, UnitText
 from rgss.measures.definitions import (
     Assumption,
     Direction,
+    Equation,
     EstimateRule,
     InputSymbol,
     MeasureKind,
@@ -26,14 +27,6 @@ class ConstantEntry(DocumentModel):
     unit: UnitText
     definition: Text
     source: Text | None = None
-
-
-class EquationEntry(DocumentModel):
-    """A numbered relation; its number is quoted, since 4.10 would be a number."""
-
-    id: Text
-    relation: Text
-    note: Text | None = None
 
 
 class AlternativeEntry(DocumentModel):
@@ -71,5 +64,5 @@ class MeasuresDocument(DocumentModel):
     constants: tuple[ConstantEntry, ...] = ()
     inputs: tuple[InputSymbol, ...] = ()
     assumptions: tuple[Assumption, ...] = ()
-    equations: tuple[EquationEntry, ...] = ()
+    equations: tuple[Equation, ...] = ()
     measures: Annotated[tuple[MeasureEntry, ...], Field(min_length=1)]

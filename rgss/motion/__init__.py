@@ -12,38 +12,3 @@ from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory
 from rgss.motion.validity import StateCost, StateValidity, ToolKinematics
-
-__all__ = [
-    "SOURCE_PLANNERS",
-    "BlendedPath",
-    "ClockKind",
-    "JointPath",
-    "MotionLimits",
-    "Objective",
-    "OmplPlanner",
-    "OnUnverified",
-    "ParameterType",
-    "PlanResult",
-    "PlannerParameter",
-    "PlannerSettings",
-    "PlanningClock",
-    "PlanningProblem",
-    "SmoothPath",
-    "StateCost",
-    "StateValidity",
-    "TimedMove",
-    "TimingOutcome",
-    "ToolKinematics",
-    "Trajectory",
-    "available_planners",
-    "blend",
-    "ompl_planners",
-    "outcome_within",
-    "path_length",
-    "plan",
-    "refusal_of",
-    "segment_states",
-    "takes_objective",
-    "time_blended",
-    "time_move",
-]

@@ -10,23 +10,3 @@ from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, MOST_ITERA
 from rgss.physics.stage import Posture
 from rgss.physics.torque_arm import TorqueArm
 from rgss.physics.world import World
-
-__all__ = [
-    "LEAST_ITERATIONS_HZ",
-    "LEAST_RATE_HZ",
-    "MOST_ITERATIONS",
-    "VIEWS",
-    "Camera",
-    "ContactWorld",
-    "Contacts",
-    "FingerContact",
-    "HandView",
-    "OtherEngineSettings",
-    "PhysicsSettings",
-    "Picture",
-    "Posture",
-    "TorqueArm",
-    "View",
-    "World",
-    "open_world",
-]

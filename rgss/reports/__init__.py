@@ -10,13 +10,3 @@ if TYPE_CHECKING:
     from rgss.reports.study_page import TrialPictures, study_report_to_html
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "TrialPictures",
-    "aligned_table",
-    "case_lines",
-    "cases_to_json",
-    "driver_lines",
-    "drivers_to_json",
-    "study_report_to_html",
-]

@@ -5,22 +5,16 @@ from __future__ import annotations
 import csv
 import io
 import re
-import zipfile
 from collections.abc import Sequence
 from typing import Any
 
-from rgss.documents import neutralised, printable, starts_like_a_formula
+from rgss.documents import LONGEST_EXCEL_TEXT, neutralised, printable, starts_like_a_formula, without_clock
 from rgss.errors import DefinitionError
 from rgss.reports.tables import Cell, Table, cell_text
-
-LONGEST_EXCEL_TEXT = 32_767
-"""As many characters a cell of Excel holds."""
 
 _MARKDOWN = re.compile(r"([\\`*_\[\]<>|~&])")
 _WIDE_HEADS = frozenset({"text", "evidence", "success criterion", "not covered", "what is counted", "is satisfied by"})
 _WIDE, _NARROW, _MARK, _LONG_HEAD = 60.0, 18.0, 5.0, 12
-_EPOCH = (1980, 1, 1, 0, 0, 0)
-_MODIFIED = re.compile(rb"(<dcterms:(created|modified)[^>]*>)[^<]*(</dcterms:)")
 
 
 def to_markdown(tables: Sequence[Table], *, title: str) -> str:
@@ -70,7 +64,7 @@ def to_excel(tables: Sequence[Table]) -> bytes:
         _write_sheet(workbook.create_sheet(table.name[:31]), table)
     file = io.BytesIO()
     workbook.save(file)
-    return _without_clock(file.getvalue())
+    return without_clock(file.getvalue())
 
 
 def _markdown(text: str) -> str:
@@ -130,17 +124,3 @@ def _excel_text(text: str) -> str:
         return whole
     mark = " … (cut: longer than a cell holds)"
     return whole[: LONGEST_EXCEL_TEXT - len(mark)] + mark
-
-
-def _without_clock(content: bytes) -> bytes:
-    """The same file without the time at which it was made, which stands in it twice."""
-    out = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(content)) as source, zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as target:
-        for name in source.namelist():
-            part = source.read(name)
-            if name == "docProps/core.xml":
-                part = _MODIFIED.sub(rb"\g<1>1980-01-01T00:00:00Z\3", part)
-            entry = zipfile.ZipInfo(name, date_time=_EPOCH)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            target.writestr(entry, part)
-    return out.getvalue()

@@ -1,7 +1,7 @@
 """Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
 
 from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
-from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
+from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.pose import Pose
@@ -12,37 +12,3 @@ from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Sc
 from rgss.scenes.scene_file import load_scene
 from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.waypoints import Waypoint, waypoint_poses
-
-__all__ = [
-    "FORCE_WINDOW_S",
-    "GRIPPER_BASE_LINK",
-    "LANDING_LIMIT_M_S",
-    "RIBS",
-    "Box",
-    "Cylinder",
-    "Gripper",
-    "GripperDocument",
-    "GripperFile",
-    "GripperGeometry",
-    "Joint",
-    "PlaceRegion",
-    "Pose",
-    "Robot",
-    "RobotDocument",
-    "Scene",
-    "SceneBody",
-    "SceneDocument",
-    "Shape",
-    "Task",
-    "Waypoint",
-    "Workpiece",
-    "assembled_urdf",
-    "finger_joint",
-    "finger_link",
-    "load_gripper",
-    "load_gripper_file",
-    "load_robot",
-    "load_scene",
-    "pad_ribs",
-    "waypoint_poses",
-]

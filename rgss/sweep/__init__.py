@@ -22,38 +22,3 @@ if TYPE_CHECKING:
     from rgss.sweep.trial_keys import key_of, trials_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "Agreement",
-    "Cause",
-    "ComparedPlanner",
-    "DryRun",
-    "DueTrials",
-    "FinishedTrial",
-    "FoundTrials",
-    "InlineWorkers",
-    "LostTrials",
-    "Maker",
-    "Origin",
-    "PersistentWorkerPool",
-    "Reason",
-    "StoredSearches",
-    "SweepResult",
-    "SweepState",
-    "WorkerLimits",
-    "Workers",
-    "beyond_tolerance",
-    "compared_planners",
-    "compute",
-    "deviation",
-    "dry_run",
-    "find_trial",
-    "key_of",
-    "limits_of",
-    "origin_of",
-    "planning_runs",
-    "replay",
-    "sweep",
-    "trials_of",
-    "values_by_name",
-]

@@ -9,20 +9,3 @@ from rgss.trace.views import (
     system_by_architecture,
     system_by_stakeholder,
 )
-
-__all__ = [
-    "FAMILIES",
-    "RULES",
-    "MeasureKind",
-    "MeasureTrace",
-    "Rule",
-    "TraceMatrix",
-    "TraceModel",
-    "build_trace_model",
-    "check_trace",
-    "matrix_of",
-    "rule_of",
-    "stakeholder_by_effectiveness",
-    "system_by_architecture",
-    "system_by_stakeholder",
-]

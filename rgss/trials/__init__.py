@@ -19,33 +19,3 @@ if TYPE_CHECKING:
     from rgss.trials.trial_spec import TrialSpec
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "METRICS",
-    "PHASE_METRICS",
-    "Aggregation",
-    "ClosingImpact",
-    "Direction",
-    "DrawnValue",
-    "Film",
-    "MetricDescriptor",
-    "MoveKind",
-    "Obstacle",
-    "PhaseValue",
-    "PlannedMove",
-    "PlanningSettings",
-    "SceneProblem",
-    "SceneProblemKind",
-    "Simulation",
-    "SimulationState",
-    "TaskPlan",
-    "TrialSettings",
-    "TrialSpec",
-    "closing_impact",
-    "drawn_values",
-    "mujoco_settings",
-    "reach_problems",
-    "run_traced_trial",
-    "scene_problems",
-    "searches_of",
-]

@@ -55,7 +55,7 @@ def pattern(title):
     return re.sub(r"PARAMETER|FACTOR|MEASURE|QUANTITY", r".+", re.sub(r"(?<=_)N(?=_|$)", r"\\d+", re.escape(title)))
 
 
-@pytest.mark.parametrize("name", [name for name in FRAMES if name not in ("course", "fleet")])
+@pytest.mark.parametrize("name", [name for name in FRAMES if name not in ("course", "portfolio")])
 def test_each_column_of_each_frame_is_described(study, name):
     trade = study.trade({"weight.t_e": 0.3})
     frame = getattr(study, name, None)

@@ -32,33 +32,33 @@ def test_it_is_found_from_within_the_project(empty, monkeypatch):
     )
 
 
-def test_a_fleet_as_a_frame(told, changeable):
+def test_a_portfolio_as_a_frame(told, changeable):
     text = (changeable / "studies/pick_place.yaml").read_text(encoding="utf-8")
     text = text.replace("replicates: 3", "replicates: 2", 1).replace("fidelity: contact", "fidelity: kinematic", 1)
     (changeable / "studies/quick.yaml").write_text(text, encoding="utf-8")
     head, rest = text.split("trade_off:\n", 1)
     payload = "trade_off:\n  values:\n    - {measure: P_max, weight: 1.0, worst: 0.8 kg, best: 1.4 kg}\n"
     (changeable / "studies/payload.yaml").write_text(head + payload, encoding="utf-8")
-    fleet = (
-        "trade_off:\n  fleet:\n    at_most: 1\n    aim: mean\n    member: component.gripper\n    studies:\n"
+    portfolio = (
+        "trade_off:\n  portfolio:\n    at_most: 1\n    aim: mean\n    member: component.gripper\n    studies:\n"
         "      - {study: studies/quick.yaml, weight: 0.5}\n      - {study: studies/payload.yaml, weight: 0.5}\n"
     )
-    (changeable / "studies/both.yaml").write_text(head + fleet + rest, encoding="utf-8")
-    found = rgss.load_study(changeable / "studies/both.yaml").fleet()
-    said = told("trade", "--brief", "--json", "studies/both.yaml", "--project", changeable)["fleet"]
+    (changeable / "studies/both.yaml").write_text(head + portfolio + rest, encoding="utf-8")
+    found = rgss.load_study(changeable / "studies/both.yaml").portfolio()
+    said = told("trade", "--brief", "--json", "studies/both.yaml", "--project", changeable)["portfolio"]
 
     assert list(found.index) == ["studies/quick.yaml", "studies/payload.yaml"]
     assert found.drop(columns=["status", "gap"]).reset_index().to_dict("records") == said["assignments"]
     assert set(found["status"]) == {said["status"]}
     assert set(found["member"]) == set(said["members"])
     assert {name: str(kind) for name, kind in found.dtypes.items()} == {
-        column.name: column.kind.value for column in FRAMES["fleet"].columns
+        column.name: column.kind.value for column in FRAMES["portfolio"].columns
     }
 
 
-def test_a_study_that_asks_for_no_fleet(study):
-    with pytest.raises(DefinitionError, match="fleet"):
-        study.fleet()
+def test_a_study_that_asks_for_no_portfolio(study):
+    with pytest.raises(DefinitionError, match="portfolio"):
+        study.portfolio()
 
 
 def test_a_study_file_names_its_project(empty, monkeypatch):

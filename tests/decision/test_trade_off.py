@@ -265,12 +265,12 @@ def test_double_counting_and_what_to_value_instead(shipped, read):
     assert {"t_gc", "L"} <= set(shared.parts)
 
 
-class TestFleets:
-    LINE = "fleet: {at_most: 1, member: component.gripper, studies: [{study: studies/pick_place.yaml, weight: 1}]}"
+class TestPortfolios:
+    LINE = "portfolio: {at_most: 1, member: component.gripper, studies: [{study: studies/pick_place.yaml, weight: 1}]}"
 
-    def test_a_fleet(self, shipped, measured, read):
+    def test_a_portfolio(self, shipped, measured, read):
         project = replace(shipped, study=read(*BOTH, self.LINE))
-        choice = project.study.trade_off.fleet
+        choice = project.study.trade_off.portfolio
         assert (choice.at_most, choice.aim, choice.member) == (1, PortfolioAim.MEAN, "component.gripper")
         decision = choose_portfolio(project, {"studies/pick_place.yaml": (project, measured)})
         alone = choose(project, measured)
@@ -288,13 +288,13 @@ class TestFleets:
         assert list(projects) == ["studies/pick_place.yaml"]
         assert projects["studies/pick_place.yaml"].study.id == "pick_place"
 
-    def test_no_fleet_is_asked_for(self, shipped, measured):
-        with pytest.raises(DefinitionError, match="study 'pick_place' asks for no fleet"):
+    def test_no_portfolio_is_asked_for(self, shipped, measured):
+        with pytest.raises(DefinitionError, match="study 'pick_place' asks for no portfolio"):
             choose_portfolio(shipped, {})
 
     def test_an_unknown_member(self, shipped, measured, read):
         project = replace(shipped, study=read(*BOTH, self.LINE.replace("component.gripper", "colour")))
-        with pytest.raises(DefinitionError, match="no one knows the member 'colour' of a fleet") as error:
+        with pytest.raises(DefinitionError, match="unknown portfolio member 'colour'") as error:
             choose_portfolio(project, {"studies/pick_place.yaml": (project, measured)})
         assert "fingers" in error.value.hint
         by_factor = replace(shipped, study=read(*BOTH, self.LINE.replace("component.gripper", "fingers")))
@@ -304,7 +304,7 @@ class TestFleets:
         )
 
     def test_studies_of_different_designs(self, shipped, measured, read):
-        line = "fleet: {at_most: 1, studies: [{study: a, weight: 0.5}, {study: b, weight: 0.5}]}"
+        line = "portfolio: {at_most: 1, studies: [{study: a, weight: 0.5}, {study: b, weight: 0.5}]}"
         project = replace(shipped, study=read(*BOTH, line))
         first, second, *rest = measured
         exchanged = (

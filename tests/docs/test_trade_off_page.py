@@ -22,7 +22,7 @@ STUDY = "studies/pick_place.yaml"
 def test_the_page_has_an_example_of_every_construct():
     keys = {
         *("worst", "best", "between", "halfway", "target", "times", "weight", "points", "rank", "criterion"),
-        *("weight_between", "weight_order", "chance", "tail", "practical_margin", "choose", "fleet", "member"),
+        *("weight_between", "weight_order", "chance", "tail", "practical_margin", "choose", "portfolio", "member"),
     }
     assert {key for key in keys if not any(f"{key}:" in example for example in EXAMPLES)} == set()
     programs = re.findall(r"program: (\w+)", PAGE)
@@ -60,6 +60,8 @@ def test_an_example(shipped, measured, tmp_path, example):
 
     assert decision.status is DecisionStatus.OPTIMAL
     assert decision.certificate.enumeration_agrees
-    if study.trade_off.fleet is not None:
-        fleet = choose_portfolio(project, {one.study: (project, measured) for one in study.trade_off.fleet.studies})
-        assert fleet.members
+    if study.trade_off.portfolio is not None:
+        portfolio = choose_portfolio(
+            project, {one.study: (project, measured) for one in study.trade_off.portfolio.studies}
+        )
+        assert portfolio.members

@@ -11,8 +11,9 @@ from datetime import datetime
 import pytest
 from openpyxl import load_workbook
 
+from rgss.documents.spreadsheet_cells import LONGEST_EXCEL_TEXT
 from rgss.errors import DefinitionError
-from rgss.reports.table_files import LONGEST_EXCEL_TEXT, to_csv, to_excel, to_markdown
+from rgss.reports.table_files import to_csv, to_excel, to_markdown
 from rgss.reports.tables import Table, cell_text, chosen_table
 
 HOSTILE = ["=1+1", "@x", "-2", "a|b", "<b>&", "`x`", "[a](b)", 'say "hi", please', "two\nlines", "🤖 𝔘", "a\\b", "*_~"]

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.trials.payload_bench.bench import BenchSettings, bench_spec, run_bench
+from rgss.trials.payload_bench.bench import run_bench
 from rgss.trials.payload_bench.rig import PayloadRig, probe
+from rgss.trials.payload_bench.spec import BenchSettings, bench_spec
 from rgss.trials.second_engine import mujoco_settings
 
 pytestmark = pytest.mark.engine

@@ -12,7 +12,8 @@ from rgss.studies.bench_check import bench_findings
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.trials.code.piece_versions import versions
-from rgss.trials.pieces.input_digests import bench_of, digests_of
+from rgss.trials.payload_bench.of_trial import bench_of
+from rgss.trials.pieces.input_digests import digests_of
 
 REPOSITORY = Path(__file__).parents[2]
 

@@ -35,7 +35,7 @@ RICH_STUDY = {
         ],
         "decide_by": {"program": "lexicographic", "order": [{"measure": "a", "relative": "5 %"}]},
         "chance": [{"requirement": "SYS-1", "probability": 0.9}],
-        "fleet": {"at_most": 1, "studies": [{"study": "studies/a.yaml", "weight": 1}]},
+        "portfolio": {"at_most": 1, "studies": [{"study": "studies/a.yaml", "weight": 1}]},
     },
 }
 

@@ -367,7 +367,7 @@ def test_every_kind_of_trouble_is_recorded_and_the_sweep_goes_on(specs_of, store
 @pytest.mark.verifies("SYS-021")
 def test_records_depend_on_neither_processes_nor_order_nor_sharing(specs_of, opened, run, doubles, marks):
     """Trials of six designs, with contact, from one worker, from two, and each by itself."""
-    from rgss.trials.pieces.pieces import make
+    from rgss.trials.pieces.run import make
 
     specs = specs_of(1, 2, 3, 10, 65, 66)
     stores = {name: opened(name) for name in ("one", "two", "apart")}

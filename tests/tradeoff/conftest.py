@@ -94,7 +94,7 @@ def cases():
 
 @pytest.fixture(scope="session")
 def guard_cases():
-    """Random level problems and fleets with their brute force, as the benchmark of the guard draws them."""
+    """Random level problems and portfolios with their brute force, as the benchmark of the guard draws them."""
     return _from_benchmarks("tradeoff_guard_cases")
 
 

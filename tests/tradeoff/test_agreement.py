@@ -83,11 +83,11 @@ def test_the_best_alternatives_one_by_one(problem_of, oracle, program):
             left = tuple(one for one in left if one.variant != certificate.solver_choice)
 
 
-def test_fleets(cases, oracle, seeded):
+def test_portfolios(cases, oracle, seeded):
     served = 0
     for seed in range(25):
-        problem = cases.random_fleet(seeded(f"test fleet {seed}"))
-        decision, best = decide_portfolio(problem), oracle.expected_fleet(problem)
+        problem = cases.random_portfolio(seeded(f"test fleet {seed}"))
+        decision, best = decide_portfolio(problem), oracle.expected_portfolio(problem)
         assert decision.enumeration_agrees
         if best is None:
             assert (decision.status, decision.objective) == (DecisionStatus.INFEASIBLE, None)

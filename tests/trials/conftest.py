@@ -9,8 +9,8 @@ import pytest
 from rgss.evidence import TrialRecord
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
-from rgss.trials.pieces.input_digests import TrialSpec
 from rgss.trials.pieces.run import Pieces
+from rgss.trials.trial_spec import TrialSpec
 
 
 @dataclass(frozen=True, kw_only=True)

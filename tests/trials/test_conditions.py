@@ -21,7 +21,8 @@ from rgss.scenes.uncertainty import (
 )
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.conditions import changed_fields, conditions_of, drawn_values, nominal_conditions
-from rgss.trials.pieces.input_digests import bench_of, digests_of
+from rgss.trials.payload_bench.of_trial import bench_of
+from rgss.trials.pieces.input_digests import digests_of
 
 PIECES = ("plan", "timing", "execution")
 

@@ -12,8 +12,8 @@ from rgss.evidence import Failure, Phase, PhaseOutcome, PlanOutcome, TrialRecord
 from rgss.physics import World
 from rgss.scenes import Cylinder, Pose
 from rgss.trials import timing as timing_module
-from rgss.trials.pieces.input_digests import TrialSpec
-from rgss.trials.pieces.run import execute, run_trial
+from rgss.trials.executing import execute
+from rgss.trials.pieces import TrialSpec, run_trial
 from rgss.trials.planning import TaskPlan, plan_task
 from rgss.trials.record import assemble_record
 from rgss.trials.timing import TaskTiming, time_task

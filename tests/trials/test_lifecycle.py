@@ -15,6 +15,7 @@ from rgss.physics.engine import pybullet
 from rgss.trials.lifecycle import Simulation, SimulationState
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.planning import plan_task
+from rgss.trials.timing import TaskTiming
 
 pytestmark = pytest.mark.engine
 
@@ -382,6 +383,11 @@ def test_what_fails_to_initialise_is_not_ready(trial, monkeypatch):
 
 def test_shut_down_while_it_initialises_stays(trial, monkeypatch):
     simulation = Simulation(trial())
-    monkeypatch.setattr("rgss.trials.timing.time_task", lambda *_, **__: simulation.shut_down())
+
+    def shut_down(*_, **__):
+        simulation.shut_down()
+        return TaskTiming(trajectories={}, failures={}, qualities={})
+
+    monkeypatch.setattr("rgss.trials.timing.time_task", shut_down)
     simulation.initialise()
     assert simulation.state is SimulationState.SHUT_DOWN

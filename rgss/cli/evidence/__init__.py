@@ -13,13 +13,3 @@ if TYPE_CHECKING:
     from rgss.cli.evidence.words import plural
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "EvidencePlace",
-    "collect",
-    "computed_with",
-    "numerics_line",
-    "plural",
-    "summarise",
-    "verify_evidence",
-]

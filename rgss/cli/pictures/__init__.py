@@ -9,12 +9,3 @@ if TYPE_CHECKING:
     from rgss.cli.pictures.report import ordered_look, trial_pictures
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "add_pictures",
-    "made_pictures",
-    "ordered_look",
-    "ordered_pictures",
-    "traced_trial",
-    "trial_pictures",
-]

@@ -12,19 +12,3 @@ if TYPE_CHECKING:
     from rgss.cli.sweep.until_decided import sweep_until_decided
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "ExecutionBackend",
-    "FinishedSweep",
-    "SweepProgress",
-    "SweepRunner",
-    "dry_run_as_json",
-    "dry_run_lines",
-    "execution_backend",
-    "jobs_of",
-    "lost_line",
-    "report_lost",
-    "result_as_json",
-    "result_lines",
-    "sweep_until_decided",
-]

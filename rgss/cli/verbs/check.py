@@ -112,23 +112,15 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, ...]:
-    from rgss.assessment import evidence_state, project_marks, read_record
-    from rgss.cli.output import shown_path
-    from rgss.decision import measure_survivors
-    from rgss.evidence import EvidenceStore
+    from rgss.assessment import project_marks
+    from rgss.cli.measured import measured_state
     from rgss.trace import check_trace
 
     marked = project_marks(project.folder)
     if not options.evidence:
         return check_trace(project.requirements, project.measure_traces, marked=marked)
-    recorded = read_record(project.folder)
-    if project.evidence.exists():
-        with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
-            measured, _ = measure_survivors(project, store, recorded=recorded)
-    else:
-        # Then it is a finding of each requirement that its evidence is missing.
-        measured, _ = measure_survivors(project, None, recorded=recorded)
-    state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
+    # Without a store it is a finding of each requirement that its evidence is missing.
+    _, state = measured_state(project, options.junit)
     return check_trace(project.requirements, project.measure_traces, marked=marked, evidence=state)
 
 

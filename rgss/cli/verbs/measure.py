@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Container, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project
 
 if TYPE_CHECKING:
     from rgss.assessment import VariantMeasures
@@ -25,10 +25,7 @@ MORE_EXAMPLES = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    add_study(parser)
-    add_replicates(parser)
-    add_fidelity(parser)
-    add_nominal(parser)
+    add_evidence_choice(parser)
     parser.add_argument("--variant", type=int, metavar="ID", help="only this variant, with every measure")
     parser.add_argument(
         "--drivers", action="store_true", help="only which uncertain quantity drives which kind of failure"

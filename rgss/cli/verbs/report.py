@@ -7,7 +7,7 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,10 +31,7 @@ DEFAULT_FILE = Path("report.html")
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    add_study(parser)
-    add_replicates(parser)
-    add_fidelity(parser)
-    add_nominal(parser)
+    add_evidence_choice(parser)
     parser.add_argument(
         "-o", "--out", type=Path, default=DEFAULT_FILE, metavar="FILE", help=f"the page (default: {DEFAULT_FILE})"
     )

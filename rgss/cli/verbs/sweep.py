@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project
 from rgss.cli.verbs.variants import ONLY_HELP
 
 if TYPE_CHECKING:
@@ -30,10 +30,7 @@ MORE_EXAMPLES = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    add_study(parser)
-    add_replicates(parser)
-    add_fidelity(parser)
-    add_nominal(parser)
+    add_evidence_choice(parser)
     parser.add_argument("--jobs", type=int, metavar="N", help="worker processes (default: one for each core)")
     parser.add_argument("--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler instead")
     parser.add_argument("--only", action="append", metavar="WHICH", help=ONLY_HELP)

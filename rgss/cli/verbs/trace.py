@@ -70,18 +70,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _evidence(project: Project, options: argparse.Namespace) -> TraceEvidence:
-    from rgss.assessment import evidence_state, read_record
-    from rgss.cli.output import shown_path
-    from rgss.decision import measure_survivors, trace_evidence
-    from rgss.evidence import EvidenceStore
+    from rgss.cli.measured import measured_state
+    from rgss.decision import trace_evidence
 
-    recorded = read_record(project.folder)
-    if project.evidence.exists():
-        with EvidenceStore.open(project.evidence, create=False, label=shown_path(project.evidence)) as store:
-            measured, _ = measure_survivors(project, store, recorded=recorded)
-    else:
-        measured, _ = measure_survivors(project, None, recorded=recorded)
-    state = evidence_state(project, measured, recorded=recorded, junit=options.junit)
+    measured, state = measured_state(project, options.junit)
     if options.junit is not None and state.software is None:
         raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
     return trace_evidence(project, measured, state, variant=options.variant)

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_fidelity, add_nominal, add_replicates, add_study, chosen_project
+from rgss.cli.options import add_evidence_choice, chosen_project
 
 if TYPE_CHECKING:
     from rgss.decision import ScreeningResult
@@ -28,10 +28,7 @@ MORE_EXAMPLES = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    add_study(parser)
-    add_replicates(parser)
-    add_fidelity(parser)
-    add_nominal(parser)
+    add_evidence_choice(parser)
     parser.add_argument(
         "--what-if",
         action="append",
@@ -57,8 +54,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--time-limit",
         metavar="TIME",
-        help='how long to prove a fleet or a choice of levels, such as "60 s" (default: counts of operations, some '
-        "20 s for a fleet, which give the same answer on every machine)",
+        help='how long to prove a portfolio or a choice of levels, such as "60 s" (default: counts of operations, some '
+        "20 s for a portfolio, which give the same answer on every machine)",
     )
     parser.add_argument(
         "--solver-check",
@@ -180,7 +177,7 @@ def portfolio_of(
     project: Project, store: EvidenceStore, *, time_limit: float | None = None, independent: tuple[SolverRun, ...] = ()
 ) -> PortfolioDecision | None:
     """The portfolio of the study, from the evidence of every study that it serves; None if it has none."""
-    if project.study.trade_off.fleet is None:
+    if project.study.trade_off.portfolio is None:
         return None
     from rgss.decision import choose_portfolio, measure_survivors, portfolio_projects
 

@@ -10,12 +10,3 @@ if TYPE_CHECKING:
     from rgss.decision.assumptions.questions import Question, questions_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "AssumptionOutcome",
-    "Question",
-    "assumption_findings",
-    "assumption_outcomes",
-    "missing_trials",
-    "questions_of",
-]

@@ -15,22 +15,3 @@ if TYPE_CHECKING:
     from rgss.decision.robustness.rules import allowed_variants
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "AssumptionFinding",
-    "CostBox",
-    "FactorLevels",
-    "MeasureEffects",
-    "NotComputed",
-    "Part",
-    "PartComputer",
-    "Remeasuring",
-    "RequirementPrice",
-    "Robustness",
-    "StudyEffects",
-    "WeightRobustness",
-    "allowed_variants",
-    "analyse_robustness",
-    "leading_factors",
-    "not_computed_lines",
-]

@@ -12,20 +12,3 @@ if TYPE_CHECKING:
     from rgss.decision.sensitivity.tornado import Tornado, TornadoBar, TornadoEnd
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "BentEnd",
-    "BentValue",
-    "FlatRemedy",
-    "FlatWeight",
-    "Flip",
-    "FlipSearch",
-    "InputKind",
-    "RangeBasis",
-    "Sensitivity",
-    "Tornado",
-    "TornadoBar",
-    "TornadoEnd",
-    "UncertainInput",
-    "analyse_sensitivity",
-]

@@ -15,26 +15,3 @@ if TYPE_CHECKING:
     from rgss.decision.study_decision.suppositions import DecisionSide, WhatIf
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "ClosestLimit",
-    "Conclusion",
-    "Contender",
-    "DecisionSide",
-    "DesignStanding",
-    "Driver",
-    "Feasibility",
-    "Gain",
-    "LimitMove",
-    "LimitMoves",
-    "ObjectiveRow",
-    "ParameterRow",
-    "RobustnessFindings",
-    "SideBySide",
-    "StudyDecision",
-    "WeightMove",
-    "WeightedRow",
-    "WhatIf",
-    "decide_study",
-    "is_settled",
-]

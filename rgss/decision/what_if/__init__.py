@@ -23,25 +23,3 @@ if TYPE_CHECKING:
     from rgss.decision.what_if.what_if import PRICES, suppose
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "COST",
-    "PRICES",
-    "Change",
-    "ModelNumber",
-    "ModelSetting",
-    "Reading",
-    "Scenario",
-    "ScenarioEvidence",
-    "ScenarioEvidenceReader",
-    "SettingChange",
-    "assumed_numbers",
-    "measured_in",
-    "measures_with",
-    "model_settings",
-    "readings_of",
-    "simulated_numbers",
-    "suppose",
-    "symbols_of",
-    "variant_with",
-]

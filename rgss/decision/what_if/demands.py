@@ -81,12 +81,12 @@ def share_checked(name: str, value: float) -> float:
 def _risk_bound(risk: str, place: BoundChoice) -> Callable[[TradeOff, float], TradeOff]:
     # A bound of its own takes the place of a requirement's, which stays as it is.
     return lambda trade_off, value: _with_risk(
-        trade_off, risk, lambda one: one.changed(bound=replace(place, value=value))
+        trade_off, risk, lambda one: replace(one, bound=replace(place, value=value))
     )
 
 
 def _risk_share(risk: str) -> Callable[[TradeOff, float], TradeOff]:
-    return lambda trade_off, value: _with_risk(trade_off, risk, lambda one: one.changed(**{one.share_key: value}))
+    return lambda trade_off, value: _with_risk(trade_off, risk, lambda one: replace(one, share=value))
 
 
 def _with_risk(trade_off: TradeOff, risk: str, change: Callable[[RiskChoice], RiskChoice]) -> TradeOff:

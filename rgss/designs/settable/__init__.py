@@ -2,5 +2,3 @@
 
 from rgss.designs.settable.planner_quantities import PLANNER_PREFIX, PLANNER_QUANTITIES
 from rgss.designs.settable.quantity import Application, SettableQuantity
-
-__all__ = ["PLANNER_PREFIX", "PLANNER_QUANTITIES", "Application", "SettableQuantity"]

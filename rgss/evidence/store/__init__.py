@@ -7,22 +7,3 @@ from rgss.evidence.store.contents import Contents, TrialName, contents_of, trial
 from rgss.evidence.store.exporting import export_trials, require_exportable
 from rgss.evidence.store.store import EvidenceStore
 from rgss.evidence.store.verification import Verification, salvage, take_away, verify
-
-__all__ = [
-    "Contents",
-    "EvidenceStore",
-    "Garbage",
-    "TrialName",
-    "Verification",
-    "collect_garbage",
-    "contents_of",
-    "error_of",
-    "export_trials",
-    "find_garbage",
-    "numerics_census",
-    "require_exportable",
-    "salvage",
-    "take_away",
-    "trial_names",
-    "verify",
-]

@@ -9,9 +9,3 @@ if TYPE_CHECKING:
     from rgss.exchange.formats.registry import EXPORT_FORMATS, export_format
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "EXPORT_FORMATS",
-    "ExportFormat",
-    "export_format",
-]

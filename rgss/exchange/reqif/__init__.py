@@ -4,5 +4,3 @@ from rgss.exchange.reqif.archive import ENDING as ARCHIVE_ENDING
 from rgss.exchange.reqif.archive import archive_of
 from rgss.exchange.reqif.reading import read_reqif
 from rgss.exchange.reqif.writing import reqif_text
-
-__all__ = ["ARCHIVE_ENDING", "archive_of", "read_reqif", "reqif_text"]

@@ -2,5 +2,3 @@
 
 from rgss.exchange.tables.csv_file import csv_text, read_csv
 from rgss.exchange.tables.excel_file import excel_bytes, read_excel
-
-__all__ = ["csv_text", "excel_bytes", "read_csv", "read_excel"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import re
 import warnings
 import zipfile
 import zlib
@@ -11,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from rgss.documents import starts_like_a_formula
+from rgss.documents import LONGEST_EXCEL_TEXT, starts_like_a_formula, without_clock
 from rgss.errors import DefinitionError, DocumentError
 from rgss.exchange.attributes import ATTRIBUTES, Form, Part
 from rgss.exchange.content import Content, Row
@@ -20,13 +19,8 @@ from rgss.exchange.tables.heads import MOST_COLUMNS, MOST_ROWS, PARTS, columns_o
 from rgss.exchange.xml_guard import require_plain_xml
 from rgss.findings import Finding
 
-LONGEST_CELL = 32_767
-"""As many characters a cell of Excel holds."""
-
 _MOST_MEMBERS = 1_000
 _WIDE, _NARROW = 60.0, 18.0
-_EPOCH = (1980, 1, 1, 0, 0, 0)
-_CLOCK = re.compile(rb"(<dcterms:(created|modified)[^>]*>)[^<]*(</dcterms:)")
 
 
 def excel_bytes(content: Content) -> bytes:
@@ -45,7 +39,7 @@ def excel_bytes(content: Content) -> bytes:
 
     # Before there is a workbook, which cannot be left half-written.
     for row in content.rows:
-        long = next((name for name, cell in row.cells.items() if len(cell) > LONGEST_CELL), None)
+        long = next((name for name, cell in row.cells.items() if len(cell) > LONGEST_EXCEL_TEXT), None)
         if row.part in PARTS and long is not None:
             raise DefinitionError(f"{row.id}: {long} is longer than a cell of Excel holds", hint="export csv or reqif")
     workbook = Workbook(write_only=True)
@@ -53,7 +47,7 @@ def excel_bytes(content: Content) -> bytes:
         _write_sheet(workbook.create_sheet(part.value), part, [row for row in content.rows if row.part is part])
     file = io.BytesIO()
     workbook.save(file)
-    return _without_clock(file.getvalue())
+    return without_clock(file.getvalue())
 
 
 def read_excel(path: Path) -> Content:
@@ -184,17 +178,3 @@ def _write_sheet(sheet: Any, part: Part, rows: list[Row]) -> None:
     for row in rows:
         cells = [row.cells[attribute.name] for attribute in attributes]
         sheet.append([made(text) if text else None for text in cells])
-
-
-def _without_clock(content: bytes) -> bytes:
-    """The same file without the time at which it was made, which stands in it twice."""
-    out = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(content)) as source, zipfile.ZipFile(out, "w") as target:
-        for name in source.namelist():
-            part = source.read(name)
-            if name == "docProps/core.xml":
-                part = _CLOCK.sub(rb"\g<1>1980-01-01T00:00:00Z\3", part)
-            entry = zipfile.ZipInfo(name, date_time=_EPOCH)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            target.writestr(entry, part)
-    return out.getvalue()

@@ -10,5 +10,3 @@ if TYPE_CHECKING:
     from rgss.physics.mujoco.world import LEAST_MUJOCO_RATE_HZ, MujocoWorld
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = ["LEAST_MUJOCO_RATE_HZ", "MujocoSettings", "MujocoWorld", "engine_version"]

@@ -9,5 +9,3 @@ if TYPE_CHECKING:
     from rgss.reports.confirmation.text import confirmation_lines, confirmation_to_markdown
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = ["confirmation_lines", "confirmation_to_json", "confirmation_to_markdown"]

@@ -25,28 +25,3 @@ if TYPE_CHECKING:
     from rgss.reports.decision.words import quantity_text
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "conflict_part",
-    "decision_lines",
-    "decision_part",
-    "decision_section",
-    "decision_to_json",
-    "elicitation_sentences",
-    "elicitation_to_json",
-    "gap_sentence",
-    "open_paragraph",
-    "quantity_text",
-    "question_lines",
-    "robustness_to_json",
-    "screening_lines",
-    "screening_to_json",
-    "seeds_sentences",
-    "sensitivity_part",
-    "text_with_place",
-    "tornado_svg",
-    "trade_document",
-    "until_decided_summary",
-    "weighing_lines",
-    "with_section",
-]

@@ -55,7 +55,7 @@ def decision_part(made: StudyDecision) -> Plain:
         },
         "drivers": _drivers(made),
         "screening": "" if made.screened is None else screening_summary(made.screened),
-        "fleet": "" if made.portfolio is None else portfolio_sentence(made.portfolio),
+        "portfolio": "" if made.portfolio is None else portfolio_sentence(made.portfolio),
         "contributions": {
             "chosen": _contributions(decision.chosen_contributions),
             "runner_up": _contributions(decision.runner_up_contributions),
@@ -65,18 +65,19 @@ def decision_part(made: StudyDecision) -> Plain:
     }
 
 
-def portfolio_sentence(fleet: PortfolioDecision) -> str:
+def portfolio_sentence(portfolio: PortfolioDecision) -> str:
     """The choice of a portfolio in a few sentences.
 
     Args:
-        fleet: The choice.
+        portfolio: The choice.
     """
-    missing = no_portfolio(fleet)
+    missing = no_portfolio(portfolio)
     if missing:
         return missing
-    served = "; ".join(f"{one.task} by {one.member} (variant {one.variant})" for one in fleet.assignments)
-    proof = portfolio_proof(fleet)
-    return f"Fleet: {', '.join(fleet.members)} together serve every study: {served}. {proof[0].upper()}{proof[1:]}."
+    served = "; ".join(f"{one.task} by {one.member} (variant {one.variant})" for one in portfolio.assignments)
+    proof = portfolio_proof(portfolio)
+    members = ", ".join(portfolio.members)
+    return f"Portfolio: {members} together serve every study: {served}. {proof[0].upper()}{proof[1:]}."
 
 
 def _robustness(found: RobustnessFindings | None) -> Plain:

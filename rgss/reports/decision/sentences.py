@@ -145,29 +145,33 @@ def notable_checks(checks: tuple[Check, ...]) -> list[str]:
     ]
 
 
-def no_portfolio(fleet: PortfolioDecision) -> str:
+def no_portfolio(portfolio: PortfolioDecision) -> str:
     """Why there is no portfolio; empty where there is one.
 
     Args:
-        fleet: The choice of a portfolio.
+        portfolio: The choice of a portfolio.
     """
-    if fleet.objective is not None:
+    if portfolio.objective is not None:
         return ""
-    if fleet.status is DecisionStatus.UNDECIDED:
-        return f"No fleet that serves every study was found{_cut(fleet)}; there may be one."
-    return f"No fleet of this size serves every study; unserved by itself: {', '.join(fleet.unserved) or 'none'}."
+    if portfolio.status is DecisionStatus.UNDECIDED:
+        return f"No portfolio that serves every study was found{_cut(portfolio)}; there may be one."
+    return (
+        f"No portfolio of this size serves every study; unserved by itself: {', '.join(portfolio.unserved) or 'none'}."
+    )
 
 
-def portfolio_proof(fleet: PortfolioDecision) -> str:
+def portfolio_proof(portfolio: PortfolioDecision) -> str:
     """Whether a portfolio is proven best, and by how much another can be better.
 
     Args:
-        fleet: The choice of a portfolio.
+        portfolio: The choice of a portfolio.
     """
-    if fleet.status is DecisionStatus.BEST_FOUND:
-        gap = value_in_words(fleet.gap)
-        return f"best found, not proven best: another one can be better by at most {gap}{_cut(fleet)}"
-    return "proven best" if fleet.cut is None else f"proven best; of fewer members not every value is{_cut(fleet)}"
+    if portfolio.status is DecisionStatus.BEST_FOUND:
+        gap = value_in_words(portfolio.gap)
+        return f"best found, not proven best: another one can be better by at most {gap}{_cut(portfolio)}"
+    return (
+        "proven best" if portfolio.cut is None else f"proven best; of fewer members not every value is{_cut(portfolio)}"
+    )
 
 
 def noise_sentence(survival: ConflictSurvival | None) -> str:
@@ -191,5 +195,5 @@ def _gains(made: StudyDecision) -> str:
     return ", ".join(parts) or "less than rounding shows"
 
 
-def _cut(fleet: PortfolioDecision) -> str:
-    return "" if fleet.cut is None else f" ({fleet.cut.value})"
+def _cut(portfolio: PortfolioDecision) -> str:
+    return "" if portfolio.cut is None else f" ({portfolio.cut.value})"

@@ -9,11 +9,3 @@ if TYPE_CHECKING:
     from rgss.reports.diagrams.style import STYLE
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "STYLE",
-    "diagrams_of",
-    "drawings_for_page",
-    "missing_diagrams",
-    "write_diagrams",
-]

@@ -9,10 +9,3 @@ if TYPE_CHECKING:
     from rgss.reports.regression.terminal import report_lines
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "report_lines",
-    "report_to_json",
-    "report_to_junit",
-    "report_to_markdown",
-]

@@ -9,9 +9,3 @@ if TYPE_CHECKING:
     from rgss.reports.study.trials import NotableTrial, notable_trials
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "NotableTrial",
-    "notable_trials",
-    "report_document",
-]

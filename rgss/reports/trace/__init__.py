@@ -11,14 +11,3 @@ if TYPE_CHECKING:
     from rgss.reports.trace.report import TraceReport, trace_report
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "TRACE_FORMATS",
-    "TraceFormat",
-    "TraceReport",
-    "tables_of",
-    "trace_context",
-    "trace_files",
-    "trace_format",
-    "trace_report",
-]

@@ -11,12 +11,3 @@ if TYPE_CHECKING:
     from rgss.reports.trials.trial_plots import write_trial_plots
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "HIGHEST_RATE_HZ",
-    "CaptionedPicture",
-    "words",
-    "write_film",
-    "write_filmstrip",
-    "write_trial_plots",
-]

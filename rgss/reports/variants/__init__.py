@@ -9,10 +9,3 @@ if TYPE_CHECKING:
     from rgss.reports.variants.table import variant_table_lines
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "VARIANT_FORMATS",
-    "VariantFormat",
-    "variant_format",
-    "variant_table_lines",
-]

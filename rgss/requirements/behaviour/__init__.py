@@ -10,17 +10,3 @@ if TYPE_CHECKING:
     from rgss.requirements.behaviour.state_machine import State, StateKind, StateMachine, Transition
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "Flow",
-    "FlowEdge",
-    "FlowNode",
-    "FlowNodeKind",
-    "Interaction",
-    "Message",
-    "State",
-    "StateKind",
-    "StateMachine",
-    "TimingConstraint",
-    "Transition",
-]

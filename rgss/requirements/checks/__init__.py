@@ -9,10 +9,3 @@ if TYPE_CHECKING:
     from rgss.requirements.checks.declarations import declared_elements, declared_needs, declared_requirements
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "check_behaviours",
-    "declared_elements",
-    "declared_needs",
-    "declared_requirements",
-]

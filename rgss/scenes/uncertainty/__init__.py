@@ -30,34 +30,3 @@ if TYPE_CHECKING:
     from rgss.scenes.uncertainty.workload_reading import read_workload
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "NOTHING_UNCERTAIN",
-    "ONE_WORKLOAD",
-    "QUANTITIES",
-    "Application",
-    "Case",
-    "CaseEntry",
-    "Constant",
-    "Correlation",
-    "CorrelationEntry",
-    "Discrete",
-    "Distribution",
-    "DistributionEntry",
-    "EntersAt",
-    "LogNormal",
-    "Normal",
-    "QuantityName",
-    "TruncatedNormal",
-    "UncertainQuantity",
-    "UncertainValue",
-    "Uncertainty",
-    "Uniform",
-    "Workload",
-    "draw_column",
-    "draws_of",
-    "quantity_of",
-    "read_uncertainty",
-    "read_workload",
-    "white_noise",
-]

@@ -9,12 +9,3 @@ if TYPE_CHECKING:
     from rgss.studies.planning.section import PlanningChoice, PlanningEntry, read_planning
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "PlanningChoice",
-    "PlanningEntry",
-    "planner_problem",
-    "read_parameter",
-    "read_planning",
-    "require_value",
-]

@@ -15,22 +15,3 @@ if TYPE_CHECKING:
     from rgss.studies.trade_off.stakeholders import Stakeholder
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "AnchoredEpsilonConstraint",
-    "AnchoredProgram",
-    "AnchoredTchebycheff",
-    "BoundChoice",
-    "ChanceChoice",
-    "PortfolioEntry",
-    "RequirementBound",
-    "RiskChoice",
-    "SensitivityChoice",
-    "Stakeholder",
-    "StatedRange",
-    "TailChoice",
-    "TradeOff",
-    "TradeOffEntry",
-    "TradeOffPlaces",
-    "read_trade_off",
-]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import ClassVar
 
 from rgss.tradeoff import Anchor, ChanceBound, Comparison, Risk, TailBound, Threshold
 
@@ -35,6 +35,7 @@ class RequirementBound:
     requirement: str
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RiskChoice(ABC):
     """Base of the demands on replicates.
 
@@ -42,28 +43,14 @@ class RiskChoice(ABC):
         share_key: The key of its share in a study.
         id: Its id, such as ``chance:SYS-005``.
         bound: What is bounded.
+        share: The share of the replicates.
     """
-
-    __slots__ = ()
 
     share_key: ClassVar[str]
 
     id: str
     bound: BoundChoice | RequirementBound
-
-    @classmethod
-    @abstractmethod
-    def of(cls, id_: str, bound: BoundChoice | RequirementBound, share: float) -> RiskChoice:
-        """A demand with a share."""
-
-    @property
-    @abstractmethod
-    def share(self) -> float:
-        """The share of the replicates."""
-
-    def changed(self, **fields: Any) -> RiskChoice:
-        """The same demand with other values of some fields."""
-        return replace(self, **fields)  # type: ignore[type-var]
+    share: float
 
     @abstractmethod
     def risk(self, threshold: Threshold) -> Risk:
@@ -74,31 +61,12 @@ class RiskChoice(ABC):
         """
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class ChanceChoice(RiskChoice):
-    """A share of the replicates that must meet a bound.
+    """A bound that a share of the replicates must meet."""
 
-    Attributes:
-        id: Its id, such as ``chance:SYS-005``.
-        bound: What is bounded.
-        probability: The share of replicates that must meet it.
-    """
+    __slots__ = ()
 
-    share_key: ClassVar[str] = "probability"
-
-    id: str
-    bound: BoundChoice | RequirementBound
-    probability: float
-
-    @classmethod
-    def of(cls, id_: str, bound: BoundChoice | RequirementBound, share: float) -> ChanceChoice:
-        """A demand with a probability."""
-        return cls(id=id_, bound=bound, probability=share)
-
-    @property
-    def share(self) -> float:
-        """The probability."""
-        return self.probability
+    share_key = "probability"
 
     def risk(self, threshold: Threshold) -> ChanceBound:
         """The chance constraint; see `RiskChoice.risk`."""
@@ -108,35 +76,16 @@ class ChanceChoice(RiskChoice):
             comparison=threshold.comparison,
             value=threshold.value,
             unit=threshold.unit,
-            probability=self.probability,
+            probability=self.share,
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class TailChoice(RiskChoice):
-    """A bound on the mean of the worst replicates.
+    """A bound on the mean of the share of the replicates that is worst."""
 
-    Attributes:
-        id: Its id, such as ``tail:SYS-005``.
-        bound: What is bounded.
-        worst_share: The share of replicates whose mean must meet it.
-    """
+    __slots__ = ()
 
-    share_key: ClassVar[str] = "worst_share"
-
-    id: str
-    bound: BoundChoice | RequirementBound
-    worst_share: float
-
-    @classmethod
-    def of(cls, id_: str, bound: BoundChoice | RequirementBound, share: float) -> TailChoice:
-        """A demand with a share of the worst."""
-        return cls(id=id_, bound=bound, worst_share=share)
-
-    @property
-    def share(self) -> float:
-        """The share of the worst."""
-        return self.worst_share
+    share_key = "worst_share"
 
     def risk(self, threshold: Threshold) -> TailBound:
         """The bound on the tail; see `RiskChoice.risk`."""
@@ -146,5 +95,5 @@ class TailChoice(RiskChoice):
             comparison=threshold.comparison,
             value=threshold.value,
             unit=threshold.unit,
-            share=self.worst_share,
+            share=self.share,
         )

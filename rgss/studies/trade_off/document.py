@@ -162,8 +162,8 @@ class TailEntry(RiskEntry):
     worst_share: Dimensionless
 
 
-class FleetStudyEntry(DocumentModel):
-    """A study that is one of the tasks of a fleet."""
+class PortfolioStudyEntry(DocumentModel):
+    """A study that is one of the tasks of a portfolio."""
 
     study: Text
     weight: Dimensionless
@@ -175,7 +175,7 @@ class PortfolioEntry(DocumentModel):
     at_most: Annotated[int, Field(ge=1)]
     aim: PortfolioAim = PortfolioAim.MEAN
     member: Identifier | None = None
-    studies: Annotated[tuple[FleetStudyEntry, ...], Field(min_length=1)]
+    studies: Annotated[tuple[PortfolioStudyEntry, ...], Field(min_length=1)]
 
 
 class TradeOffEntry(DocumentModel):
@@ -194,4 +194,4 @@ class TradeOffEntry(DocumentModel):
     practical_margin: Dimensionless = 0.0
     choose: Literal["variants", "levels"] = "variants"
     feasible_by: Literal["estimates", "verdicts"] = "estimates"
-    fleet: PortfolioEntry | None = None
+    portfolio: PortfolioEntry | None = None

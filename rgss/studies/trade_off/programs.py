@@ -1,4 +1,4 @@
-"""Reader of how a trade-off decides: its program, the demands on replicates, the fleet."""
+"""Reader of how a trade-off decides: its program, the demands on replicates, the portfolio."""
 
 from __future__ import annotations
 
@@ -159,7 +159,7 @@ def read_risks(
             if any(id_ == other.id for other in found):
                 places.report("repeated", f"{id_} is demanded twice", at, hint="keep one")
                 continue
-            found.append(choice.of(id_, bound, share))
+            found.append(choice(id=id_, bound=bound, share=share))
     return tuple(found)
 
 
@@ -189,7 +189,7 @@ def _risk_bound(
 
 def check_portfolio(places: TradeOffPlaces, entry: PortfolioEntry) -> None:
     """Report studies that are named twice, and weights that do not sum to 1."""
-    at = (*SECTION, "fleet", "studies")
+    at = (*SECTION, "portfolio", "studies")
     names = [each.study for each in entry.studies]
     for index, name in enumerate(names):
         if name in names[:index]:

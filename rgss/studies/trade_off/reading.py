@@ -36,9 +36,9 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
     program = ProgramReader(places, reader.valued, weights).read(entry.decide_by)
     name = entry.decide_by.program
     risks = read_risks(places, entry.chance, entry.tail)
-    fleet = entry.fleet
-    if fleet is not None:
-        check_portfolio(places, fleet)
+    portfolio = entry.portfolio
+    if portfolio is not None:
+        check_portfolio(places, portfolio)
     if not 0.0 <= entry.accept_within <= 1.0:
         message = f"accept_within must be from 0 to 1, got {entry.accept_within:g}"
         places.report("stakeholders", message, (*SECTION, "accept_within"), hint="a difference of value, such as 0.05")
@@ -49,9 +49,9 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         message = f"the {name} program compares quantities, not values"
         hint = "give its last measure a tolerance: what lies within it is listed as near"
         places.report("margin", message, (*SECTION, "practical_margin"), hint=hint)
-    if fleet is not None and name != "additive":
-        message = f"a fleet is chosen by weighted value, not by the {name} program"
-        places.report("fleet", message, (*SECTION, "fleet"), hint="take the program out")
+    if portfolio is not None and name != "additive":
+        message = f"a portfolio is chosen by weighted value, not by the {name} program"
+        places.report("portfolio", message, (*SECTION, "portfolio"), hint="take the program out")
     if nodes is None or program is None:
         return None
     return TradeOff(
@@ -64,7 +64,7 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         practical_margin=entry.practical_margin,
         choose_levels=entry.choose == "levels",
         shown_feasible=entry.feasible_by == "verdicts",
-        fleet=fleet,
+        portfolio=portfolio,
         elicited=tuple(answers.elicited),
         stakeholders=stakeholders,
         accept_within=entry.accept_within,

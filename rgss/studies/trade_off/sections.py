@@ -38,7 +38,7 @@ class TradeOff:
         choose_levels: Whether levels of factors are chosen instead of variants.
         shown_feasible: Whether a choice must be shown to meet the requirements, by the end of the
             interval that a verdict needs; by its estimates otherwise.
-        fleet: The portfolio; None if none is wanted.
+        portfolio: The portfolio; None if none is wanted.
         elicited: The groups whose weights follow from pairwise answers.
         stakeholders: Stakeholders with weights of their own.
         accept_within: Distance from a stakeholder's best value up to which they accept a design.
@@ -54,7 +54,7 @@ class TradeOff:
     practical_margin: float = 0.0
     choose_levels: bool = False
     shown_feasible: bool = False
-    fleet: PortfolioEntry | None = None
+    portfolio: PortfolioEntry | None = None
     elicited: tuple[ElicitedWeights, ...] = ()
     stakeholders: tuple[Stakeholder, ...] = ()
     accept_within: float = 0.05

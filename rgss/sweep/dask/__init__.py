@@ -8,8 +8,3 @@ if TYPE_CHECKING:
     from rgss.sweep.dask.cluster import DaskCluster, dask_cluster
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "DaskCluster",
-    "dask_cluster",
-]

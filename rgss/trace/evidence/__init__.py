@@ -20,25 +20,3 @@ if TYPE_CHECKING:
     from rgss.trace.evidence.verification import VerificationRow, success_criterion, verification_matrix
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "JUNIT_FILE",
-    "KEY_DIGITS",
-    "EvidenceState",
-    "MarkedTest",
-    "SoftwareEvidence",
-    "TestEnd",
-    "TestEvidence",
-    "TraceEvidence",
-    "TrialEvidence",
-    "TrialVerdicts",
-    "VariantEvidence",
-    "VerificationRow",
-    "marked_tests",
-    "read_junit",
-    "software_digest",
-    "software_evidence",
-    "success_criterion",
-    "verification_digest",
-    "verification_matrix",
-]

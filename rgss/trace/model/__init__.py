@@ -9,10 +9,3 @@ if TYPE_CHECKING:
     from rgss.trace.model.model import TraceModel, build_trace_model
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "MeasureKind",
-    "MeasureTrace",
-    "TraceModel",
-    "build_trace_model",
-]

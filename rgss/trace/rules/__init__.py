@@ -11,17 +11,3 @@ if TYPE_CHECKING:
     from rgss.trace.rules.rule import Rule
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "FAMILIES",
-    "RULES",
-    "Rule",
-    "check_trace",
-    "expanded",
-    "rule_as_json",
-    "rule_lines",
-    "rule_of",
-    "rules_markdown",
-    "stamped",
-    "write_reviews",
-]

@@ -12,22 +12,3 @@ if TYPE_CHECKING:
     from rgss.trace.sentences.terms import Match, TermList, listed, phrases
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "LOWER_BEFORE",
-    "LOWER_BEHIND",
-    "UPPER_BEFORE",
-    "UPPER_BEHIND",
-    "Match",
-    "Sentence",
-    "TermList",
-    "TextQuantity",
-    "bound_of",
-    "is_unit",
-    "listed",
-    "phrases",
-    "quantities_in",
-    "read_sentence",
-    "response_start",
-    "words_of",
-]

@@ -26,26 +26,3 @@ if TYPE_CHECKING:
     from rgss.trace.views.neighbours import ThingKind
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "Chain",
-    "ChainStep",
-    "CoverageMetric",
-    "Impact",
-    "ThingKind",
-    "TraceMatrix",
-    "chain_of",
-    "coverage_metrics",
-    "end_in_words",
-    "estimate_in_words",
-    "impact_of",
-    "matrix_of",
-    "rounded_away",
-    "share_in_words",
-    "stakeholder_by_effectiveness",
-    "system_by_architecture",
-    "system_by_stakeholder",
-    "trace_matrices",
-    "value_in_words",
-    "verdict_in_words",
-]

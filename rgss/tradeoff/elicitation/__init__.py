@@ -12,16 +12,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.elicitation.fitting import weights_from_answers
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "GREATEST_RATIO",
-    "Consistency",
-    "Contradiction",
-    "ElicitedWeights",
-    "FitMethod",
-    "PairwiseAnswer",
-    "Triad",
-    "WorstAnswer",
-    "contradiction_of",
-    "weights_from_answers",
-]

@@ -20,20 +20,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.infeasibility.repair import find_joint_repairs, find_repairs
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "RESAMPLES",
-    "ConflictSurvival",
-    "Conflicts",
-    "JointRepair",
-    "LimitChange",
-    "NearestAlternative",
-    "Repair",
-    "RequirementCount",
-    "conflict_survival",
-    "excluded_counts",
-    "find_conflicts",
-    "find_joint_repairs",
-    "find_repairs",
-    "resampled_tables",
-]

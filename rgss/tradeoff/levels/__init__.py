@@ -9,13 +9,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.levels.selection import LevelModel, LevelSelection, LevelTable, smallest_table
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "LevelDecision",
-    "LevelModel",
-    "LevelProblem",
-    "LevelSelection",
-    "LevelTable",
-    "decide_levels",
-    "smallest_table",
-]

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.levels.grid import BLOCK, Column, Designs, LevelGrid, compensated_sum
-from rgss.tradeoff.levels.stage_bounds import Intervals, stage_bound
+from rgss.tradeoff.levels.stage_bounds import Intervals, Quantities, stage_bound
 from rgss.tradeoff.milp import Constraint, Stage
 
 MOST_PARTIAL = 1_000_000
@@ -121,9 +122,9 @@ class _Reduced:
                 kept &= ~excluded[tuple(designs[:, place] for place in places)]
         return kept
 
-    def of(self, designs: Designs) -> _PartialQuantities:
-        """The intervals of partial designs."""
-        return _PartialQuantities(self, designs)
+    def of(self, designs: Designs) -> Quantities:
+        """The intervals of partial designs, each measure evaluated once."""
+        return lru_cache(maxsize=None)(lambda measure: self.interval(measure, designs))
 
     def interval(self, measure: str, designs: Designs) -> Intervals:
         """The interval of a measure for each partial design."""
@@ -138,20 +139,6 @@ class _Reduced:
         low = compensated_sum([np.where(unknown, 0.0, one) for one in lows], len(designs)) - self._slack[measure]
         high = compensated_sum([np.where(unknown, 0.0, one) for one in highs], len(designs)) + self._slack[measure]
         return Intervals(low=np.where(unknown, np.inf, low), high=np.where(unknown, -np.inf, high))
-
-
-class _PartialQuantities:
-    """The intervals of partial designs, each measure evaluated once."""
-
-    def __init__(self, reduced: _Reduced, designs: Designs) -> None:
-        self._reduced = reduced
-        self._designs = designs
-        self._found: dict[str, Intervals] = {}
-
-    def __call__(self, measure: str) -> Intervals:
-        if measure not in self._found:
-            self._found[measure] = self._reduced.interval(measure, self._designs)
-        return self._found[measure]
 
 
 def _order(grid: LevelGrid) -> tuple[int, ...]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rgss.tradeoff.levels.selection import LevelTable
-from rgss.tradeoff.levels.stage_bounds import Intervals, stage_bound
+from rgss.tradeoff.levels.stage_bounds import Intervals, Quantities, stage_bound
 from rgss.tradeoff.milp import Constraint, Stage
 from rgss.tradeoff.problem import EvidenceTable, LevelSpace
 
@@ -91,7 +92,7 @@ class LevelGrid:
 
     def scores(self, stage: Stage, constraints: Sequence[Constraint], designs: Designs) -> Column:
         """The objective of each design, shape (n,); minus infinity where it is not feasible."""
-        scores = stage_bound(stage, constraints, DesignQuantities(self, designs))
+        scores = stage_bound(stage, constraints, self.quantities(designs))
         return np.where(self.allowed(designs), np.broadcast_to(scores, len(designs)), -np.inf)
 
     def best(self, stage: Stage, constraints: Sequence[Constraint]) -> tuple[float, Designs] | None:
@@ -103,6 +104,18 @@ class LevelGrid:
             if scores[row] > (-np.inf if best is None else best[0]):
                 best = (float(scores[row]), designs[row])
         return best
+
+    def quantities(self, designs: Designs) -> Quantities:
+        """The quantities of designs as intervals of no width, each measure evaluated once.
+
+        NaN where a quantity is unknown, which is in no order.
+        """
+
+        def interval(measure: str) -> Intervals:
+            column = self.quantity(measure, designs)
+            return Intervals(low=column, high=column)
+
+        return lru_cache(maxsize=None)(interval)
 
     def table(self) -> EvidenceTable:
         """Every design that the rules allow, as alternatives numbered by their combination, from 1."""
@@ -117,22 +130,6 @@ class LevelGrid:
             columns,
             known={measure: ~np.isnan(column) for measure, column in columns.items()},
         )
-
-
-class DesignQuantities:
-    """The quantities of designs as intervals of no width, each measure evaluated once."""
-
-    def __init__(self, grid: LevelGrid, designs: Designs) -> None:
-        self._grid = grid
-        self._designs = designs
-        self._found: dict[str, Intervals] = {}
-
-    def __call__(self, measure: str) -> Intervals:
-        """The intervals of a measure; NaN where it is unknown, which is in no order."""
-        if measure not in self._found:
-            column = self._grid.quantity(measure, self._designs)
-            self._found[measure] = Intervals(low=column, high=column)
-        return self._found[measure]
 
 
 def compensated_sum(parts: Sequence[Column], count: int) -> Column:

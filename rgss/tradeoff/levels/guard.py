@@ -99,7 +99,13 @@ class GuardedStageSolver(StageSolver):
         )
         solvers = self._agreeing([last, *opinions], best)
         if found is None:
-            return _infeasible(stage, checks, exhaustive=True, solvers=solvers)
+            return StageSolution(
+                name=stage.name,
+                status=DecisionStatus.INFEASIBLE,
+                checks=checks,
+                exhaustive=True,
+                solvers=solvers,
+            )
         if last.confirms(best) and last.design is not None:
             return self._solution(
                 stage, last.design, DecisionStatus.OPTIMAL, last, checks, gap=last.gap, solvers=solvers
@@ -189,7 +195,13 @@ class GuardedStageSolver(StageSolver):
         solvers = self._agreeing(attempts, best)
         if design is None:
             if proven:
-                return _infeasible(stage, checks, exhaustive=False, solvers=solvers)
+                return StageSolution(
+                    name=stage.name,
+                    status=DecisionStatus.INFEASIBLE,
+                    checks=checks,
+                    exhaustive=False,
+                    solvers=solvers,
+                )
             raise TradeoffError(
                 f"stage {stage.name!r}: no feasible design was found, and that there is none was not proved",
                 hint="relax a requirement, allow more time, or look for measures of extreme magnitude",
@@ -260,19 +272,3 @@ class GuardedStageSolver(StageSolver):
             exhaustive=self.exhaustive,
             solvers=solvers,
         )
-
-
-def _infeasible(
-    stage: Stage, checks: tuple[Check, ...], *, exhaustive: bool, solvers: tuple[str, ...]
-) -> StageSolution:
-    return StageSolution(
-        name=stage.name,
-        status=DecisionStatus.INFEASIBLE,
-        alternative=None,
-        objective=None,
-        gap=None,
-        selection_error=0.0,
-        checks=checks,
-        exhaustive=exhaustive,
-        solvers=solvers,
-    )

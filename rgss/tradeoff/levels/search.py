@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.levels.grid import DesignQuantities, Designs, LevelGrid
+from rgss.tradeoff.levels.grid import Designs, LevelGrid
 from rgss.tradeoff.levels.stage_bounds import shortfall_of
 from rgss.tradeoff.milp import Constraint, Stage
 from rgss.tradeoff.problem import Threshold
@@ -93,7 +93,7 @@ def _merit(grid: LevelGrid, stage: Stage, constraints: Sequence[Constraint], des
     """How much each design violates, and its objective where it violates nothing."""
     scores = grid.scores(stage, constraints, designs)
     violated = (~grid.allowed(designs)).astype(np.float64)
-    quantities = DesignQuantities(grid, designs)
+    quantities = grid.quantities(designs)
     for constraint in (*constraints, *stage.constraints):
         scale = _span(grid, constraint.measure) if isinstance(constraint, Threshold) else 1.0
         violated = violated + shortfall_of(constraint, quantities) / scale

@@ -113,10 +113,10 @@ class StageSolution:
 
     name: str
     status: DecisionStatus
-    alternative: Alternative | None
-    objective: float | None
-    gap: float | None
-    selection_error: float
+    alternative: Alternative | None = None
+    objective: float | None = None
+    gap: float | None = None
+    selection_error: float = 0.0
     checks: tuple[Check, ...] = ()
     exhaustive: bool = False
     solvers: tuple[str, ...] = (FIRST_RUN.solver,)
@@ -153,14 +153,7 @@ class StageSolver:
         """
         problem, selection = self.compiled(stage)
         if not (self.solve_by or solve_program)(problem, self.run):
-            return StageSolution(
-                name=stage.name,
-                status=DecisionStatus.INFEASIBLE,
-                alternative=None,
-                objective=None,
-                gap=None,
-                selection_error=0.0,
-            )
+            return StageSolution(name=stage.name, status=DecisionStatus.INFEASIBLE)
         alternative, error = selection.read()
         objective = stage.sign * float(problem.value) / stage.scale + 0.0
         return StageSolution(

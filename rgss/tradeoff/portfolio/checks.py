@@ -21,7 +21,7 @@ MOST_ENTRIES = 20_000_000
 LARGEST_SOLVED = 2_500
 """Up to so many values of members in tasks the mixed-integer program is solved as well."""
 
-FLEET_RUN = SolverRun(name=FIRST_RUN.name, options={**FIRST_RUN.options, "mip_max_nodes": 5_000})
+PORTFOLIO_RUN = SolverRun(name=FIRST_RUN.name, options={**FIRST_RUN.options, "mip_max_nodes": 5_000})
 """The options of that run; a proof that takes more nodes is left to the bounds."""
 
 
@@ -47,7 +47,7 @@ def solved_portfolio(
     weights: NDArray[np.float64],
     at_most: int,
     aim: PortfolioAim,
-    run: SolverRun = FLEET_RUN,
+    run: SolverRun = PORTFOLIO_RUN,
 ) -> tuple[int, ...] | None:
     """The chosen rows of the mixed-integer program; None if the solver calls it infeasible.
 
@@ -78,7 +78,7 @@ def solved_portfolio(
     error = float(np.abs(answer - answer.round()).max())
     if error > INTEGRALITY_TOLERANCE:
         raise TradeoffError(
-            f"the solver's answer selects no fleet (off by {error:.3g})",
+            f"the solver's answer selects no portfolio (off by {error:.3g})",
             hint="the answer is not used; look for measures of extreme magnitude",
         )
     open_rows = np.flatnonzero(answer > 0.5)

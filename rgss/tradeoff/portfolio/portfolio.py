@@ -4,149 +4,29 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import Agreement, Check, CheckKind, DecisionStatus, SolverRun
 from rgss.tradeoff.portfolio.checks import (
-    FLEET_RUN,
     LARGEST_SOLVED,
+    PORTFOLIO_RUN,
     PortfolioAim,
     best_portfolio,
     portfolio_objective,
     solved_portfolio,
 )
+from rgss.tradeoff.portfolio.decision import Assignment, PortfolioDecision
+from rgss.tradeoff.portfolio.problem import PortfolioProblem, PortfolioTask
 from rgss.tradeoff.portfolio.work import MOST_WORK, Cut, WorkBudget
-from rgss.tradeoff.problem import TIE_TOLERANCE, Weighting
-from rgss.tradeoff.programs import AdditiveValue, TradeProblem
+from rgss.tradeoff.problem import TIE_TOLERANCE
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from rgss.tradeoff.portfolio.mean import SizeAnswer
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PortfolioTask:
-    """One task or scene that is to be served.
-
-    Attributes:
-        name: Its name.
-        weight: Its share in the mean.
-        problem: The same alternatives with their evidence in this task, and what it demands.
-    """
-
-    name: str
-    weight: float
-    problem: TradeProblem
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PortfolioProblem:
-    """Choose at most k designs, or kinds of designs, so that every task is served as well as possible.
-
-    Attributes:
-        tasks: The tasks.
-        at_most: The largest number of members.
-        groups: What counts as one member, by id of the alternative, such as the gripper that it
-            has: then a member may serve each task by another alternative of its group. Every
-            alternative counts by itself where there are none.
-        aim: Mean or worst.
-
-    Raises:
-        TradeoffError: The problem is ill posed.
-    """
-
-    tasks: tuple[PortfolioTask, ...]
-    at_most: int
-    groups: Mapping[int, str] | None = field(default=None, hash=False)
-    aim: PortfolioAim = PortfolioAim.MEAN
-
-    def __post_init__(self) -> None:
-        if not self.tasks:
-            raise TradeoffError("a fleet without tasks has nothing to do", hint="name at least one task")
-        names = [task.name for task in self.tasks]
-        for name in names:
-            if names.count(name) > 1:
-                raise TradeoffError(f"task {name!r} is given twice", hint="keep one of them")
-        if self.at_most < 1:
-            raise TradeoffError(f"a fleet of at most {self.at_most} designs serves no task", hint="allow at least 1")
-        Weighting(weights={task.name: task.weight for task in self.tasks})
-        variants = [one.variant for one in self.tasks[0].problem.alternatives]
-        for task in self.tasks:
-            if not isinstance(task.problem.program, AdditiveValue):
-                raise TradeoffError(
-                    f"task {task.name!r} is decided by the {task.problem.program.name} program",
-                    hint="a fleet is chosen by weighted value; use the additive program",
-                )
-            others = {one.variant for one in task.problem.alternatives}
-            for variant in sorted(others.symmetric_difference(variants)):
-                raise TradeoffError(
-                    f"variant {variant} is not among the alternatives of every task",
-                    hint="give every task the same designs",
-                )
-        for variant in variants:
-            if self.groups is not None and variant not in self.groups:
-                raise TradeoffError(f"variant {variant} belongs to no group", hint="give every variant its group")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Assignment:
-    """Which alternative serves a task.
-
-    Attributes:
-        task: The task.
-        member: The member of the fleet that the alternative belongs to.
-        variant: The alternative.
-        value: Its weighted value in this task.
-    """
-
-    task: str
-    member: str
-    variant: int
-    value: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PortfolioDecision:
-    """The outcome of choosing a fleet.
-
-    Attributes:
-        status: Optimal; best found where a limit ended the proof; infeasible if no fleet of the size
-            serves every task; undecided where a limit ended the search for one.
-        members: The chosen members: of the tied best portfolios one with the fewest, and of these,
-            where all were enumerated, the first in the order of their smallest variants.
-        assignments: Who serves each task.
-        objective: Mean or worst value; None if there is none.
-        by_size: The best objective with at most 1, 2, … members that was found; None where there is
-            none. It never falls.
-        by_size_gap: How much better a portfolio of each size can be at most; None where none was found.
-        unserved: Tasks that no alternative serves at all.
-        gap: How far the bound that was proved is from the objective; None if there is none.
-        objective_recomputed: The objective of the chosen members in NumPy; None if there is none.
-        considered: How many members were left after exact reduction.
-        enumeration_agrees: Whether enumeration of all portfolios comes to the same objective.
-        checks: The independent checks that were made.
-        cut: The limit that ended a proof; None if all are complete. Under a time limit the answer
-            depends on the machine.
-    """
-
-    status: DecisionStatus
-    members: tuple[str, ...]
-    assignments: tuple[Assignment, ...]
-    objective: float | None
-    by_size: tuple[float | None, ...]
-    by_size_gap: tuple[float | None, ...]
-    unserved: tuple[str, ...]
-    gap: float | None
-    objective_recomputed: float | None
-    considered: int
-    enumeration_agrees: Agreement
-    checks: tuple[Check, ...]
-    cut: Cut | None
 
 
 def decide_portfolio(
@@ -285,7 +165,7 @@ def _checked(
     """The better of a portfolio and the solvers', and what the solvers came to."""
     checks: list[Check] = []
     if values.size <= LARGEST_SOLVED:
-        rows, check = _compared(problem, values, weights, rows, FLEET_RUN, "HiGHS", CheckKind.SECOND_RUN)
+        rows, check = _compared(problem, values, weights, rows, PORTFOLIO_RUN, "HiGHS", CheckKind.SECOND_RUN)
         checks.append(check)
     for run in independent:
         if values.size > LARGEST_SOLVED:

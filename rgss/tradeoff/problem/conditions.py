@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
@@ -29,11 +30,11 @@ PREFIXES = (EVIDENCE_PREFIX, CHANCE_PREFIX, TAIL_PREFIX, LIMIT_PREFIX)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Threshold:
-    """Threshold of a requirement on one measure; a requirement may have several.
+class BoundedMeasure(ABC):
+    """Base of the conditions: a statistic of a measure's evidence on the good side of a limit.
 
     Attributes:
-        requirement: Id of the requirement, such as ``SYS-012``.
+        requirement: Id of the requirement or demand, such as ``SYS-012`` or ``chance:SYS-005``.
         measure: The measure that is compared.
         comparison: At least or at most.
         value: The threshold, in the measure's unit.
@@ -50,7 +51,12 @@ class Threshold:
     unit: str
 
     def __post_init__(self) -> None:
-        _check_comparison(self)
+        """Refuse a strict comparison: the feasible set of a program is closed."""
+        if self.comparison.is_strict:
+            raise TradeoffError(
+                f"{self.requirement}: a program cannot have the strict comparison {self.comparison.value!r}",
+                hint="write >= or <=",
+            )
 
     @property
     def name(self) -> str:
@@ -58,9 +64,9 @@ class Threshold:
         return f"{self.requirement}: {self.demand}"
 
     @property
+    @abstractmethod
     def demand(self) -> str:
         """What is demanded, such as ``P_max >= 0.8 kg``."""
-        return f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
 
     @property
     def sense(self) -> Comparison:
@@ -77,9 +83,19 @@ class Threshold:
         """The unit of `limit`."""
         return self.unit
 
-    def with_limit(self, limit: float) -> Threshold:
-        """The same demand with another limit."""
-        return replace(self, value=limit)
+    @abstractmethod
+    def statistic(self, alternative: Alternative) -> float | None:
+        """Compared statistic of an alternative; None if unknown."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Threshold(BoundedMeasure):
+    """Threshold of a requirement on one measure; a requirement may have several."""
+
+    @property
+    def demand(self) -> str:
+        """What is demanded, such as ``P_max >= 0.8 kg``."""
+        return f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
 
     def statistic(self, alternative: Alternative) -> float | None:
         """Compared statistic: the quantity itself."""
@@ -95,43 +111,29 @@ class Threshold:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ChanceBound:
+class ChanceBound(BoundedMeasure):
     """Chance constraint: the share of replicates that must meet a threshold, as in ``P[t_e <= 25 s] >= 0.9``.
 
     The probability is the share of all replicates that were run. A replicate without the
     measure, such as the time of a task that failed, does not meet the threshold.
 
     Attributes:
-        requirement: Id of the demand, such as ``chance:SYS-005``.
-        measure: The measure.
         comparison: On which side of the threshold a replicate must be.
-        value: The threshold, in the measure's unit.
-        unit: That unit, for people.
         probability: The share, between 0 and 1.
 
     Raises:
         TradeoffError: The probability is not between 0 and 1, or the comparison is strict.
     """
 
-    requirement: str
-    measure: str
-    comparison: Comparison
-    value: float
-    unit: str
     probability: float
 
     def __post_init__(self) -> None:
-        _check_comparison(self)
+        BoundedMeasure.__post_init__(self)
         if not 0.0 < self.probability < 1.0:
             raise TradeoffError(
                 f"{self.requirement}: the probability must be between 0 and 1, got {self.probability:g}",
                 hint="give a number between 0 and 1, such as 0.9",
             )
-
-    @property
-    def name(self) -> str:
-        """The constraint as people write it."""
-        return f"{self.requirement}: {self.demand}"
 
     @property
     def demand(self) -> str:
@@ -158,10 +160,6 @@ class ChanceBound:
         """So many replicates are needed for one to be allowed to fail."""
         return _one_in(1.0 - self.probability)
 
-    def with_limit(self, limit: float) -> ChanceBound:
-        """The same demand with another probability."""
-        return replace(self, probability=limit)
-
     def statistic(self, alternative: Alternative) -> float | None:
         """Compared statistic: the share of replicates that meet the threshold."""
         return self.of_replicates(replicates_of(alternative, self.measure))
@@ -172,7 +170,7 @@ class ChanceBound:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TailBound:
+class TailBound(BoundedMeasure):
     """A threshold for the mean of the worst replicates: the conditional value at risk.
 
     With n replicates and a share α, the mean is over the worst α n of them, the last one counting
@@ -181,36 +179,22 @@ class TailBound:
     replicate that lacks the measure does not meet it: the worst is then unknown.
 
     Attributes:
-        requirement: Id of the demand, such as ``tail:SYS-005``.
-        measure: The measure.
         comparison: At most bounds the largest replicates, at least the smallest.
-        value: The threshold, in the measure's unit.
-        unit: That unit, for people.
         share: The share α of replicates that are the tail, above 0 and below 1.
 
     Raises:
         TradeoffError: The share is not between 0 and 1, or the comparison is strict.
     """
 
-    requirement: str
-    measure: str
-    comparison: Comparison
-    value: float
-    unit: str
     share: float
 
     def __post_init__(self) -> None:
-        _check_comparison(self)
+        BoundedMeasure.__post_init__(self)
         if not 0.0 < self.share < 1.0:
             raise TradeoffError(
                 f"{self.requirement}: the share of the worst replicates must be between 0 and 1, got {self.share:g}",
                 hint="give a share between 0 and 1, such as 0.1",
             )
-
-    @property
-    def name(self) -> str:
-        """The constraint as people write it."""
-        return f"{self.requirement}: {self.demand}"
 
     @property
     def demand(self) -> str:
@@ -219,28 +203,9 @@ class TailBound:
         return f"mean of the worst {100.0 * self.share:g} % of {self.measure} {limit}"
 
     @property
-    def sense(self) -> Comparison:
-        """On which side of its limit the statistic must be."""
-        return self.comparison
-
-    @property
-    def limit(self) -> float:
-        """The number that would change if the requirement were relaxed."""
-        return self.value
-
-    @property
-    def limit_unit(self) -> str:
-        """The unit of `limit`."""
-        return self.unit
-
-    @property
     def replicates_needed(self) -> int:
         """So many replicates are needed for the tail to hold a whole one."""
         return _one_in(self.share)
-
-    def with_limit(self, limit: float) -> TailBound:
-        """The same demand with another threshold."""
-        return replace(self, value=limit)
 
     def statistic(self, alternative: Alternative) -> float | None:
         """Compared statistic: the empirical CVaR; None if a replicate is unknown."""
@@ -269,15 +234,6 @@ def replicates_of(alternative: Alternative, measure: str) -> Sequence[float | No
     """What each replicate showed of a measure; of one that follows from the design, its quantity once."""
     row = alternative.replicates(measure)
     return (alternative.measures[measure],) if row is None else row
-
-
-def _check_comparison(condition: Condition) -> None:
-    """Refuse a strict comparison: the feasible set of a program is closed."""
-    if condition.comparison.is_strict:
-        raise TradeoffError(
-            f"{condition.requirement}: a program cannot have the strict comparison {condition.comparison.value!r}",
-            hint="write >= or <=",
-        )
 
 
 def unit_text(unit: str) -> str:

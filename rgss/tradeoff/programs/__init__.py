@@ -17,30 +17,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.programs.tchebycheff import Tchebycheff
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "AdditiveValue",
-    "Aim",
-    "Certificate",
-    "ConstraintResidual",
-    "Enumeration",
-    "EpsilonConstraint",
-    "Lexicographic",
-    "MinimaxRegret",
-    "Preferences",
-    "Program",
-    "Scenarios",
-    "StageCertificate",
-    "Tchebycheff",
-    "TradeProblem",
-    "certify",
-    "check_preferences",
-    "condition_column",
-    "enumerate_alternatives",
-    "keeps",
-    "ordering_of",
-    "orderings_of",
-    "single_values",
-    "violations",
-    "weighted_values",
-]

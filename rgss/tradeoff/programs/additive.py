@@ -2,39 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 from rgss.tradeoff.milp import Stage, StageSolution, StageSolver, WeightedValue
 from rgss.tradeoff.problem import Threshold
-from rgss.tradeoff.programs.preferences import Preferences
+from rgss.tradeoff.programs.preferences import Preferences, Program
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AdditiveValue:
+class AdditiveValue(Program):
     """Maximise the weighted sum of the values: ``max Σ_i w_i v_i(x)``."""
 
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return "additive"
-
-    @property
-    def limits(self) -> tuple[Threshold, ...]:
-        """None."""
-        return ()
-
-    @property
-    def aimed_measures(self) -> tuple[str, ...]:
-        """None."""
-        return ()
-
-    def needs(self, preferences: Preferences) -> Mapping[str, bool]:
-        """The measures that have a weight."""
-        return dict.fromkeys(preferences.weighting.deciding_measures, False)
-
-    def check(self, preferences: Preferences) -> None:
-        """Nothing can be wrong beyond weights and values."""
+    name: ClassVar[str] = "additive"
 
     def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
         """One stage."""

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import QuantityRank, Stage, StageSolution, StageSolver
 from rgss.tradeoff.problem import LIMIT_PREFIX, Comparison, Threshold
 from rgss.tradeoff.programs.additive import additive_stage
+from rgss.tradeoff.programs.preferences import Program
 
 if TYPE_CHECKING:
     from rgss.tradeoff.programs.preferences import Preferences
@@ -80,7 +81,7 @@ class Aim:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lexicographic:
+class Lexicographic(Program):
     """The best of the first measure; among what keeps it within its tolerance, the best of the next.
 
     Attributes:
@@ -90,6 +91,8 @@ class Lexicographic:
     Raises:
         TradeoffError: There are no measures, or one occurs twice.
     """
+
+    name: ClassVar[str] = "lexicographic"
 
     aims: tuple[Aim, ...]
 
@@ -104,16 +107,6 @@ class Lexicographic:
                 )
 
     @property
-    def name(self) -> str:
-        """Its name."""
-        return "lexicographic"
-
-    @property
-    def limits(self) -> tuple[Threshold, ...]:
-        """None."""
-        return ()
-
-    @property
     def aimed_measures(self) -> tuple[str, ...]:
         """The measures of its aims."""
         return tuple(aim.measure for aim in self.aims)
@@ -122,16 +115,13 @@ class Lexicographic:
         """The measures of its aims."""
         return dict.fromkeys(self.aimed_measures, False)
 
-    def check(self, preferences: Preferences) -> None:
-        """Nothing can be wrong beyond its aims."""
-
     def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:  # noqa: ARG002
         """One stage for each aim."""
         return solve_in_order(self.aims, solver)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class EpsilonConstraint:
+class EpsilonConstraint(Program):
     """The best of one measure under limits on others; of equals, the one of the highest weighted value.
 
     Attributes:
@@ -142,6 +132,8 @@ class EpsilonConstraint:
     Raises:
         TradeoffError: There are no limits, or one has another id.
     """
+
+    name: ClassVar[str] = "epsilon_constraint"
 
     aim: Aim
     bounds: tuple[Threshold, ...]
@@ -159,11 +151,6 @@ class EpsilonConstraint:
                 )
 
     @property
-    def name(self) -> str:
-        """Its name."""
-        return "epsilon_constraint"
-
-    @property
     def limits(self) -> tuple[Threshold, ...]:
         """The limits on the other measures."""
         return self.bounds
@@ -176,9 +163,6 @@ class EpsilonConstraint:
     def needs(self, preferences: Preferences) -> Mapping[str, bool]:
         """The measure that is optimised, and those that have a weight, which break ties."""
         return dict.fromkeys((self.aim.measure, *preferences.weighting.deciding_measures), False)
-
-    def check(self, preferences: Preferences) -> None:
-        """Nothing can be wrong beyond its aim and limits."""
 
     def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
         """A stage for the measure, and one for the weighted value among equals."""

@@ -6,11 +6,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import Exclusion, Stage, StageSolution, StageSolver, WeightedValue, WorstOf
-from rgss.tradeoff.problem import Alternative, Threshold
+from rgss.tradeoff.problem import Alternative
+from rgss.tradeoff.programs.preferences import Program
 
 if TYPE_CHECKING:
     import numpy as np
@@ -42,7 +43,7 @@ class Scenarios(str, Enum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MinimaxRegret:
+class MinimaxRegret(Program):
     """The alternative whose largest regret over all scenarios is smallest.
 
     The regret in a scenario is how much more value the best feasible alternative has there (Savage,
@@ -58,22 +59,9 @@ class MinimaxRegret:
         scenarios: Over what.
     """
 
+    name: ClassVar[str] = "minimax_regret"
+
     scenarios: Scenarios = Scenarios.WEIGHTS
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return "minimax_regret"
-
-    @property
-    def limits(self) -> tuple[Threshold, ...]:
-        """None."""
-        return ()
-
-    @property
-    def aimed_measures(self) -> tuple[str, ...]:
-        """None."""
-        return ()
 
     def needs(self, preferences: Preferences) -> Mapping[str, bool]:
         """All valued measures over weights; over replicates, those that have a weight."""

@@ -1,6 +1,6 @@
 """Preferences and decision programs: demands, values, weights, and the program that they are handed to.
 
-The two protocols refer to each other, so they share a file.
+The two classes refer to each other, so they share a file.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, ClassVar
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import Constraint, EvidenceConstraint, StageSolution, StageSolver
@@ -30,39 +30,43 @@ if TYPE_CHECKING:
     from rgss.tradeoff.problem import Alternative
 
 
-class Program(Protocol):
-    """Decision program: the objectives by which a feasible alternative is chosen, stage by stage."""
+class Program(ABC):
+    """Decision program: the objectives by which a feasible alternative is chosen, stage by stage.
 
-    @property
-    def name(self) -> str:
-        """Its name."""
-        ...
+    Base of the frozen dataclasses; what it says here of limits and needs is that of a program by weighted values.
+
+    Attributes:
+        name: Its name.
+    """
+
+    __slots__ = ()
+
+    name: ClassVar[str]
 
     @property
     def limits(self) -> tuple[Threshold, ...]:
         """Thresholds that it sets beside those of the requirements."""
-        ...
+        return ()
 
     @property
     def aimed_measures(self) -> tuple[str, ...]:
         """Measures that it optimises by their quantities."""
-        ...
+        return ()
 
     def needs(self, preferences: Preferences) -> Mapping[str, bool]:
         """The measures that must be known, and whether in every replicate, too."""
-        ...
+        return dict.fromkeys(preferences.weighting.deciding_measures, False)
 
-    def check(self, preferences: Preferences) -> None:
+    def check(self, preferences: Preferences) -> None:  # noqa: B027 - most can decide any trade-off
         """Make sure that it can decide a trade-off.
 
         Raises:
             TradeoffError: It cannot.
         """
-        ...
 
+    @abstractmethod
     def solve(self, preferences: Preferences, solver: StageSolver) -> tuple[StageSolution, ...]:
         """Solve its stages, each given the answers of those before; ends where one is infeasible."""
-        ...
 
 
 class Preferences(ABC):

@@ -7,9 +7,7 @@ from dataclasses import dataclass, field
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem import (
-    EVIDENCE_PREFIX,
     Alternative,
-    Comparison,
     EvidenceTable,
     LevelStructure,
     Risk,
@@ -21,8 +19,6 @@ from rgss.tradeoff.problem import (
 )
 from rgss.tradeoff.programs.additive import AdditiveValue
 from rgss.tradeoff.programs.preferences import Preferences, Program, check_preferences
-
-__all__ = ["EVIDENCE_PREFIX", "Alternative", "Comparison", "Threshold", "TradeProblem"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

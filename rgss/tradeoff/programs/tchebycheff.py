@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.milp import Stage, StageSolution, StageSolver, WeightedValue, WorstOf
-from rgss.tradeoff.problem import Threshold
+from rgss.tradeoff.programs.preferences import Program
 
 if TYPE_CHECKING:
     from rgss.tradeoff.programs.preferences import Preferences
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tchebycheff:
+class Tchebycheff(Program):
     """As near as possible to a reference point, the largest weighted shortfall counting.
 
     ``min max_i w_i (z_i - v_i(x)) + ρ Σ_i (z_i - v_i(x))``, the augmented weighted Tchebycheff metric
@@ -32,6 +32,8 @@ class Tchebycheff:
         TradeoffError: A reference value or the augmentation is out of range.
     """
 
+    name: ClassVar[str] = "tchebycheff"
+
     reference: Mapping[str, float] = field(default_factory=dict, hash=False)
     augmentation: float = 1e-3
 
@@ -45,25 +47,6 @@ class Tchebycheff:
             raise TradeoffError(
                 f"the augmentation is {self.augmentation:g}", hint="give a small positive number, such as 0.001"
             )
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return "tchebycheff"
-
-    @property
-    def limits(self) -> tuple[Threshold, ...]:
-        """None."""
-        return ()
-
-    @property
-    def aimed_measures(self) -> tuple[str, ...]:
-        """None."""
-        return ()
-
-    def needs(self, preferences: Preferences) -> Mapping[str, bool]:
-        """The measures that have a weight."""
-        return dict.fromkeys(preferences.weighting.deciding_measures, False)
 
     def check(self, preferences: Preferences) -> None:
         """Reference values name measures that decide."""

@@ -7,8 +7,9 @@ from rgss.lazy_exports import lazy_exports
 if TYPE_CHECKING:
     from rgss.tradeoff.robustness.acceptability import Acceptability, Outcomes, OutcomeSource, smaa2
     from rgss.tradeoff.robustness.assumption_sensitivity import AssumptionRange, Standing, linear_range, scanned_range
+    from rgss.tradeoff.robustness.complete_block import largest_complete_block
     from rgss.tradeoff.robustness.cost_box import BoxProblem, BoxRange, box_range
-    from rgss.tradeoff.robustness.effects import Effect, FactorialAnalysis, factorial_effects, largest_complete_block
+    from rgss.tradeoff.robustness.effects import Effect, FactorialAnalysis, factorial_effects
     from rgss.tradeoff.robustness.flip import WeightRange, WeightShift, weight_ranges, weight_shifts
     from rgss.tradeoff.robustness.kept_alternatives import KeptAlternative, KeptFor, worth_keeping
     from rgss.tradeoff.robustness.outcomes import admitted_weights, common_replicates, condition_masks, noisy_outcomes
@@ -23,58 +24,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.robustness.uncertainty import ChoiceUncertainty, Rival, choice_uncertainty
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "FEWEST_PER_CLASS",
-    "Acceptability",
-    "AssumptionRange",
-    "BoxProblem",
-    "BoxRange",
-    "ChoiceUncertainty",
-    "Effect",
-    "FactorialAnalysis",
-    "KeptAlternative",
-    "KeptFor",
-    "OutcomeSource",
-    "Outcomes",
-    "Overlap",
-    "ParetoFront",
-    "PosteriorOutcomes",
-    "PriceStep",
-    "RankReversal",
-    "ResampledOutcomes",
-    "Rival",
-    "SampledIndex",
-    "SharedPart",
-    "StakeholderAgreement",
-    "StakeholderView",
-    "Standing",
-    "Support",
-    "WeightRange",
-    "WeightShift",
-    "admitted_weights",
-    "box_range",
-    "changes_of_best",
-    "choice_uncertainty",
-    "classes_of",
-    "common_replicates",
-    "condition_masks",
-    "factorial_effects",
-    "first_order_indices",
-    "largest_complete_block",
-    "linear_range",
-    "noisy_outcomes",
-    "overlapping_measures",
-    "pareto_front",
-    "price_list",
-    "rank_reversals",
-    "sample_anchored",
-    "scanned_range",
-    "shared_parts",
-    "smaa2",
-    "stakeholder_agreement",
-    "step_at",
-    "weight_ranges",
-    "weight_shifts",
-    "worth_keeping",
-]

@@ -8,7 +8,6 @@ share of it is the factor's Sobol index.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -23,9 +22,6 @@ CONFIDENCE = 0.95
 
 Array = NDArray[np.float64]
 Term = tuple[str, ...]
-
-MOST_BLOCKS = 300_000
-"""So many choices of levels are looked at for the largest complete block."""
 
 MOST_AT_ONCE = 1_000_000
 """So many estimates are split into effects at once, 8 MB: designs times resamples."""
@@ -169,36 +165,6 @@ def factorial_effects(
         },
         used=0.0 if noise is None else noise.used,
     )
-
-
-def largest_complete_block(known: NDArray[np.bool_]) -> tuple[tuple[int, ...], ...] | None:
-    """The largest choice of levels of which every combination is known.
-
-    Designs without an estimate would confound the effects of the others, and nothing may be made
-    up for them; what is left is a smaller balanced design.
-
-    Args:
-        known: Which designs have an estimate, one axis for each factor.
-
-    Returns:
-        The levels kept of each factor; of the largest blocks that which keeps most levels of the
-        earlier factors. None if there is no block with two levels of some factor, or more than
-        `MOST_BLOCKS` to look at.
-    """
-    if known.all() and known.size > 1:
-        return tuple(tuple(range(length)) for length in known.shape)
-    if math.prod(2**length - 1 for length in known.shape) > MOST_BLOCKS:
-        return None
-    best: tuple[int, tuple[tuple[int, ...], ...]] | None = None
-    choices = [
-        [kept for size in range(length, 0, -1) for kept in itertools.combinations(range(length), size)]
-        for length in known.shape
-    ]
-    for kept in itertools.product(*choices):
-        size = math.prod(len(levels) for levels in kept)
-        if size > (best[0] if best else 1) and known[np.ix_(*kept)].all():
-            best = (size, kept)
-    return None if best is None else best[1]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

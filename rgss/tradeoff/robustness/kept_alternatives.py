@@ -10,7 +10,7 @@ those of a measure in which all are equal, they tie; unless the other never lead
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -106,17 +106,7 @@ def worth_keeping(
     front = np.flatnonzero(nondominated(distinct))
     place = _Placing(values=distinct, front=front, here=here, among=among, margin=margin, first_of=first_of)
     found = [place.of(kind) for kind in range(len(distinct))]
-    return tuple(
-        KeptAlternative(
-            row=int(row),
-            reason=found[kind].reason,
-            shortfall=found[kind].shortfall,
-            behind=found[kind].behind,
-            weights=found[kind].weights,
-            beaten_by=found[kind].beaten_by,
-        )
-        for row, kind in zip(rows, membership, strict=True)
-    )
+    return tuple(replace(found[kind], row=int(row)) for row, kind in zip(rows, membership, strict=True))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

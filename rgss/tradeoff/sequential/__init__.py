@@ -13,16 +13,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.sequential.settling import Progress
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "MOST_FORECAST",
-    "Decided",
-    "Forecast",
-    "Progress",
-    "Reason",
-    "SequentialEvidence",
-    "SequentialRule",
-    "forecast",
-    "next_batch",
-    "probability_of_good_selection",
-]

@@ -19,18 +19,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.weights.weight_set import WeightSet
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "THINNEST",
-    "Drawing",
-    "Polytope",
-    "WeightRegion",
-    "WeightSet",
-    "centroid",
-    "never_best",
-    "rivals_of",
-    "sample_weights",
-    "shared_region_keys",
-    "winning_polytope",
-    "winning_regions",
-]

@@ -24,20 +24,3 @@ if TYPE_CHECKING:
     )
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "ENTRIES",
-    "ONE_THREAD",
-    "are_of_this_kind",
-    "assume_engines",
-    "code_of_trials",
-    "fixed_numerics",
-    "is_in_force",
-    "numeric_environment",
-    "numeric_environment_of_children",
-    "numerics",
-    "problem_here",
-    "source_digest",
-    "versions",
-    "versions_of",
-]

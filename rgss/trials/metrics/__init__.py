@@ -10,14 +10,3 @@ if TYPE_CHECKING:
     from rgss.trials.metrics.registry import METRICS, PHASE_METRICS
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "CARRY_METRICS",
-    "GRASP_METRICS",
-    "METRICS",
-    "PHASE_METRICS",
-    "Aggregation",
-    "Direction",
-    "MetricDescriptor",
-    "PhaseValue",
-]

@@ -16,17 +16,3 @@ if TYPE_CHECKING:
     from rgss.trials.monitors.release_monitor import LandingMonitor, PlacedObjectMonitor
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "DragMonitor",
-    "ForceSensor",
-    "ForceSensorErrors",
-    "GripEstimate",
-    "InHandMotionTracker",
-    "LandingMonitor",
-    "PhaseMonitor",
-    "PlacedObjectMonitor",
-    "StepObserver",
-    "ToolKinematics",
-    "grasp_metrics",
-]

@@ -11,25 +11,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from rgss.errors import DefinitionError
-from rgss.trials.payload_bench.range import BOUND, VALIDATED, outside
-from rgss.trials.payload_bench.rig import PayloadLimit, PayloadRig, Probe, probe
-from rgss.trials.payload_bench.spec import SAFETY_FACTOR, BenchSettings, BenchSpec, bench_spec
-
-__all__ = [
-    "BOUND",
-    "SAFETY_FACTOR",
-    "VALIDATED",
-    "BenchSettings",
-    "BenchSpec",
-    "PayloadLimit",
-    "PayloadResult",
-    "PayloadRig",
-    "Probe",
-    "bench_spec",
-    "outside",
-    "probe",
-    "run_bench",
-]
+from rgss.trials.payload_bench.range import outside
+from rgss.trials.payload_bench.rig import PayloadLimit, Probe, probe
+from rgss.trials.payload_bench.spec import BenchSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,32 +8,12 @@ if TYPE_CHECKING:
     from rgss.trials.pieces.assembling import record_under
     from rgss.trials.pieces.bench_json import bench_from_json
     from rgss.trials.pieces.execution_json import execution_from_json
-    from rgss.trials.pieces.input_digests import TrialDigests, TrialSpec, digests_of
-    from rgss.trials.pieces.pieces import PieceTask, Task, TrialTask, make, record_of, tasks_of
+    from rgss.trials.pieces.input_digests import TrialDigests, digests_of
+    from rgss.trials.pieces.pieces import PieceTask, Task, TrialTask, record_of, tasks_of
     from rgss.trials.pieces.plain_values import to_plain
     from rgss.trials.pieces.plan_json import plan_from_json
-    from rgss.trials.pieces.run import Pieces, require_search, run_trial
+    from rgss.trials.pieces.run import Pieces, make, require_search, run_trial
     from rgss.trials.pieces.timing_json import timing_from_json
+    from rgss.trials.trial_spec import TrialSpec
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "PieceTask",
-    "Pieces",
-    "Task",
-    "TrialDigests",
-    "TrialSpec",
-    "TrialTask",
-    "bench_from_json",
-    "digests_of",
-    "execution_from_json",
-    "make",
-    "plan_from_json",
-    "record_of",
-    "record_under",
-    "require_search",
-    "run_trial",
-    "tasks_of",
-    "timing_from_json",
-    "to_plain",
-]

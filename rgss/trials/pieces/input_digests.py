@@ -22,8 +22,6 @@ from rgss.trials.payload_bench import BenchSpec, bench_of
 from rgss.trials.pieces.plain_values import to_plain
 from rgss.trials.trial_spec import TrialSpec
 
-__all__ = ["TrialDigests", "TrialSpec", "bench_digest", "bench_of", "digests_of", "physics_inputs", "to_plain"]
-
 # Trials of a study share most of their inputs, whose digest is computed once.
 _KEPT = 512
 _RATES = ("speed_rad_s", "acceleration_rad_s2")

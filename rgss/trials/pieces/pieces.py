@@ -16,12 +16,12 @@ from types import MappingProxyType
 from rgss.errors import EvidenceError
 from rgss.evidence import Piece, PieceKind, TrialRecord
 from rgss.trials.executing import execution_of
-from rgss.trials.payload_bench import bench_of, run_bench
+from rgss.trials.monitors import StepObserver
+from rgss.trials.payload_bench import BenchSpec, PayloadResult, bench_of, run_bench
 from rgss.trials.pieces.bench_json import bench_from_json, bench_to_json
 from rgss.trials.pieces.execution_json import execution_from_json, execution_to_json
 from rgss.trials.pieces.input_digests import TrialDigests
 from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
-from rgss.trials.pieces.run import Pieces
 from rgss.trials.pieces.timing_json import timing_from_json, timing_to_json
 from rgss.trials.planning import plan_of
 from rgss.trials.record import assemble_record
@@ -70,21 +70,6 @@ Task = PieceTask | TrialTask
 """Task of a worker."""
 
 
-def make(task: Task, needed: Mapping[str, Piece]) -> Piece | TrialRecord:
-    """Carry out a task: make a piece, or run a trial by itself.
-
-    Args:
-        task: The task.
-        needed: The pieces that it needs, by their digests.
-
-    Raises:
-        EvidenceError: A piece that it needs is damaged.
-        MotionError: The planner is not there.
-        SimulationError: The physics engine cannot build the world.
-    """
-    return Pieces().record(task.spec) if isinstance(task, TrialTask) else make_piece(task, needed)
-
-
 def tasks_of(spec: TrialSpec, digests: TrialDigests) -> tuple[PieceTask, ...]:
     """The pieces of a trial, each after those that it needs.
 
@@ -100,22 +85,6 @@ def tasks_of(spec: TrialSpec, digests: TrialDigests) -> tuple[PieceTask, ...]:
     if digests.bench:
         tasks.append(PieceTask(digest=digests.bench, kind=PieceKind.BENCH, spec=spec))
     return tuple(tasks)
-
-
-def make_piece(task: PieceTask, needed: Mapping[str, Piece]) -> Piece:
-    """Make a piece.
-
-    Args:
-        task: The piece to be made.
-        needed: The pieces that it needs, by their digests.
-
-    Raises:
-        EvidenceError: A piece that it needs is damaged.
-        MotionError: The planner is not there.
-        SimulationError: The physics engine cannot build the world.
-    """
-    text = _MAKERS[task.kind](task.spec, *(needed[digest].text for digest in task.needs))
-    return Piece(digest=task.digest, kind=task.kind, text=text)
 
 
 def make_plan(spec: TrialSpec) -> str:
@@ -143,37 +112,46 @@ def make_timing(spec: TrialSpec, plan: str) -> str:
     return timing_to_json(timing_of(spec, plan_from_json(plan)))
 
 
-def make_execution(spec: TrialSpec, timing: str) -> str:
+def make_execution(
+    spec: TrialSpec,
+    timing: str,
+    *,
+    observer: StepObserver | None = None,
+    checkpoint: Callable[[], None] | None = None,
+) -> str:
     """The execution of a trial, as a piece's text.
 
     Args:
         spec: The trial.
         timing: The text of its timing.
+        observer: Looks on after every physics step.
+        checkpoint: Called between two steps; it may wait, or end the execution by raising.
 
     Raises:
         EvidenceError: The timing is damaged.
         SimulationError: The physics engine cannot build the world.
     """
-    return execution_to_json(execution_of(spec, timing_from_json(timing)))
+    return execution_to_json(execution_of(spec, timing_from_json(timing), observer=observer, checkpoint=checkpoint))
 
 
-def make_bench(spec: TrialSpec) -> str:
+def make_bench(spec: TrialSpec, *, bench: Callable[[BenchSpec], PayloadResult] = run_bench) -> str:
     """The payload bench of a trial's gripper, as a piece's text.
 
     Args:
         spec: The trial.
+        bench: What tries the gripper.
 
     Raises:
         EvidenceError: The trial's fidelity knows no bench.
         SimulationError: The physics engine cannot build the rig.
     """
-    bench = bench_of(spec)
-    if bench is None:
+    asked = bench_of(spec)
+    if asked is None:
         raise EvidenceError(f"a {spec.fidelity.value} trial knows no payload bench")
-    return bench_to_json(run_bench(bench))
+    return bench_to_json(bench(asked))
 
 
-_MAKERS: Mapping[PieceKind, Callable[..., str]] = MappingProxyType(
+MAKERS: Mapping[PieceKind, Callable[..., str]] = MappingProxyType(
     {
         PieceKind.PLAN: make_plan,
         PieceKind.TIMING: make_timing,
@@ -181,6 +159,26 @@ _MAKERS: Mapping[PieceKind, Callable[..., str]] = MappingProxyType(
         PieceKind.BENCH: make_bench,
     }
 )
+"""What makes each kind of piece, from the trial and the texts of the pieces that it needs."""
+
+
+def make_piece(
+    task: PieceTask, needed: Mapping[str, Piece], *, makers: Mapping[PieceKind, Callable[..., str]] = MAKERS
+) -> Piece:
+    """Make a piece.
+
+    Args:
+        task: The piece to be made.
+        needed: The pieces that it needs, by their digests.
+        makers: What makes each kind, from the trial and the texts that it needs.
+
+    Raises:
+        EvidenceError: A piece that it needs is damaged.
+        MotionError: The planner is not there.
+        SimulationError: The physics engine cannot build the world.
+    """
+    text = makers[task.kind](task.spec, *(needed[digest].text for digest in task.needs))
+    return Piece(digest=task.digest, kind=task.kind, text=text)
 
 
 def record_of(spec: TrialSpec, pieces: Mapping[PieceKind, Piece]) -> TrialRecord:

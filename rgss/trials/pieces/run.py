@@ -1,24 +1,29 @@
-"""Running trials in this process: alone, or together with others that share pieces."""
+"""Running trials in this process, piece by piece: alone, or together with others that share pieces."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import lru_cache
+from collections import Counter
+from collections.abc import Callable, Mapping
+from functools import lru_cache, partial
 
 from rgss.errors import DefinitionError
-from rgss.evidence import TrialRecord
+from rgss.evidence import Piece, PieceKind, TrialRecord
 from rgss.trials.code import versions
-from rgss.trials.executing import execute, execution_of
 from rgss.trials.monitors import StepObserver
-from rgss.trials.payload_bench import BenchSpec, PayloadResult, bench_of, run_bench
-from rgss.trials.phase_result import PhaseResult
-from rgss.trials.pieces.input_digests import TrialDigests, digests_of
-from rgss.trials.planning import TaskPlan, plan_of
-from rgss.trials.record import assemble_record
-from rgss.trials.timing import TaskTiming, timing_of
+from rgss.trials.payload_bench import BenchSpec, PayloadResult, run_bench
+from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.pieces.pieces import (
+    MAKERS,
+    PieceTask,
+    Task,
+    TrialTask,
+    make_bench,
+    make_execution,
+    make_piece,
+    record_of,
+    tasks_of,
+)
 from rgss.trials.trial_spec import TrialSpec
-
-__all__ = ["Pieces", "execute", "require_search", "run_trial"]
 
 _BENCHES_KEPT = 64
 
@@ -55,7 +60,7 @@ def require_search(spec: TrialSpec) -> None:
 
 
 class Pieces:
-    """Plans, timings, executions and benches made so far, so that each is made once.
+    """Pieces made so far, so that each is made once.
 
     A record does not depend on what was made before: a piece depends on exactly the inputs
     that its digest covers.
@@ -75,29 +80,25 @@ class Pieces:
             checkpoint: Called between two steps of them; it may wait, or end one by raising.
             bench: What tries a gripper on the payload bench.
         """
-        self._observer = observer
-        self._checkpoint = checkpoint
-        self._bench = bench
+        self._makers: dict[PieceKind, Callable[..., str]] = {
+            **MAKERS,
+            PieceKind.EXECUTION: partial(make_execution, observer=observer, checkpoint=checkpoint),
+            PieceKind.BENCH: partial(make_bench, bench=bench),
+        }
         self._versions = versions()
-        self._plans: dict[str, TaskPlan] = {}
-        self._timings: dict[str, TaskTiming] = {}
-        self._executions: dict[str, tuple[PhaseResult, ...]] = {}
-        self._benches: dict[str, PayloadResult] = {}
+        self._made: dict[str, Piece] = {}
 
     @property
     def made(self) -> dict[str, int]:
         """Number of pieces of each kind that were made."""
-        return {
-            "plan": len(self._plans),
-            "timing": len(self._timings),
-            "execution": len(self._executions),
-            "bench": len(self._benches),
-        }
+        kinds = Counter(piece.kind for piece in self._made.values())
+        return {kind.value: kinds[kind] for kind in PieceKind}
 
     def prepare(self, spec: TrialSpec) -> None:
         """Make the plan and the timing of a trial, so that its record only waits for the execution."""
-        digests = digests_of(spec, self._versions)
-        self._timing(spec, digests, self._plan(spec, digests))
+        for task in tasks_of(spec, digests_of(spec, self._versions)):
+            if task.kind in (PieceKind.PLAN, PieceKind.TIMING):
+                self._piece(task)
 
     def record(self, spec: TrialSpec) -> TrialRecord:
         """The record of a trial, making what pieces are missing.
@@ -107,37 +108,28 @@ class Pieces:
             SimulationError: The physics engine cannot build the world.
         """
         require_search(spec)
-        digests = digests_of(spec, self._versions)
-        plan = self._plan(spec, digests)
-        timing = self._timing(spec, digests, plan)
-        execution = self._execution(spec, digests, timing)
-        return assemble_record(spec, plan, timing.failures, execution, bench_payload_kg=self._payload_kg(spec, digests))
+        tasks = tasks_of(spec, digests_of(spec, self._versions))
+        return record_of(spec, {task.kind: self._piece(task) for task in tasks})
 
-    def _plan(self, spec: TrialSpec, digests: TrialDigests) -> TaskPlan:
-        if digests.plan not in self._plans:
-            self._plans[digests.plan] = plan_of(spec)
-        return self._plans[digests.plan]
+    def _piece(self, task: PieceTask) -> Piece:
+        if task.digest not in self._made:
+            self._made[task.digest] = make_piece(task, self._made, makers=self._makers)
+        return self._made[task.digest]
 
-    def _timing(self, spec: TrialSpec, digests: TrialDigests, plan: TaskPlan) -> TaskTiming:
-        if digests.timing not in self._timings:
-            self._timings[digests.timing] = timing_of(spec, plan)
-        return self._timings[digests.timing]
 
-    def _execution(self, spec: TrialSpec, digests: TrialDigests, timing: TaskTiming) -> tuple[PhaseResult, ...]:
-        if digests.execution not in self._executions:
-            self._executions[digests.execution] = execution_of(
-                spec, timing, observer=self._observer, checkpoint=self._checkpoint
-            )
-        return self._executions[digests.execution]
+def make(task: Task, needed: Mapping[str, Piece]) -> Piece | TrialRecord:
+    """Carry out a task: make a piece, or run a trial by itself.
 
-    def _payload_kg(self, spec: TrialSpec, digests: TrialDigests) -> float | None:
-        """Payload of the gripper on the bench; None where the trial's fidelity has none."""
-        bench = bench_of(spec)
-        if bench is None:
-            return None
-        if digests.bench not in self._benches:
-            self._benches[digests.bench] = self._bench(bench)
-        return self._benches[digests.bench].payload_kg
+    Args:
+        task: The task.
+        needed: The pieces that it needs, by their digests.
+
+    Raises:
+        EvidenceError: A piece that it needs is damaged.
+        MotionError: The planner is not there.
+        SimulationError: The physics engine cannot build the world.
+    """
+    return Pieces().record(task.spec) if isinstance(task, TrialTask) else make_piece(task, needed)
 
 
 @lru_cache(maxsize=_BENCHES_KEPT)

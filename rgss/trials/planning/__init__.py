@@ -14,20 +14,3 @@ if TYPE_CHECKING:
     from rgss.trials.planning.planning_costs import state_cost
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "DirectMove",
-    "GoalReason",
-    "Obstacle",
-    "PlannedMove",
-    "TaskPlan",
-    "direct_move",
-    "plan_of",
-    "plan_task",
-    "plan_under",
-    "reason_against",
-    "searches_of",
-    "state_cost",
-    "unserved_waypoints",
-    "with_limits_of",
-]

@@ -12,12 +12,3 @@ if TYPE_CHECKING:
     from rgss.trials.plants.plant import Plant
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "ArmObservations",
-    "ControlSettings",
-    "DynamicPlant",
-    "KinematicPlant",
-    "Plant",
-    "tool_metrics",
-]

@@ -97,8 +97,8 @@ def test_the_page_says_what_the_document_says(page):
 def test_the_document_is_the_decision_with_more(page):
     _, document = page
 
-    assert document["schema"] == 2
-    assert (document["study"], document["what_if"], document["fleet"]) == ("pick_place", None, None)
+    assert document["schema"] == 3
+    assert (document["study"], document["what_if"], document["portfolio"]) == ("pick_place", None, None)
     assert document["certificate"]["enumeration_agrees"] == "agreed"
     assert document["robustness"]["refused"] == {}
 
@@ -137,7 +137,9 @@ def test_the_document_is_described(page, rgss, with_evidence):
         r"|.*\.(centre|low|high|weights|weights_by_sum|central_weights|ranks|first_order|total_order|sampled_first_order))\..+$"
         r"|^sensitivity\..*\.(effective_weights|regrets|weights)\..+$"
     )
-    own = re.compile(r"^(conclusion|robustness|sensitivity|what_if|fleet|model_gaps|readings|modelling_assumptions)\b")
+    own = re.compile(
+        r"^(conclusion|robustness|sensitivity|what_if|portfolio|model_gaps|readings|modelling_assumptions)\b"
+    )
     found = {key for key in keys_of(document) if (own.match(key) or "." not in key) and not by_id.match(key)}
 
     # Both ends of a bent function have the same keys.
@@ -160,7 +162,7 @@ def test_the_decision_in_the_document_is_described(page, rgss, with_evidence):
         (REPOSITORY / "docs" / "trade_off.md").read_text(encoding="utf-8").split("## The decision as a document", 1)[1]
     )
     named = set(re.findall(r"^\| `([\w.\[\]]+)` \|", text, re.MULTILINE))
-    whole = {"schema", "study", "double_counting", "shared_parts", "conclusion", "robustness", "fleet", "what_if"}
+    whole = {"schema", "study", "double_counting", "shared_parts", "conclusion", "robustness", "portfolio", "what_if"}
     whole |= {"evidence", "screening", "model_gaps", "readings", "sensitivity", "elicitation"}
     whole |= {"modelling_assumptions", "failure_drivers", "cases"}
 
@@ -275,23 +277,23 @@ def test_words():
     assert moves_text({"a": 0.2}, {"a": 0.2}) == "no weight moves"
 
 
-def test_a_fleet_of_one_gripper_for_two_studies(rgss, with_evidence, tmp_path):
+def test_a_portfolio_of_one_gripper_for_two_studies(rgss, with_evidence, tmp_path):
     """The second study weighs nothing but payload; one gripper serves both, each by its best variant."""
-    folder = Path(shutil.copytree(with_evidence, tmp_path / "fleet"))
+    folder = Path(shutil.copytree(with_evidence, tmp_path / "portfolio"))
     text = (folder / "studies/pick_place.yaml").read_text(encoding="utf-8")
     head, rest = text.split("trade_off:\n", 1)
     payload = "trade_off:\n  values:\n    - {measure: P_max, weight: 1.0, worst: 0.8 kg, best: 1.4 kg}\n"
     (folder / "studies/payload.yaml").write_text(head + payload, encoding="utf-8")
-    fleet = (
-        "trade_off:\n  fleet:\n    at_most: 1\n    aim: mean\n    member: component.gripper\n    studies:\n"
+    portfolio = (
+        "trade_off:\n  portfolio:\n    at_most: 1\n    aim: mean\n    member: component.gripper\n    studies:\n"
         "      - {study: studies/pick_place.yaml, weight: 0.5}\n      - {study: studies/payload.yaml, weight: 0.5}\n"
     )
-    (folder / "studies/both.yaml").write_text(head + fleet + rest, encoding="utf-8")
+    (folder / "studies/both.yaml").write_text(head + portfolio + rest, encoding="utf-8")
     told = rgss("trade", "--brief", "studies/both.yaml", "--project", folder)
-    found = rgss("trade", "--brief", "--json", "studies/both.yaml", "--project", folder).document["fleet"]
+    found = rgss("trade", "--brief", "--json", "studies/both.yaml", "--project", folder).document["portfolio"]
 
     assert told.status == 0
-    assert f"\nFleet\n{found['members'][0]} together serve every study; value " in told.output
+    assert f"\nPortfolio\n{found['members'][0]} together serve every study; value " in told.output
     assert [one["study"] for one in found["assignments"]] == ["studies/pick_place.yaml", "studies/payload.yaml"]
     assert found["value"] == pytest.approx(sum(one["value"] for one in found["assignments"]) / 2)
     assert found["enumeration_agrees"] == "agreed"

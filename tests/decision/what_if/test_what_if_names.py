@@ -20,13 +20,13 @@ from rgss.studies.trade_off import AnchoredEpsilonConstraint, BoundChoice, Chanc
 from rgss.tradeoff import Aim, Comparison
 
 RISKS = (
-    ChanceChoice(id="chance:SYS-005", bound=RequirementBound(requirement="SYS-005"), probability=0.6),
+    ChanceChoice(id="chance:SYS-005", bound=RequirementBound(requirement="SYS-005"), share=0.6),
     ChanceChoice(
         id="chance:t_p",
         bound=BoundChoice(measure="t_p", comparison=Comparison.AT_MOST, value=12.0),
-        probability=0.5,
+        share=0.5,
     ),
-    TailChoice(id="tail:SYS-033", bound=RequirementBound(requirement="SYS-033"), worst_share=0.4),
+    TailChoice(id="tail:SYS-033", bound=RequirementBound(requirement="SYS-033"), share=0.4),
 )
 LIMITED = AnchoredEpsilonConstraint(
     aim=Aim(measure="P_max", sense=Comparison.AT_LEAST),

@@ -225,17 +225,20 @@ FINDINGS = [
         (*BOTH, "chance: [{requirement: SYS-005, probability: 0.5}, {requirement: SYS-005, probability: 0.6}]"),
         "5:54: error: chance:SYS-005 is demanded twice",
     ),
-    # levels and fleets
+    # levels and portfolios
     ((*BOTH, "choose: colours"), "5:11: error: choose: 'colours' is not one of 'variants' or 'levels'"),
-    ((*BOTH, "fleet: {at_most: 0, studies: [{study: a, weight: 1}]}"), "5:20: error: at_most: input should be greater"),
-    ((*BOTH, "fleet: {at_most: 1, studies: [{study: a, weight: 0.5}]}"), "5:32: error: the weights sum to 0.5"),
     (
-        (*BOTH, "fleet: {at_most: 1, studies: [{study: a, weight: 0.5}, {study: a, weight: 0.5}]}"),
-        "5:66: error: study 'a' is named twice",
+        (*BOTH, "portfolio: {at_most: 0, studies: [{study: a, weight: 1}]}"),
+        "5:24: error: at_most: input should be greater",
+    ),
+    ((*BOTH, "portfolio: {at_most: 1, studies: [{study: a, weight: 0.5}]}"), "5:36: error: the weights sum to 0.5"),
+    (
+        (*BOTH, "portfolio: {at_most: 1, studies: [{study: a, weight: 0.5}, {study: a, weight: 0.5}]}"),
+        "5:70: error: study 'a' is named twice",
     ),
     (
-        (*BOTH, "fleet: {at_most: 1, studies: [{study: a, weight: 1}]}", "decide_by: {program: tchebycheff}"),
-        "5:10: error: a fleet is chosen by weighted value, not by the tchebycheff program",
+        (*BOTH, "portfolio: {at_most: 1, studies: [{study: a, weight: 1}]}", "decide_by: {program: tchebycheff}"),
+        "5:14: error: a portfolio is chosen by weighted value, not by the tchebycheff program",
     ),
 ]
 

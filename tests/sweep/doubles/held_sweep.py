@@ -17,7 +17,8 @@ from pathlib import Path
 import rgss.sweep.running as sweep_module
 from rgss.cli.main import main
 from rgss.evidence import Piece, TrialRecord
-from rgss.trials.pieces.pieces import Task, make
+from rgss.trials.pieces.pieces import Task
+from rgss.trials.pieces.run import make
 
 FOLDER, TASKS = Path(sys.argv[1]), int(sys.argv[2])
 GATE = "gate"

@@ -14,7 +14,8 @@ from pathlib import Path
 from rgss.errors import SimulationError
 from rgss.evidence import Phase, Piece, PieceKind, PlanOutcome, TrialRecord
 from rgss.motion import PlanningClock
-from rgss.trials.payload_bench.bench import PayloadLimit, PayloadResult
+from rgss.trials.payload_bench.bench import PayloadResult
+from rgss.trials.payload_bench.rig import PayloadLimit
 from rgss.trials.pieces.bench_json import bench_to_json
 from rgss.trials.pieces.execution_json import execution_to_json
 from rgss.trials.pieces.input_digests import TrialDigests

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rgss.trace.sentences.condition_words import KEYWORDS, OPENINGS
-from rgss.trace.sentences.sentences import ClauseKind, EarsPattern, read_sentence
+from rgss.trace.sentences.condition_words import KEYWORDS, OPENINGS, ClauseKind
+from rgss.trace.sentences.sentences import EarsPattern, read_sentence
 from rgss.trace.sentences.terms import TermList
 
 

@@ -27,7 +27,9 @@ def relaxed(problem, repair):
     return dataclasses.replace(
         problem,
         thresholds=tuple(
-            one.with_limit(needed[one.demand]) if one.demand in needed and one.requirement in requirements else one
+            dataclasses.replace(one, value=needed[one.demand])
+            if one.demand in needed and one.requirement in requirements
+            else one
             for one in problem.thresholds
         ),
     )

@@ -11,7 +11,8 @@ from scipy.stats import sobol_indices
 
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.resampling import bootstrap
-from rgss.tradeoff.robustness.effects import factorial_effects, largest_complete_block
+from rgss.tradeoff.robustness.complete_block import largest_complete_block
+from rgss.tradeoff.robustness.effects import factorial_effects
 
 BATTERY = np.array(
     [

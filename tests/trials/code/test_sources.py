@@ -21,7 +21,8 @@ from pathlib import Path
 from rgss.evidence import PieceKind
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
-from rgss.trials.pieces.pieces import TrialTask, make, record_of, tasks_of
+from rgss.trials.pieces.pieces import TrialTask, make_piece, record_of, tasks_of
+from rgss.trials.pieces.run import make
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.code.piece_versions import versions
 
@@ -50,7 +51,7 @@ for fidelity in ("kinematic", "dynamic", "contact"):
     (spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[1])
     pieces = {}
     for task in tasks_of(spec, digests_of(spec, versions())):
-        made[task.digest] = pieces[task.kind] = watched(f"{task.kind.value} of {fidelity}", make, task, made)
+        made[task.digest] = pieces[task.kind] = watched(f"{task.kind.value} of {fidelity}", make_piece, task, made)
     watched(f"record of {fidelity}", record_of, spec, pieces)
     alone = TrialTask(digest="0" * 64, spec=spec)
     watched(f"trial of {fidelity}", make, alone, {})

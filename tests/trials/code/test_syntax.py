@@ -195,7 +195,7 @@ SPEED = "conditions_of(spec).tool_speed_m_s"
     [
         ("trials/timing.py", SPEED, f"{SPEED} / 2", {"timing", "execution", "record"}),
         ("trials/pieces/pieces.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {*ENTRIES}),
-        ("trials/pieces/run.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {"record"}),
+        ("trials/pieces/run.py", "Pieces().record(task", "Pieces(bench=run_bench).record(task", {"record"}),
         ("trials/code/kernel_environment.py", 'KERNEL = "Nehalem"', 'KERNEL = "Haswell"', {*ENTRIES}),
         ("trials/pieces/run.py", "Begin with no pieces.", "Begin with nothing at all.", set()),
         ("trials/metrics/task_metrics.py", "how many states the task has", "number of phases", set()),

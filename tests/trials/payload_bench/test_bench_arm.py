@@ -11,7 +11,8 @@ import pytest
 from rgss.kinematics import Arm, InverseKinematics, straight_line
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, load_gripper, load_scene
-from rgss.trials.payload_bench.bench import bench_spec, run_bench
+from rgss.trials.payload_bench.bench import run_bench
+from rgss.trials.payload_bench.spec import bench_spec
 
 pytestmark = pytest.mark.engine
 

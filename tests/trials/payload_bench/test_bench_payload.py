@@ -13,17 +13,10 @@ import pytest
 from rgss.errors import DefinitionError
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
-from rgss.trials.payload_bench.bench import (
-    BOUND,
-    VALIDATED,
-    BenchSettings,
-    BenchSpec,
-    PayloadLimit,
-    bench_spec,
-    outside,
-    probe,
-    run_bench,
-)
+from rgss.trials.payload_bench.bench import run_bench
+from rgss.trials.payload_bench.range import BOUND, VALIDATED, outside
+from rgss.trials.payload_bench.rig import PayloadLimit, probe
+from rgss.trials.payload_bench.spec import BenchSettings, BenchSpec, bench_spec
 
 pytestmark = pytest.mark.engine
 

@@ -9,7 +9,8 @@ import pytest
 from rgss.errors import SimulationError
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Cylinder, Gripper, load_gripper, load_scene
-from rgss.trials.payload_bench.bench import BenchSpec, PayloadLimit, PayloadRig, bench_spec, probe
+from rgss.trials.payload_bench.rig import PayloadLimit, PayloadRig, probe
+from rgss.trials.payload_bench.spec import BenchSpec, bench_spec
 
 pytestmark = pytest.mark.engine
 

@@ -7,14 +7,10 @@ import pytest
 from rgss.errors import DefinitionError
 from rgss.physics import MOST_ITERATIONS, PhysicsSettings
 from rgss.scenes import Box, Cylinder, Gripper, GripperGeometry
-from rgss.trials.payload_bench.bench import (
-    BenchSettings,
-    BenchSpec,
-    PayloadLimit,
-    Probe,
-    outside,
-    run_bench,
-)
+from rgss.trials.payload_bench.bench import run_bench
+from rgss.trials.payload_bench.range import outside
+from rgss.trials.payload_bench.rig import PayloadLimit, Probe
+from rgss.trials.payload_bench.spec import BenchSettings, BenchSpec
 from rgss.trials.pieces.input_digests import bench_digest
 
 VERSIONS = {"pybullet": "3.2.7", "rgss-bench": "abc", "ompl": "1.7.0", "rgss-plan": "def"}

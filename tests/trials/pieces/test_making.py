@@ -13,16 +13,18 @@ from rgss.errors import EvidenceError, MotionError
 from rgss.evidence import Failure, Fidelity, Phase, Piece, PieceKind, record_digest
 from rgss.motion import PlannerSettings, PlanningClock
 from rgss.trials.code.piece_versions import versions
+from rgss.trials.executing import execution_of
 from rgss.trials.pieces.bench_json import bench_from_json, bench_to_json
 from rgss.trials.pieces.execution_json import execution_from_json, execution_to_json
 from rgss.trials.pieces.float_array import FloatArray
 from rgss.trials.pieces.input_digests import digests_of
-from rgss.trials.pieces.pieces import PieceTask, TrialTask, make, make_piece, record_of, tasks_of
+from rgss.trials.pieces.pieces import PieceTask, TrialTask, make_piece, record_of, tasks_of
 from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
-from rgss.trials.pieces.run import run_trial
+from rgss.trials.pieces.run import make, run_trial
 from rgss.trials.pieces.timing_json import timing_from_json, timing_to_json
-from rgss.trials.planning import TaskPlan, plan_task
-from rgss.trials.timing import time_task
+from rgss.trials.planning import TaskPlan, plan_of, plan_task
+from rgss.trials.record import assemble_record
+from rgss.trials.timing import time_task, timing_of
 from rgss.trials.workcell import workcell_of
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, -1e-9, 0.1 + 0.2]
@@ -101,6 +103,20 @@ def test_a_plan_and_a_timing_are_read_back_bit_for_bit(spec_of, made):
         assert bits(timed.trajectories[phase].rates) == bits(motion.rates)
         assert timed.trajectories[phase].duration_s == motion.duration_s
     assert timed.failures == timing.failures
+
+
+@pytest.mark.engine
+@pytest.mark.parametrize("fidelity", ["kinematic", "contact"])
+def test_no_text_between_the_steps_changes_a_record(spec_of, made, fidelity):
+    """The record of a trial made from values in memory, never written as text."""
+    spec = replace(spec_of(65), fidelity=Fidelity(fidelity))
+    plan = plan_of(spec)
+    timing = timing_of(spec, plan)
+    phases = execution_of(spec, timing)
+    held_kg = bench_from_json(made[PieceKind.BENCH].text).payload_kg if fidelity == "contact" else None
+    in_memory = assemble_record(spec, plan, timing.failures, phases, bench_payload_kg=held_kg)
+
+    assert record_digest(run_trial(spec)) == record_digest(in_memory)
 
 
 @pytest.mark.engine

@@ -12,7 +12,7 @@ import pytest
 from rgss.evidence import Failure, Fidelity, Phase, PhaseOutcome
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.trials.pieces.run import execute
+from rgss.trials.executing import execute
 from rgss.trials.planning import plan_task
 from rgss.trials.plants.dynamic_plant import ComputedTorque, DynamicPlant
 from rgss.trials.record import assemble_record

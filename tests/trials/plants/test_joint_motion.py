@@ -11,7 +11,7 @@ import pytest
 from rgss.evidence import Fidelity, Phase
 from rgss.kinematics.description import build_model, transform
 from rgss.scenes import Joint
-from rgss.trials.pieces.run import execute
+from rgss.trials.executing import execute
 from rgss.trials.planning import plan_of
 from rgss.trials.plants.arm_observations import governing_joint
 from rgss.trials.plants.joint_motion import JointMotion

@@ -18,18 +18,3 @@ if TYPE_CHECKING:
     from rgss.reports.decision.json.sensitivity import sensitivity_to_json
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "assumptions_to_json",
-    "certificate_to_json",
-    "checks_to_json",
-    "costs_to_json",
-    "decision_to_json",
-    "elicitation_to_json",
-    "portfolio_to_json",
-    "robustness_to_json",
-    "scenario_to_json",
-    "screening_to_json",
-    "sensitivity_to_json",
-    "trade_document",
-]

@@ -15,7 +15,7 @@ from rgss.reports.decision.json.sensitivity import sensitivity_to_json
 from rgss.reports.failure_drivers import cases_to_json, drivers_to_json
 from rgss.tradeoff import PortfolioDecision
 
-SCHEMA = 2
+SCHEMA = 3
 """Rises when a key goes or changes its meaning; new keys do not count."""
 
 
@@ -61,7 +61,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
     document["robustness"] = None if made.robustness is None else robustness_to_json(made.robustness.analysis)
     document["sensitivity"] = None if made.sensitivity is None else sensitivity_to_json(made.sensitivity)
     document["elicitation"] = elicitation_to_json(made.elicited, made.elicited_by)
-    document["fleet"] = None if made.portfolio is None else portfolio_to_json(made.portfolio)
+    document["portfolio"] = None if made.portfolio is None else portfolio_to_json(made.portfolio)
     document["what_if"] = (
         None
         if what_if is None
@@ -78,26 +78,26 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
     return document
 
 
-def portfolio_to_json(fleet: PortfolioDecision) -> dict[str, Any]:
+def portfolio_to_json(portfolio: PortfolioDecision) -> dict[str, Any]:
     """The choice of a portfolio as plain values.
 
     Args:
-        fleet: The choice.
+        portfolio: The choice.
     """
     return {
-        "status": fleet.status.value,
-        "members": list(fleet.members),
+        "status": portfolio.status.value,
+        "members": list(portfolio.members),
         "assignments": [
             {"study": one.task, "member": one.member, "variant": one.variant, "value": one.value}
-            for one in fleet.assignments
+            for one in portfolio.assignments
         ],
-        "value": fleet.objective,
-        "value_recomputed": fleet.objective_recomputed,
-        "gap": fleet.gap,
-        "by_size": list(fleet.by_size),
-        "by_size_gap": list(fleet.by_size_gap),
-        "unserved": list(fleet.unserved),
-        "enumeration_agrees": fleet.enumeration_agrees.value,
-        "checks": checks_to_json(fleet.checks),
-        "cut": None if fleet.cut is None else fleet.cut.value,
+        "value": portfolio.objective,
+        "value_recomputed": portfolio.objective_recomputed,
+        "gap": portfolio.gap,
+        "by_size": list(portfolio.by_size),
+        "by_size_gap": list(portfolio.by_size_gap),
+        "unserved": list(portfolio.unserved),
+        "enumeration_agrees": portfolio.enumeration_agrees.value,
+        "checks": checks_to_json(portfolio.checks),
+        "cut": None if portfolio.cut is None else portfolio.cut.value,
     }

@@ -13,16 +13,3 @@ if TYPE_CHECKING:
     from rgss.reports.decision.text.weighing import question_lines, weighing_lines
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "certificate_lines",
-    "choice_lines",
-    "decision_lines",
-    "effects_lines",
-    "portfolio_lines",
-    "question_lines",
-    "reopened_lines",
-    "robustness_lines",
-    "screening_lines",
-    "weighing_lines",
-]

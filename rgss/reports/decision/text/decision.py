@@ -46,24 +46,25 @@ def certificate_lines(certificate: Certificate) -> Iterator[str]:
     yield from notable_checks(certificate.checks)
 
 
-def portfolio_lines(fleet: PortfolioDecision) -> Iterator[str]:
+def portfolio_lines(portfolio: PortfolioDecision) -> Iterator[str]:
     """A portfolio of designs, and the member that serves each study.
 
     Args:
-        fleet: The choice of a portfolio.
+        portfolio: The choice of a portfolio.
     """
-    yield from ("", "Fleet")
-    missing = no_portfolio(fleet)
+    yield from ("", "Portfolio")
+    missing = no_portfolio(portfolio)
     if missing:
         yield missing
         return
-    yield f"{', '.join(fleet.members)} together serve every study; value {value_in_words(fleet.objective)}."
-    rows = [[one.task, one.member, str(one.variant), value_in_words(one.value)] for one in fleet.assignments]
+    yield f"{', '.join(portfolio.members)} together serve every study; value {value_in_words(portfolio.objective)}."
+    rows = [[one.task, one.member, str(one.variant), value_in_words(one.value)] for one in portfolio.assignments]
     yield from aligned_table(["study", "served by", "variant", "value"], rows, right=(2, 3))
-    sizes = ", ".join(f"{size}: {value_in_words(best)}" for size, best in enumerate(fleet.by_size, start=1))
+    sizes = ", ".join(f"{size}: {value_in_words(best)}" for size, best in enumerate(portfolio.by_size, start=1))
     yield f"Value with at most so many members: {sizes}."
-    yield f"Certificate: {portfolio_proof(fleet)}; enumeration of all fleets: {fleet.enumeration_agrees.value}."
-    yield from notable_checks(fleet.checks)
+    agrees = portfolio.enumeration_agrees.value
+    yield f"Certificate: {portfolio_proof(portfolio)}; enumeration of all portfolios: {agrees}."
+    yield from notable_checks(portfolio.checks)
 
 
 def _comparison(compared: SideBySide) -> list[str]:

@@ -10,11 +10,3 @@ if TYPE_CHECKING:
     from rgss.reports.trace.formats.selection_tables import selected_tables
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "TRACE_FORMATS",
-    "Selection",
-    "TraceFormat",
-    "selected_tables",
-    "trace_format",
-]

@@ -8,7 +8,3 @@ if TYPE_CHECKING:
     from rgss.trace.rules.wording.all_rules import WORDING_RULES
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "WORDING_RULES",
-]

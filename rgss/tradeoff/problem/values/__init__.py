@@ -20,29 +20,3 @@ if TYPE_CHECKING:
     from rgss.tradeoff.problem.values.value_function import TIE_TOLERANCE, AnchoredValue, ValueFunction
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
-
-__all__ = [
-    "SHAPES",
-    "SHAPE_KEYS",
-    "STEEPEST_EXPONENT",
-    "TIE_TOLERANCE",
-    "Anchor",
-    "AnchorField",
-    "AnchoredExponential",
-    "AnchoredPiecewise",
-    "AnchoredSCurve",
-    "AnchoredTarget",
-    "AnchoredValue",
-    "ExponentialValue",
-    "PiecewiseValue",
-    "PointEntry",
-    "QuantityField",
-    "RequirementAnchor",
-    "SCurveValue",
-    "ShapeKeys",
-    "TargetValue",
-    "ValueFunction",
-    "bent_values",
-    "half_value_share",
-    "shape_of",
-]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar
 from rgss.documents import DocumentModel
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField
-from rgss.tradeoff.problem.values.value_function import AnchoredValue, check_range
+from rgss.tradeoff.problem.values.value_function import AnchoredBetween, MonotoneValue
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,7 +28,7 @@ class ExponentialKeys(DocumentModel):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ExponentialValue:
+class ExponentialValue(MonotoneValue):
     """Exponential value function: the gain grows or shrinks steadily from worst to best.
 
     ``v(z) = (1 - exp(-ρ z)) / (1 - exp(-ρ))`` with ``z = (quantity - worst) / (best - worst)``, cut
@@ -38,49 +38,28 @@ class ExponentialValue:
     gains count most.
 
     Attributes:
-        measure: The measure that is valued.
-        worst: The quantity worth 0, in the measure's unit.
-        best: The quantity worth 1, in the measure's unit.
         halfway: The quantity worth 0.5, between them.
 
     Raises:
         TradeoffError: There is no range between worst and best, or halfway is not well inside it.
     """
 
-    measure: str
-    worst: float
-    best: float
     halfway: float
 
     def __post_init__(self) -> None:
-        check_range(self.measure, self.worst, self.best)
+        MonotoneValue.__post_init__(self)
         # At the largest curvature, half of the value lies within ln 2 / ρ of an anchor.
         nearest = math.log(2.0) / STEEPEST_EXPONENT
-        if not nearest <= self._share(self.halfway) <= 1.0 - nearest:
+        if not nearest <= self.share(self.halfway) <= 1.0 - nearest:
             raise TradeoffError(
                 f"the value function of {self.measure!r} has no half-way quantity at {self.halfway:g}",
                 hint=f"name a quantity between {self.worst:g} and {self.best:g}, at least 1 % away from both",
             )
 
     @property
-    def more_is_better(self) -> bool:
-        """Whether the value rises with the quantity."""
-        return self.best > self.worst
-
-    @property
-    def peak(self) -> None:
-        """None: the function is monotone."""
-        return
-
-    @property
-    def breakpoints(self) -> None:
-        """None: the function is curved."""
-        return
-
-    @property
     def exponent(self) -> float:
         """The curvature ρ: positive where the function is concave, 0 where it is linear."""
-        share = self._share(self.halfway)
+        share = self.share(self.halfway)
         low, high = -STEEPEST_EXPONENT, STEEPEST_EXPONENT
         # The value at a fixed share rises with ρ, so bisection finds the one at which it is a half.
         while True:
@@ -94,7 +73,7 @@ class ExponentialValue:
 
     def value_at(self, quantity: float) -> float:
         """The value of a quantity, from 0 to 1."""
-        return _exponential(self.exponent, min(max(self._share(quantity), 0.0), 1.0))
+        return _exponential(self.exponent, min(max(self.share(quantity), 0.0), 1.0))
 
     def values_at(self, quantities: NDArray[np.float64]) -> NDArray[np.float64]:
         """The value of each of many quantities, shape (n,)."""
@@ -107,29 +86,19 @@ class ExponentialValue:
         # (1 - e^{-ρ z}) / (1 - e^{-ρ}), with a half of each exponent taken out.
         return np.asarray(np.exp(half * (1.0 - share)) * np.sinh(half * share) / np.sinh(half), dtype=np.float64)
 
-    def _share(self, quantity: float) -> float:
-        return (quantity - self.worst) / (self.best - self.worst)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AnchoredExponential(AnchoredValue):
+class AnchoredExponential(AnchoredBetween):
     """An exponential value by its anchors.
 
     Attributes:
-        measure: The measure.
-        worst: The quantity worth 0.
-        best: The quantity worth 1.
         halfway: The quantity worth one half.
     """
 
     required: ClassVar[tuple[str, ...]] = ("worst", "best", "halfway")
     own: ClassVar[tuple[str, ...]] = ("halfway",)
     label: ClassVar[str] = "'halfway'"
-    ends: ClassVar[tuple[str, str]] = ("worst", "best")
 
-    measure: str
-    worst: Anchor
-    best: Anchor
     halfway: Anchor
 
     def function(self, quantity_of: Callable[[Anchor], float]) -> ExponentialValue:

@@ -13,7 +13,7 @@ from rgss.documents import DocumentModel
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField, PointEntry
 from rgss.tradeoff.problem.values.interpolation import Points, interpolated, interpolated_column
-from rgss.tradeoff.problem.values.value_function import AnchoredValue, check_range
+from rgss.tradeoff.problem.values.value_function import AnchoredBetween, MonotoneValue
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,16 +29,13 @@ class PiecewiseKeys(DocumentModel):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PiecewiseValue:
+class PiecewiseValue(MonotoneValue):
     """Value function that is linear, or piecewise linear, between two anchors.
 
     More is better where ``best > worst``, less is better where ``best < worst``. Outside the
     anchors the value is cut to 0 and 1.
 
     Attributes:
-        measure: The measure that is valued.
-        worst: The quantity worth 0, in the measure's unit.
-        best: The quantity worth 1, in the measure's unit.
         interior: Further points (quantity, value) between worst and best, in that order; the
             value is linear between neighbours and never falls towards best.
 
@@ -46,13 +43,10 @@ class PiecewiseValue:
         TradeoffError: There is no range between worst and best, or the points are out of order.
     """
 
-    measure: str
-    worst: float
-    best: float
     interior: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
-        check_range(self.measure, self.worst, self.best)
+        MonotoneValue.__post_init__(self)
         for (quantity, value), (next_quantity, next_value) in itertools.pairwise(self.points):
             towards_best = (next_quantity - quantity) / (self.best - self.worst)
             # A NaN fails every comparison, so the conditions are stated as what must hold.
@@ -61,16 +55,6 @@ class PiecewiseValue:
                     f"the value function of {self.measure!r} is out of order at ({next_quantity:g}, {next_value:g})",
                     hint="list points from worst to best, with values that do not fall and lie between 0 and 1",
                 )
-
-    @property
-    def more_is_better(self) -> bool:
-        """Whether the value rises with the quantity."""
-        return self.best > self.worst
-
-    @property
-    def peak(self) -> None:
-        """None: the function is monotone."""
-        return
 
     @property
     def breakpoints(self) -> Points:
@@ -92,13 +76,10 @@ class PiecewiseValue:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AnchoredPiecewise(AnchoredValue):
+class AnchoredPiecewise(AnchoredBetween):
     """A linear value by its anchors; piecewise linear with points between.
 
     Attributes:
-        measure: The measure.
-        worst: The quantity worth 0.
-        best: The quantity worth 1.
         between: Points: quantities and what they are worth.
     """
 
@@ -106,11 +87,7 @@ class AnchoredPiecewise(AnchoredValue):
     optional: ClassVar[tuple[str, ...]] = ("between",)
     own: ClassVar[tuple[str, ...]] = ("between",)
     label: ClassVar[str] = "'between'"
-    ends: ClassVar[tuple[str, str]] = ("worst", "best")
 
-    measure: str
-    worst: Anchor
-    best: Anchor
     between: tuple[tuple[Anchor, float], ...] = ()
 
     def function(self, quantity_of: Callable[[Anchor], float]) -> PiecewiseValue:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar
 from rgss.documents import DocumentModel
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField
-from rgss.tradeoff.problem.values.value_function import AnchoredValue, check_range
+from rgss.tradeoff.problem.values.value_function import AnchoredBetween, MonotoneValue
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,7 +27,7 @@ class SCurveKeys(DocumentModel):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SCurveValue:
+class SCurveValue(MonotoneValue):
     """Logistic value function: small gains near both anchors, the greatest at the steepest quantity.
 
     ``v(z) = (s(z) - s(0)) / (s(1) - s(0))`` with ``z = (quantity - worst) / (best - worst)``, cut to 0 and 1
@@ -35,48 +35,27 @@ class SCurveValue:
     it has the form of the scoring functions of Wymore (*Model-Based Systems Engineering*, 1993).
 
     Attributes:
-        measure: The measure that is valued.
-        worst: The quantity worth 0, in the measure's unit.
-        best: The quantity worth 1, in the measure's unit.
         steepest: The quantity between them at which a change counts most.
 
     Raises:
         TradeoffError: There is no range between worst and best, or steepest is not between them.
     """
 
-    measure: str
-    worst: float
-    best: float
     steepest: float
 
     def __post_init__(self) -> None:
-        check_range(self.measure, self.worst, self.best)
-        if not 0.0 < self._share(self.steepest) < 1.0:
+        MonotoneValue.__post_init__(self)
+        if not 0.0 < self.share(self.steepest) < 1.0:
             raise TradeoffError(
                 f"the steepest quantity {self.steepest:g} of {self.measure!r} is not between "
                 f"{self.worst:g} and {self.best:g}",
                 hint="name the quantity at which a change counts most",
             )
 
-    @property
-    def more_is_better(self) -> bool:
-        """Whether the value rises with the quantity."""
-        return self.best > self.worst
-
-    @property
-    def peak(self) -> None:
-        """None: the function is monotone."""
-        return
-
-    @property
-    def breakpoints(self) -> None:
-        """None: the function is curved."""
-        return
-
     def value_at(self, quantity: float) -> float:
         """The value of a quantity, from 0 to 1."""
-        at = min(max(self._share(quantity), 0.0), 1.0)
-        centre = self._share(self.steepest)
+        at = min(max(self.share(quantity), 0.0), 1.0)
+        centre = self.share(self.steepest)
         low, here, high = (math.tanh(STEEPNESS * (share - centre) / 2.0) for share in (0.0, at, 1.0))
         return (here - low) / (high - low)
 
@@ -86,33 +65,23 @@ class SCurveValue:
 
         at = np.clip((quantities - self.worst) / (self.best - self.worst), 0.0, 1.0)
         # The same by the addition theorem: tanh a - tanh b = sinh(a - b) / (cosh a cosh b).
-        centre, half = self._share(self.steepest), STEEPNESS / 2.0
+        centre, half = self.share(self.steepest), STEEPNESS / 2.0
         scale = math.cosh(half * (1.0 - centre)) / math.sinh(half)
         return np.asarray(scale * np.sinh(half * at) / np.cosh(half * (at - centre)), dtype=np.float64)
 
-    def _share(self, quantity: float) -> float:
-        return (quantity - self.worst) / (self.best - self.worst)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AnchoredSCurve(AnchoredValue):
+class AnchoredSCurve(AnchoredBetween):
     """An S-shaped value by its anchors.
 
     Attributes:
-        measure: The measure.
-        worst: The quantity worth 0.
-        best: The quantity worth 1.
         steepest: The quantity at which a change counts most.
     """
 
     required: ClassVar[tuple[str, ...]] = ("worst", "best", "steepest")
     own: ClassVar[tuple[str, ...]] = ("steepest",)
     label: ClassVar[str] = "'steepest'"
-    ends: ClassVar[tuple[str, str]] = ("worst", "best")
 
-    measure: str
-    worst: Anchor
-    best: Anchor
     steepest: Anchor
 
     def function(self, quantity_of: Callable[[Anchor], float]) -> SCurveValue:

@@ -6,7 +6,7 @@ import math
 import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from rgss.errors import TradeoffError
@@ -66,6 +66,46 @@ class ValueFunction(Protocol):
         ...
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MonotoneValue:
+    """Base of the value functions that only rise, or only fall, between two anchors.
+
+    Attributes:
+        measure: The measure that is valued.
+        worst: The quantity worth 0, in the measure's unit.
+        best: The quantity worth 1, in the measure's unit.
+
+    Raises:
+        TradeoffError: There is no range between worst and best.
+    """
+
+    measure: str
+    worst: float
+    best: float
+
+    def __post_init__(self) -> None:
+        check_range(self.measure, self.worst, self.best)
+
+    @property
+    def more_is_better(self) -> bool:
+        """Whether the value rises with the quantity."""
+        return self.best > self.worst
+
+    @property
+    def peak(self) -> None:
+        """None: the function is monotone."""
+        return
+
+    @property
+    def breakpoints(self) -> tuple[tuple[float, float], ...] | None:
+        """None where the function is curved."""
+        return None
+
+    def share(self, quantity: float) -> float:
+        """Where a quantity lies between the anchors: 0 at worst, 1 at best."""
+        return (quantity - self.worst) / (self.best - self.worst)
+
+
 class AnchoredValue(ABC):
     """Base of the frozen dataclasses that state a value function by its anchors, one for each shape.
 
@@ -122,6 +162,23 @@ class AnchoredValue(ABC):
         """The same with another quantity at a key of `anchors`."""
         moved: dict[str, Any] = {key: quantity}
         return replace(self, **moved)  # type: ignore[type-var]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnchoredBetween(AnchoredValue):
+    """Base of the shapes between a quantity worth 0 and one worth 1.
+
+    Attributes:
+        measure: The measure.
+        worst: The quantity worth 0.
+        best: The quantity worth 1.
+    """
+
+    ends: ClassVar[tuple[str, str]] = ("worst", "best")
+
+    measure: str
+    worst: Anchor
+    best: Anchor
 
 
 def check_range(measure: str, worst: float, best: float) -> None:

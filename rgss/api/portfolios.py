@@ -1,4 +1,4 @@
-"""Designs that serve the studies of a fleet, as a frame."""
+"""Designs that serve the studies of a portfolio, as a frame."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def fleet_frame(project: Project) -> pd.DataFrame:
-    """One row for each study of the fleet, chosen by each study's own evidence.
+def portfolio_of_study(project: Project) -> pd.DataFrame:
+    """One row for each study of the portfolio, chosen by each study's own evidence.
 
     Raises:
-        DefinitionError: The study asks for no fleet.
+        DefinitionError: The study asks for no portfolio.
         EvidenceError: Trials of one of the studies have no evidence.
         TradeoffError: The choice is ill posed.
     """

@@ -1,4 +1,4 @@
-"""A fleet on the page: proven, best found or undecided, its exit status, and its time limit."""
+"""A portfolio on the page: proven, best found or undecided, its exit status, and its time limit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rgss.reports.decision.json import portfolio_to_json
 from rgss.reports.decision.report_part import portfolio_sentence
 from rgss.reports.decision.text import certificate_lines, portfolio_lines
 from rgss.tradeoff import Agreement, Assignment, Check, CheckKind, Cut, DecisionStatus
-from rgss.tradeoff.portfolio.portfolio import PortfolioDecision
+from rgss.tradeoff.portfolio import PortfolioDecision
 
 PROVEN = PortfolioDecision(
     status=DecisionStatus.OPTIMAL,
@@ -47,25 +47,25 @@ UNDECIDED = dataclasses.replace(
 
 
 @pytest.mark.parametrize(
-    ("fleet", "lines"),
+    ("portfolio", "lines"),
     [
-        (PROVEN, ["Certificate: proven best; enumeration of all fleets: agreed."]),
+        (PROVEN, ["Certificate: proven best; enumeration of all portfolios: agreed."]),
         (
             FOUND,
             [
                 (
                     "Certificate: best found, not proven best: another one can be better by at most 0.05 (time limit); "
-                    "enumeration of all fleets: not enumerated."
+                    "enumeration of all portfolios: not enumerated."
                 ),
                 "Check: second run DISAGREES: no portfolio instead of 0.8.",
             ],
         ),
-        (UNDECIDED, ["No fleet that serves every study was found (time limit); there may be one."]),
+        (UNDECIDED, ["No portfolio that serves every study was found (time limit); there may be one."]),
     ],
     ids=["proven", "best found", "undecided"],
 )
-def test_on_the_page(fleet, lines):
-    assert list(portfolio_lines(fleet))[-len(lines) :] == lines
+def test_on_the_page(portfolio, lines):
+    assert list(portfolio_lines(portfolio))[-len(lines) :] == lines
 
 
 def test_in_the_report():
@@ -74,7 +74,7 @@ def test_in_the_report():
         "Best found, not proven best: another one can be better by at most 0.05 (time limit)."
     )
     assert portfolio_sentence(UNDECIDED) == (
-        "No fleet that serves every study was found (time limit); there may be one."
+        "No portfolio that serves every study was found (time limit); there may be one."
     )
 
 
@@ -87,7 +87,7 @@ def test_in_the_document_and_the_frame():
 
 
 @pytest.mark.parametrize(
-    ("status", "fleet", "settled"),
+    ("status", "portfolio", "settled"),
     [
         (DecisionStatus.OPTIMAL, None, True),
         (DecisionStatus.OPTIMAL, PROVEN, True),
@@ -97,8 +97,8 @@ def test_in_the_document_and_the_frame():
         (DecisionStatus.INFEASIBLE, None, False),
     ],
 )
-def test_the_exit_status_is_0_only_where_all_is_proven(status, fleet, settled):
-    assert is_settled(SimpleNamespace(status=status), fleet) is settled
+def test_the_exit_status_is_0_only_where_all_is_proven(status, portfolio, settled):
+    assert is_settled(SimpleNamespace(status=status), portfolio) is settled
 
 
 @pytest.mark.parametrize(

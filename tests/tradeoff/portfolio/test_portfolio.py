@@ -28,8 +28,8 @@ from rgss.tradeoff import (
 
 
 @pytest.fixture
-def fleet(build_problem):
-    """A fleet problem from the values of each design in each task; what is below 0 is infeasible."""
+def portfolio(build_problem):
+    """A portfolio problem from the values of each design in each task; what is below 0 is infeasible."""
 
     def build(table, *, weights=None, program=None, **more):
         count = len(next(iter(table.values())))
@@ -64,8 +64,8 @@ TABLE = {1: (0.6, 0.6, 0.6), 2: (1.0, 0.1, 0.0), 3: (0.2, 1.0, 0.9), 4: (0.1, 0.
         (2, PortfolioAim.WORST, ("2", "3"), 0.9),
     ],
 )
-def test_by_hand(fleet, at_most, aim, members, objective):
-    decision = decide_portfolio(fleet(TABLE, at_most=at_most, aim=aim))
+def test_by_hand(portfolio, at_most, aim, members, objective):
+    decision = decide_portfolio(portfolio(TABLE, at_most=at_most, aim=aim))
     assert decision.status is DecisionStatus.OPTIMAL
     assert decision.members == members
     assert decision.objective == pytest.approx(objective)
@@ -76,13 +76,13 @@ def test_by_hand(fleet, at_most, aim, members, objective):
     assert decision.considered == 3
 
 
-def test_what_another_member_would_add(fleet):
-    decision = decide_portfolio(fleet(TABLE, at_most=4))
+def test_what_another_member_would_add(portfolio):
+    decision = decide_portfolio(portfolio(TABLE, at_most=4))
     assert decision.by_size == pytest.approx((0.7, 2.9 / 3, 2.9 / 3, 2.9 / 3))
 
 
-def test_who_serves_what(fleet):
-    decision = decide_portfolio(fleet(TABLE, at_most=2))
+def test_who_serves_what(portfolio):
+    decision = decide_portfolio(portfolio(TABLE, at_most=2))
     assert [(one.task, one.variant, one.value) for one in decision.assignments] == [
         ("t0", 2, 1.0),
         ("t1", 3, 1.0),
@@ -90,55 +90,55 @@ def test_who_serves_what(fleet):
     ]
 
 
-def test_weights_of_the_tasks(fleet):
-    assert decide_portfolio(fleet(TABLE, weights=[0.8, 0.1, 0.1])).members == ("2",)
+def test_weights_of_the_tasks(portfolio):
+    assert decide_portfolio(portfolio(TABLE, weights=[0.8, 0.1, 0.1])).members == ("2",)
 
 
-def test_one_gripper_for_many_objects(fleet):
+def test_one_gripper_for_many_objects(portfolio):
     """A member is a gripper; for each object its best variant serves."""
     table = {1: (0.9, -1.0), 2: (-1.0, 0.8), 3: (0.7, 0.7), 4: (0.6, 0.95)}
     grippers = {1: "wide", 2: "wide", 3: "narrow", 4: "narrow"}
-    decision = decide_portfolio(fleet(table, groups=grippers))
+    decision = decide_portfolio(portfolio(table, groups=grippers))
     assert decision.members == ("wide",)
     assert [one.variant for one in decision.assignments] == [1, 2]
     assert decision.objective == pytest.approx(0.85)
-    assert decide_portfolio(fleet(table)).members == ("4",)
+    assert decide_portfolio(portfolio(table)).members == ("4",)
 
 
-def test_too_few_members_to_serve_every_task(fleet):
+def test_too_few_members_to_serve_every_task(portfolio):
     table = {1: (0.9, -1.0), 2: (-1.0, 0.8)}
-    decision = decide_portfolio(fleet(table))
+    decision = decide_portfolio(portfolio(table))
     assert (decision.status, decision.members, decision.objective) == (DecisionStatus.INFEASIBLE, (), None)
     assert (decision.by_size, decision.unserved, decision.enumeration_agrees) == ((None,), (), Agreement.AGREED)
-    assert decide_portfolio(fleet(table, at_most=2)).by_size == (None, pytest.approx(0.85))
+    assert decide_portfolio(portfolio(table, at_most=2)).by_size == (None, pytest.approx(0.85))
 
 
-def test_a_task_that_no_design_serves(fleet):
-    decision = decide_portfolio(fleet({1: (0.9, -1.0), 2: (0.5, -0.1)}, at_most=2))
+def test_a_task_that_no_design_serves(portfolio):
+    decision = decide_portfolio(portfolio({1: (0.9, -1.0), 2: (0.5, -0.1)}, at_most=2))
     assert (decision.status, decision.unserved) == (DecisionStatus.INFEASIBLE, ("t1",))
 
 
-def test_more_portfolios_than_are_enumerated(fleet, monkeypatch):
+def test_more_portfolios_than_are_enumerated(portfolio, monkeypatch):
     monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 2)
-    decision = decide_portfolio(fleet(TABLE, at_most=3))
+    decision = decide_portfolio(portfolio(TABLE, at_most=3))
     assert (set(decision.members), decision.enumeration_agrees) == ({"2", "3"}, Agreement.NOT_ENUMERATED)
     assert decision.objective == pytest.approx(2.9 / 3)
 
 
 @pytest.mark.parametrize("aim", list(PortfolioAim))
 @pytest.mark.parametrize("answer", [None, (1,)], ids=["false infeasible", "not optimal"])
-def test_a_wrong_answer_of_the_solver_is_not_used(fleet, monkeypatch, answer, aim):
-    right = decide_portfolio(fleet(TABLE, at_most=2, aim=aim))
+def test_a_wrong_answer_of_the_solver_is_not_used(portfolio, monkeypatch, answer, aim):
+    right = decide_portfolio(portfolio(TABLE, at_most=2, aim=aim))
     monkeypatch.setattr(rgss.tradeoff.portfolio.portfolio, "solved_portfolio", lambda *arguments: answer)
     for most in (20_000_000, 0):
         monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", most)
-        decision = decide_portfolio(fleet(TABLE, at_most=2, aim=aim))
+        decision = decide_portfolio(portfolio(TABLE, at_most=2, aim=aim))
         assert (decision.status, decision.members) == (DecisionStatus.OPTIMAL, right.members)
         assert decision.objective == pytest.approx(right.objective)
         assert [check.agrees for check in decision.checks if check.kind is CheckKind.SECOND_RUN] == [False]
 
 
-def test_a_wrong_bound_is_seen_by_the_solver(fleet, monkeypatch):
+def test_a_wrong_bound_is_seen_by_the_solver(portfolio, monkeypatch):
     """The proof is made to end at once with a poor portfolio: the solver's better one contradicts it."""
 
     def wrong(profits, size, start, tolerance, work):
@@ -146,11 +146,11 @@ def test_a_wrong_bound_is_seen_by_the_solver(fleet, monkeypatch):
 
     monkeypatch.setattr(rgss.tradeoff.portfolio.mean, "best_mean", wrong)
     monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 0)
-    decision = decide_portfolio(fleet(TABLE, at_most=2))
+    decision = decide_portfolio(portfolio(TABLE, at_most=2))
     assert (decision.status, set(decision.members)) == (DecisionStatus.BEST_FOUND, {"2", "3"})
     assert not decision.checks[0].agrees
     monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 20_000_000)
-    enumerated = decide_portfolio(fleet(TABLE, at_most=2))
+    enumerated = decide_portfolio(portfolio(TABLE, at_most=2))
     assert (enumerated.status, enumerated.enumeration_agrees) == (DecisionStatus.OPTIMAL, Agreement.DISAGREED)
     assert set(enumerated.members) == {"2", "3"}
 
@@ -168,8 +168,8 @@ def random_table(seed, members, tasks):
 
 
 @pytest.mark.parametrize("aim", list(PortfolioAim))
-def test_a_thousand_designs_for_twenty_tasks_by_twenty_members(fleet, aim):
-    decision = decide_portfolio(fleet(random_table(0, 1000, 20), at_most=20, aim=aim))
+def test_a_thousand_designs_for_twenty_tasks_by_twenty_members(portfolio, aim):
+    decision = decide_portfolio(portfolio(random_table(0, 1000, 20), at_most=20, aim=aim))
     assert decision.status is DecisionStatus.OPTIMAL
     assert (decision.gap, decision.cut) == (pytest.approx(0.0, abs=1e-9), None)
     assert list(decision.by_size) == sorted(decision.by_size)
@@ -180,9 +180,9 @@ def test_a_thousand_designs_for_twenty_tasks_by_twenty_members(fleet, aim):
 
 @pytest.mark.parametrize("aim", list(PortfolioAim))
 @pytest.mark.usefixtures("by_proofs_alone")
-def test_an_answer_that_the_work_limit_cuts_has_a_gap_that_holds(fleet, aim):
+def test_an_answer_that_the_work_limit_cuts_has_a_gap_that_holds(portfolio, aim):
     """Every size has a portfolio and a bound, and more work changes neither for the worse."""
-    problem = fleet(random_table(3, 40, 20), at_most=4, aim=aim)
+    problem = portfolio(random_table(3, 40, 20), at_most=4, aim=aim)
     cut, whole = decide_portfolio(problem, most_work=60_000), decide_portfolio(problem)
     assert (cut.status, cut.cut) == (DecisionStatus.BEST_FOUND, Cut.WORK)
     assert whole.status is DecisionStatus.OPTIMAL
@@ -196,54 +196,54 @@ def test_an_answer_that_the_work_limit_cuts_has_a_gap_that_holds(fleet, aim):
 
 @pytest.mark.parametrize("aim", list(PortfolioAim))
 @pytest.mark.usefixtures("by_proofs_alone")
-def test_an_answer_that_the_time_limit_cuts_says_so(fleet, aim):
-    decision = decide_portfolio(fleet(random_table(3, 40, 20), at_most=4, aim=aim), time_limit=1e-9)
+def test_an_answer_that_the_time_limit_cuts_says_so(portfolio, aim):
+    decision = decide_portfolio(portfolio(random_table(3, 40, 20), at_most=4, aim=aim), time_limit=1e-9)
     assert (decision.status, decision.cut) == (DecisionStatus.BEST_FOUND, Cut.TIME)
     assert decision.gap > 0.0
     with pytest.raises(TradeoffError, match="the time limit must be positive, got -1 s"):
-        decide_portfolio(fleet(TABLE), time_limit=-1.0)
+        decide_portfolio(portfolio(TABLE), time_limit=-1.0)
 
 
 @pytest.mark.parametrize("aim", list(PortfolioAim))
 @pytest.mark.usefixtures("by_proofs_alone")
-def test_a_search_that_a_limit_ends_before_it_finds_anything_is_undecided(fleet, aim):
+def test_a_search_that_a_limit_ends_before_it_finds_anything_is_undecided(portfolio, aim):
     values = np.random.default_rng(1).random((40, 24))
     # No three members serve all tasks, which takes some work to prove.
     values[np.random.default_rng(2).random((40, 24)) < 0.8] = -1.0
     table = {row + 1: tuple(values[row].tolist()) for row in range(40)}
-    decision = decide_portfolio(fleet(table, at_most=3, aim=aim), most_work=30)
+    decision = decide_portfolio(portfolio(table, at_most=3, aim=aim), most_work=30)
     assert (decision.status, decision.members, decision.objective) == (DecisionStatus.UNDECIDED, (), None)
-    assert decide_portfolio(fleet(table, at_most=3, aim=aim)).status is DecisionStatus.INFEASIBLE
+    assert decide_portfolio(portfolio(table, at_most=3, aim=aim)).status is DecisionStatus.INFEASIBLE
 
 
 @pytest.mark.parametrize("seed", range(25))
-def test_random_fleets_against_all_portfolios(guard_cases, guard, seed, monkeypatch):
+def test_random_portfolios_against_all_portfolios(guard_cases, guard, seed, monkeypatch):
     """Once with the enumeration of the product, and once by its proofs alone."""
-    case = guard_cases.fleet_case(seed)
-    assert guard.fleet_outcome(case) in ("right", "infeasible, right")
+    case = guard_cases.portfolio_case(seed)
+    assert guard.portfolio_outcome(case) in ("right", "infeasible, right")
     monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "MOST_ENTRIES", 0)
     monkeypatch.setattr(rgss.tradeoff.portfolio.portfolio, "LARGEST_SOLVED", 0)
-    assert guard.fleet_outcome(case) in ("right", "infeasible, right")
+    assert guard.portfolio_outcome(case) in ("right", "infeasible, right")
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"tasks": ()}, "a fleet without tasks has nothing to do"),
-        ({"at_most": 0}, "a fleet of at most 0 designs serves no task"),
+        ({"tasks": ()}, "a portfolio without tasks has nothing to do"),
+        ({"at_most": 0}, "a portfolio of at most 0 designs serves no task"),
         ({"groups": {1: "x"}}, "variant 2 belongs to no group"),
     ],
 )
-def test_ill_posed(fleet, change, message):
+def test_ill_posed(portfolio, change, message):
     with pytest.raises(TradeoffError) as error:
-        dataclasses.replace(fleet(TABLE), **change)
+        dataclasses.replace(portfolio(TABLE), **change)
     assert error.value.message == message
     assert error.value.hint
 
 
-def test_tasks_that_do_not_fit(fleet):
-    whole = fleet(TABLE)
-    fewer = fleet({1: (0.5,)}, weights=[1.0]).tasks[0]
+def test_tasks_that_do_not_fit(portfolio):
+    whole = portfolio(TABLE)
+    fewer = portfolio({1: (0.5,)}, weights=[1.0]).tasks[0]
     for tasks, message in (
         ((whole.tasks[0], whole.tasks[0]), "task 't0' is given twice"),
         ((dataclasses.replace(whole.tasks[0], weight=0.4),), "the weights sum to 0.4, not to 1"),
@@ -256,25 +256,25 @@ def test_tasks_that_do_not_fit(fleet):
             PortfolioProblem(tasks=tasks, at_most=1)
         assert error.value.message == message
     with pytest.raises(TradeoffError, match="task 't0' is decided by the tchebycheff program"):
-        fleet(TABLE, program=Tchebycheff())
+        portfolio(TABLE, program=Tchebycheff())
 
 
-def test_an_answer_that_selects_half_a_member_is_not_used(fleet, monkeypatch):
+def test_an_answer_that_selects_half_a_member_is_not_used(portfolio, monkeypatch):
     def half(problem, run):
         for variable in problem.variables():
             variable.save_value(np.full(variable.shape, 0.5))
         return True
 
     monkeypatch.setattr(rgss.tradeoff.portfolio.checks, "solve_program", half)
-    decision = decide_portfolio(fleet(TABLE))
+    decision = decide_portfolio(portfolio(TABLE))
     assert decision.members == ("3",)
-    assert "the solver's answer selects no fleet (off by 0.5)" in decision.checks[0].detail
+    assert "the solver's answer selects no portfolio (off by 0.5)" in decision.checks[0].detail
 
 
-def test_as_plain_values(fleet):
-    document = json.loads(json.dumps(portfolio_to_json(decide_portfolio(fleet(TABLE, at_most=2))), allow_nan=False))
+def test_as_plain_values(portfolio):
+    document = json.loads(json.dumps(portfolio_to_json(decide_portfolio(portfolio(TABLE, at_most=2))), allow_nan=False))
     assert document["members"] == ["2", "3"]
     assert document["assignments"][0] == {"study": "t0", "member": "2", "variant": 2, "value": 1.0}
     assert document["enumeration_agrees"] == "agreed"
-    nothing = portfolio_to_json(decide_portfolio(fleet({1: (-1.0,)})))
+    nothing = portfolio_to_json(decide_portfolio(portfolio({1: (-1.0,)})))
     assert (nothing["status"], nothing["value"], nothing["unserved"]) == ("infeasible", None, ["t0"])

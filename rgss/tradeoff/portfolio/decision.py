@@ -1,0 +1,64 @@
+"""The outcome of choosing a portfolio: members, assignments, and what was proved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.tradeoff.milp import Agreement, Check, DecisionStatus
+from rgss.tradeoff.portfolio.work import Cut
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assignment:
+    """Which alternative serves a task.
+
+    Attributes:
+        task: The task.
+        member: The member of the portfolio that the alternative belongs to.
+        variant: The alternative.
+        value: Its weighted value in this task.
+    """
+
+    task: str
+    member: str
+    variant: int
+    value: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PortfolioDecision:
+    """The outcome of choosing a portfolio.
+
+    Attributes:
+        status: Optimal; best found where a limit ended the proof; infeasible if no portfolio of the size
+            serves every task; undecided where a limit ended the search for one.
+        members: The chosen members: of the tied best portfolios one with the fewest, and of these,
+            where all were enumerated, the first in the order of their smallest variants.
+        assignments: Who serves each task.
+        objective: Mean or worst value; None if there is none.
+        by_size: The best objective with at most 1, 2, … members that was found; None where there is
+            none. It never falls.
+        by_size_gap: How much better a portfolio of each size can be at most; None where none was found.
+        unserved: Tasks that no alternative serves at all.
+        gap: How far the bound that was proved is from the objective; None if there is none.
+        objective_recomputed: The objective of the chosen members in NumPy; None if there is none.
+        considered: How many members were left after exact reduction.
+        enumeration_agrees: Whether enumeration of all portfolios comes to the same objective.
+        checks: The independent checks that were made.
+        cut: The limit that ended a proof; None if all are complete. Under a time limit the answer
+            depends on the machine.
+    """
+
+    status: DecisionStatus
+    members: tuple[str, ...]
+    assignments: tuple[Assignment, ...]
+    objective: float | None
+    by_size: tuple[float | None, ...]
+    by_size_gap: tuple[float | None, ...]
+    unserved: tuple[str, ...]
+    gap: float | None
+    objective_recomputed: float | None
+    considered: int
+    enumeration_agrees: Agreement
+    checks: tuple[Check, ...]
+    cut: Cut | None

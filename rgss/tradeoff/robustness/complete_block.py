@@ -1,0 +1,42 @@
+"""The largest full factorial design among designs of which some have no estimate."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+MOST_BLOCKS = 300_000
+"""So many choices of levels are looked at for the largest complete block."""
+
+
+def largest_complete_block(known: NDArray[np.bool_]) -> tuple[tuple[int, ...], ...] | None:
+    """The largest choice of levels of which every combination is known.
+
+    Designs without an estimate would confound the effects of the others, and nothing may be made
+    up for them; what is left is a smaller balanced design.
+
+    Args:
+        known: Which designs have an estimate, one axis for each factor.
+
+    Returns:
+        The levels kept of each factor; of the largest blocks that which keeps most levels of the
+        earlier factors. None if there is no block with two levels of some factor, or more than
+        `MOST_BLOCKS` to look at.
+    """
+    if known.all() and known.size > 1:
+        return tuple(tuple(range(length)) for length in known.shape)
+    if math.prod(2**length - 1 for length in known.shape) > MOST_BLOCKS:
+        return None
+    best: tuple[int, tuple[tuple[int, ...], ...]] | None = None
+    choices = [
+        [kept for size in range(length, 0, -1) for kept in itertools.combinations(range(length), size)]
+        for length in known.shape
+    ]
+    for kept in itertools.product(*choices):
+        size = math.prod(len(levels) for levels in kept)
+        if size > (best[0] if best else 1) and known[np.ix_(*kept)].all():
+            best = (size, kept)
+    return None if best is None else best[1]
