@@ -91,9 +91,8 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
         f"{decision.counts.feasible} of them meet every requirement by their estimates."
     )
     yield ""
-    yield " ".join(
-        [headline(made), standing_sentence(made), *uncertainty_sentences(made), *seeds_sentences(made.seeds)]
-    )
+    lines = (headline(made), standing_sentence(made), *uncertainty_sentences(made), *seeds_sentences(made.seeds))
+    yield from (f"- {line}" for line in lines if line)
     yield ""
     shown = len(compared.variants)
     yield f"| | weight | {' | '.join(['chosen', 'runner-up'][:shown])} |"
