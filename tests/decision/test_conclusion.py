@@ -164,5 +164,5 @@ def test_a_study_may_ask_that_feasibility_is_shown(shipped, measured):
     trade_off = dataclasses.replace(shipped.study.trade_off, shown_feasible=True)
     strict = dataclasses.replace(shipped, study=dataclasses.replace(shipped.study, trade_off=trade_off))
     problem = trade_problem(strict, measured)
-    assert {"S.low", "t_e.high", "t_p.high", "P_max"} <= {one.measure for one in problem.thresholds}
+    assert {"S.low", "t_e_simulated.high", "t_p.high", "P_max"} <= {one.measure for one in problem.thresholds}
     assert not problem.feasible_alternatives(at_most=100)

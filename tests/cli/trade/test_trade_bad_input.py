@@ -68,7 +68,7 @@ def test_what_contradicts_itself_is_told_at_its_place(rgss, copy, lines, complai
             3,
             (
                 "chance:SYS-005 needs 10 replicates, variant 1 has 3 "
-                "(run at least 10 replicates, or ask for less: P[t_e <= 25 s] >= 0.9)"
+                "(run at least 10 replicates, or ask for less: P[t_e_simulated <= 25 s] >= 0.9)"
             ),
         ),
         (

@@ -5,26 +5,15 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from rgss.assessment.measuring import measure_variants
-from rgss.decision.choosing import choose, trade_problem
-from rgss.decision.robustness import robustness
-from rgss.decision.robustness.effect_findings import MeasureEffects, StudyEffects
-from rgss.decision.robustness.parts import NotComputed, Part
-from rgss.decision.robustness.robustness import analyse_robustness
-from rgss.decision.study_decision.study_decision import study_decision
-from rgss.errors import TradeoffError
-from rgss.evidence import EvidenceStore
-from rgss.reports.decision.markdown import BEGIN, END, decision_section
-from rgss.reports.decision.text import effects_lines, robustness_lines
+from rgss.decision.robustness.effect_findings import MeasureEffects
+from rgss.reports.decision.markdown import BEGIN, END
+from rgss.reports.decision.text import effects_lines
 from rgss.reports.decision.words import amount, ids_text, moved_limit, moves_text, variants_text
-from rgss.studies.project import load_project
 from rgss.trace.views import share_in_words
-from rgss.tradeoff.robustness.pareto import ParetoFront
 from rgss.tradeoff.robustness.sampled_effects import SampledIndex
 
 REPOSITORY = Path(__file__).parents[3]
@@ -322,80 +311,3 @@ def test_effects_of_sampled_designs():
     assert re.search(r"^fingers +90 % +80 % – 95 %$", text, re.MULTILINE)
     assert re.search(r"^d7 +0 % +0 % – 0 %$", text, re.MULTILINE)
     assert "Effects on S: too few designs have estimates" in text
-
-
-EMPTY = {
-    Part.PARETO: ("Pareto front: not computed.", {"front": ParetoFront(points=())}),
-    Part.REGIONS: ("Not computed: regions of weights", {"regions": None}),
-    Part.NEAREST: ("Weights: the nearest that change the choice were not computed.", {"shifts": None}),
-    Part.RANGES: ("Range of each weight: not computed.", {"ranges": None}),
-    Part.ACCEPTABILITY: ("Acceptability and confidence: not computed.", {"acceptability": None}),
-    Part.ASSUMPTIONS: ("Assumptions: not computed.", {"assumptions": ()}),
-    Part.COSTS: ("All assumed costs together: not computed.", {"costs": None}),
-    Part.PRICES: ("Price of each requirement: not computed.", {"prices": ()}),
-    Part.REVERSALS: ("Rank reversal: not computed.", {"reversals": ()}),
-    Part.STRETCHED: ("Of values stretched over the sample it was not computed.", {"stretched": ()}),
-    Part.EFFECTS: (
-        "Not computed: effects of the factors",
-        {"effects": StudyEffects(factors=(), constants=(), measures=())},
-    ),
-}
-
-
-@pytest.fixture(scope="module")
-def analysed(with_evidence):
-    project = load_project(with_evidence)
-    with EvidenceStore.open(project.evidence, create=False, label="evidence") as store:
-        measured = measure_variants(project, store)
-    problem = trade_problem(project, measured)
-    decision = choose(project, measured, problem=problem)
-
-    def made(found):
-        return study_decision(project, measured, decision, found, problem=problem, evidence="evidence")
-
-    return made, analyse_robustness(project, measured, decision, problem=problem)
-
-
-@pytest.mark.parametrize("part", EMPTY, ids=lambda part: part.name)
-def test_a_part_that_is_not_computed(analysed, part):
-    """Its place says so, reason and remedy are given once, and the rest of the page and section is the same."""
-    made, found = analysed
-    said, fields = EMPTY[part]
-    inner = {name: value for name, value in fields.items() if not hasattr(found, name)}
-    less = replace(
-        found,
-        weighting=replace(found.weighting, **inner),
-        not_computed={part: NotComputed(reason="the solver gave no answer", remedy="ask for less")},
-        **{name: value for name, value in fields.items() if name not in inner},
-    )
-    whole = list(robustness_lines(made(found)))
-    lines = list(robustness_lines(made(less)))
-    section = decision_section(made(less)).splitlines()
-
-    assert any(said in line for line in lines)
-    (line,) = [one for one in lines if one.startswith("Not computed: ")]
-    assert line == f"Not computed: {part.words}: the solver gave no answer. To mend it: ask for less."
-    assert line in section
-    assert section[-1] == END
-    assert len(set(whole) & set(lines)) > 0.5 * len(set(whole))
-
-
-def test_what_is_not_computed_is_a_finding(monkeypatch, rgss, with_evidence, tmp_path):
-    def fail(*_, **__):
-        raise TradeoffError("the solver gave no answer", hint="ask for less")
-
-    for name in ("smaa2", "winning_regions", "study_effects"):
-        monkeypatch.setattr(robustness, name, fail)
-    told = rgss("trade", "--effects", "--project", with_evidence)
-    report = rgss("report", "--no-film", "--out", tmp_path / "report.html", "--project", with_evidence)
-    line = (
-        "Not computed: regions of weights, acceptability and confidence, effects of the factors: the solver gave no "
-        "answer. To mend it: ask for less."
-    )
-
-    assert (told.status, told.errors) == (1, "")
-    assert (report.status, report.errors) == (1, "")
-    assert line in told.output
-    assert line in report.output
-    assert line in (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "Certificate: optimal" in told.output

@@ -21,7 +21,7 @@ CHOICE = (
     "values:",
     "  - {measure: P_max, weight: 0.25, worst: 0.8 kg, best: 1.4 kg}",
     "  - {measure: C_total, weight: 0.25, worst: 44000 USD, best: 38000 USD}",
-    "  - {measure: t_e, weight: 0.3, worst: {requirement: SYS-005}, best: 5 s}",
+    "  - {measure: t_e_simulated, weight: 0.3, worst: {requirement: SYS-005}, best: 5 s}",
     "  - {measure: S, weight: 0.2, worst: 0.8, best: 1.0}",
 )
 
@@ -158,9 +158,9 @@ def test_the_largest_swing_comes_first_and_every_input_is_there(wide, shipped):
     names = {bar.id for bar in found.tornado.bars} | set(found.tornado.without_range)
 
     assert swings == pytest.approx(sorted(swings, reverse=True))
-    assert {"weight.t_e", "value.t_e.best", "shape.all", "SYS-005.threshold", "catalogue.ur10.cost"} <= names
+    assert {"weight.t_e_simulated", "value.t_e_simulated.best", "shape.all", "SYS-005.threshold", "catalogue.ur10.cost"} <= names
     # Anchored on a requirement: it moves with the threshold.
-    assert "value.t_e.worst" not in names
+    assert "value.t_e_simulated.worst" not in names
     assert all(bar.basis is RangeBasis.SHARE for bar in found.tornado.bars)
     assert found.tornado.without_range == ("catalogue.rrt.cost", "catalogue.trrt.cost", "catalogue.stride.cost")
 
@@ -171,14 +171,14 @@ def test_stated_and_elicited_ranges_are_taken(analysed):
         "sensitivity:",
         "  ranges:",
         "    - {input: catalogue.rrt.cost, low: 0 USD, high: 1 kUSD, rationale: a licence}",
-        "    - {input: weight.t_e, low: 25 %, high: 0.5}",
+        "    - {input: weight.t_e_simulated, low: 25 %, high: 0.5}",
         "    - {input: shape.S, low: 0, high: 2}",
     )
     bars = {bar.id: bar for bar in found.tornado.bars}
 
     assert (bars["catalogue.rrt.cost"].low.value, bars["catalogue.rrt.cost"].high.value) == (0.0, 1000.0)
     assert bars["catalogue.rrt.cost"].basis is RangeBasis.STATED
-    assert (bars["weight.t_e"].low.value, bars["weight.t_e"].high.value) == (0.25, 0.5)
+    assert (bars["weight.t_e_simulated"].low.value, bars["weight.t_e_simulated"].high.value) == (0.25, 0.5)
     assert (bars["shape.S"].low.value, bars["shape.S"].high.value) == (0.0, 2.0)
     assert bars["weight.S"].basis is RangeBasis.ELICITED
     assert bars["weight.S"].high.value == pytest.approx(0.5)
@@ -189,7 +189,7 @@ def test_stated_and_elicited_ranges_are_taken(analysed):
     ("entry", "message"),
     [
         ("{input: catalogue.rtt.cost, low: 0 USD, high: 1 USD}", "'catalogue.rtt.cost' is no input of this decision"),
-        ("{input: weight.t_e, low: 0.4, high: 0.5}", "weight.t_e is 0.3, outside of its range 0.4 to 0.5"),
+        ("{input: weight.t_e_simulated, low: 0.4, high: 0.5}", "weight.t_e_simulated is 0.3, outside of its range 0.4 to 0.5"),
         ("{input: catalogue.ur10.cost, low: 1 kg, high: 1 USD}", "catalogue.ur10.cost: "),
     ],
 )
@@ -206,8 +206,8 @@ def test_stakeholders_choose_by_their_own_weights(analysed, measured):
         "accept_within: 0.1",
         "stakeholders:",
         "  buyer: {weights: {C_total: 0.9, S: 0.1}}",
-        "  driver: {points: {t_e: 30, P_max: 10}, rationale: waits}",
-        "  safety: {answers: [{swing_of: S, over: t_e, ratio: 3}]}",
+        "  driver: {points: {t_e_simulated: 30, P_max: 10}, rationale: waits}",
+        "  safety: {answers: [{swing_of: S, over: t_e_simulated, ratio: 3}]}",
     )
     problem = trade_problem(project, measured)
     for view, stakeholder in zip(found.agreement.views, project.study.trade_off.stakeholders, strict=True):

@@ -197,10 +197,10 @@ SPEED = "conditions_of(spec).tool_speed_m_s"
         ("trials/pieces/pieces.py", "timing_of(spec, plan", "timing_of(_slow(spec), plan", {*ENTRIES}),
         ("trials/pieces/run.py", "Pieces().record(task", "Pieces(bench=run_bench).record(task", {"record"}),
         ("trials/code/kernel_environment.py", 'KERNEL = "Nehalem"', 'KERNEL = "Haswell"', {*ENTRIES}),
-        ("trials/pieces/run.py", "Begin with no pieces.", "Begin with nothing at all.", set()),
+        ("trials/pieces/run.py", "Run one trial by itself;", "Run a trial by itself;", set()),
         ("trials/metrics/task_metrics.py", "how many states the task has", "number of phases", set()),
         ("trials/metrics/task_metrics.py", "trial=Aggregation.LEAST", "trial=Aggregation.LAST", {"record"}),
-        ("trials/planning/plan.py", "# The task is done as far as", "# It is done as far as", set()),
+        ("trials/planning/plan.py", "# The task is planned up to", "# It is planned up to", set()),
     ],
 )
 def test_a_change_of_the_code_reaches_the_pieces_that_run_it(tmp_path, file, old, new, pieces):
