@@ -21,7 +21,7 @@ SEEDS = (1, 2)
 def project_with(**planning):
     """The varied world without contact, so that only planning takes time, under another planning section."""
     names = sorted(path.name for path in (REPOSITORY / "studies").glob("*.yaml"))
-    name = "varied_world.yaml" if "varied_world.yaml" in names else "pick_place.yaml"
+    name = "pick_place.yaml"
     project = load_project(REPOSITORY, f"studies/{name}").with_fidelity("kinematic")
     return replace(project, study=replace(project.study, planning=replace(project.study.planning, **planning)))
 

@@ -158,7 +158,13 @@ def test_the_largest_swing_comes_first_and_every_input_is_there(wide, shipped):
     names = {bar.id for bar in found.tornado.bars} | set(found.tornado.without_range)
 
     assert swings == pytest.approx(sorted(swings, reverse=True))
-    assert {"weight.t_e_simulated", "value.t_e_simulated.best", "shape.all", "SYS-005.threshold", "catalogue.ur10.cost"} <= names
+    assert {
+        "weight.t_e_simulated",
+        "value.t_e_simulated.best",
+        "shape.all",
+        "SYS-005.threshold",
+        "catalogue.ur10.cost",
+    } <= names
     # Anchored on a requirement: it moves with the threshold.
     assert "value.t_e_simulated.worst" not in names
     assert all(bar.basis is RangeBasis.SHARE for bar in found.tornado.bars)
@@ -189,7 +195,10 @@ def test_stated_and_elicited_ranges_are_taken(analysed):
     ("entry", "message"),
     [
         ("{input: catalogue.rtt.cost, low: 0 USD, high: 1 USD}", "'catalogue.rtt.cost' is no input of this decision"),
-        ("{input: weight.t_e_simulated, low: 0.4, high: 0.5}", "weight.t_e_simulated is 0.3, outside of its range 0.4 to 0.5"),
+        (
+            "{input: weight.t_e_simulated, low: 0.4, high: 0.5}",
+            "weight.t_e_simulated is 0.3, outside of its range 0.4 to 0.5",
+        ),
         ("{input: catalogue.ur10.cost, low: 1 kg, high: 1 USD}", "catalogue.ur10.cost: "),
     ],
 )

@@ -19,7 +19,7 @@ from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
 from rgss.trials.planning import direct_move, plan_of
 from rgss.trials.workcell import cell_of
 
-from ..spec_changes import with_moves
+from .spec_changes import with_moves
 
 pytestmark = pytest.mark.engine
 
