@@ -20,9 +20,7 @@ SEEDS = (1, 2)
 
 def project_with(**planning):
     """The varied world without contact, so that only planning takes time, under another planning section."""
-    names = sorted(path.name for path in (REPOSITORY / "studies").glob("*.yaml"))
-    name = "pick_place.yaml"
-    project = load_project(REPOSITORY, f"studies/{name}").with_fidelity("kinematic")
+    project = load_project(REPOSITORY).with_fidelity("kinematic")
     return replace(project, study=replace(project.study, planning=replace(project.study.planning, **planning)))
 
 
