@@ -6,7 +6,7 @@ from rgss.kinematics.cartesian import FollowedLine, LineBreak, follow_line, stra
 from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
-from rgss.kinematics.inverse import InverseKinematics
+from rgss.kinematics.inverse import InverseKinematics, inverse_kinematics
 from rgss.kinematics.overlap_search import Overlap, Solid, overlaps
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "choose_branches",
     "follow_line",
     "gripper_loads",
+    "inverse_kinematics",
     "overlaps",
     "straight_line",
     "workpiece_load",

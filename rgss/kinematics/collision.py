@@ -120,7 +120,7 @@ class CollisionModel:
         """Tell whether a configuration keeps the joint ranges, touches nothing and keeps what it carries upright.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         # Plain floats compare several times faster than the elements of an array.
         angles: Sequence[float] = q.tolist() if isinstance(q, np.ndarray) else q
@@ -140,7 +140,7 @@ class CollisionModel:
         """Index of the first configuration that is invalid; None if all are valid.
 
         Args:
-            qs: Joint angles in rad, shape (n, 6), each between two configurations that keep the joint ranges and so
+            qs: Joint positions, shape (k, n), each between two configurations that keep the joint ranges and so
                 within these itself.
         """
         collide, model, data, manager = self._engine.computeCollisions, self._model, self._data, self._manager
@@ -160,7 +160,7 @@ class CollisionModel:
         """Name all pairs of parts that touch, or are nearer than the clearance.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
 
         Returns:
             Pairs of names, each pair and all of them in alphabetical order.
@@ -179,7 +179,7 @@ class CollisionModel:
         """Distance in m between the two parts that are nearest to touching; negative when they overlap.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         return min((float(result.min_distance) for result in self._state.distanceResults), default=float("inf"))
@@ -190,7 +190,7 @@ class CollisionModel:
         Of these pairs the clearance is demanded. The workpiece and the bodies that it stands on by intention are none.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         results = self._state.distanceResults
@@ -200,7 +200,7 @@ class CollisionModel:
         """The pair of parts with the least distance beyond its clearance; None where no pair is checked.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         pairs = [
@@ -215,7 +215,7 @@ class CollisionModel:
         """Angle between the axis of what is carried and the vertical; None where nothing has to stay upright.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         if self._least_upright is None:
             return None

@@ -6,7 +6,7 @@ from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS, pad_ribs
-from rgss.scenes.robot import Joint, Robot
+from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
 from rgss.scenes.scene_file import load_scene
@@ -17,6 +17,7 @@ __all__ = [
     "FORCE_WINDOW_S",
     "GRIPPER_BASE_LINK",
     "LANDING_LIMIT_M_S",
+    "MOST_JOINTS",
     "RIBS",
     "Box",
     "Cylinder",
@@ -25,6 +26,7 @@ __all__ = [
     "GripperFile",
     "GripperGeometry",
     "Joint",
+    "JointKind",
     "PlaceRegion",
     "Pose",
     "Robot",

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
-from rgss.kinematics import InverseKinematics, choose_branches, straight_line
+from rgss.kinematics import choose_branches, inverse_kinematics, straight_line
 from rgss.motion import (
     PlannerSettings,
     PlanningProblem,
@@ -120,7 +120,7 @@ def _configurations(
     the straight lift, and why waypoints that have no configuration have none.
     """
     models = cell.planning
-    inverse = InverseKinematics(cell.arm)
+    inverse = inverse_kinematics(cell.arm)
     poses = waypoint_poses(cell.scene)
     candidates: dict[Waypoint, list[Array]] = {}
     for waypoint, pose in poses.items():
@@ -157,7 +157,7 @@ def unserved_waypoints(cell: Workcell, among: Iterable[Waypoint] = tuple(Waypoin
     Returns:
         The reason of each that has none, in the task's order.
     """
-    inverse, poses, wanted = InverseKinematics(cell.arm), waypoint_poses(cell.scene), set(among)
+    inverse, poses, wanted = inverse_kinematics(cell.arm), waypoint_poses(cell.scene), set(among)
     found = {}
     for waypoint in (one for one in poses if one in wanted):
         meeting = [cell.planning[phase] for phase, ends in _ENDS.items() if waypoint in ends]
@@ -211,7 +211,7 @@ def _direct(
         start,
         goal,
         waypoint_poses(cell.scene)[_ENDS[phase][1]],
-        inverse=InverseKinematics(cell.arm),
+        inverse=inverse_kinematics(cell.arm),
         model=cell.planning[phase],
         clock=settings.clock,
         resolution_rad=settings.resolution_rad,
