@@ -1,6 +1,7 @@
 """Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
 
 from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
+from rgss.scenes.convex_parts import ConvexPart, convex_parts, vertices_of, with_mesh_files
 from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
@@ -20,6 +21,7 @@ __all__ = [
     "MOST_JOINTS",
     "RIBS",
     "Box",
+    "ConvexPart",
     "Cylinder",
     "Gripper",
     "GripperDocument",
@@ -39,6 +41,7 @@ __all__ = [
     "Waypoint",
     "Workpiece",
     "assembled_urdf",
+    "convex_parts",
     "finger_joint",
     "finger_link",
     "load_gripper",
@@ -46,5 +49,7 @@ __all__ = [
     "load_robot",
     "load_scene",
     "pad_ribs",
+    "vertices_of",
     "waypoint_poses",
+    "with_mesh_files",
 ]
