@@ -15,6 +15,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import Part, collision_parts
+from rgss.kinematics.lasting_contacts import lasting_contacts
 from rgss.scenes import GripperGeometry, Scene
 
 Vector = NDArray[np.float64]
@@ -51,7 +52,8 @@ class CollisionModel:
     """State validity of the arm in a scene, for one situation.
 
     Checked are arm, gripper and carried workpiece against the scene's bodies and the standing
-    workpiece; the links of the arm against each other unless they are neighbours; gripper and carried
+    workpiece; the links of the arm against each other unless they are neighbours or touch however the arm
+    stands; gripper and carried
     workpiece against the arm. Parts that cannot move relative to each other are not checked: the
     gripper and what it holds, the base and the scene.
 
@@ -91,7 +93,7 @@ class CollisionModel:
         margins: list[float] = []
         self._pairs: list[tuple[str, str]] = []
         self._clear: list[int] = []
-        allowed = _checked_pairs(situation, scene, parts)
+        allowed = _checked_pairs(situation, scene, parts) | lasting_contacts(scene.robot)
         for first, one in enumerate(parts):
             for second in range(first + 1, len(parts)):
                 other = parts[second]

@@ -15,12 +15,12 @@ from rgss.scenes import (
     Box,
     ConvexPart,
     GripperGeometry,
+    Robot,
     Scene,
     Shape,
     convex_parts,
     finger_link,
 )
-
 
 # The engine takes its flag by position alone.
 _KEEP_TRIANGLES = True
@@ -66,7 +66,7 @@ def collision_parts(
     """
     flange = model.frames[model.getFrameId(scene.robot.flange)]
     joint, to_joint = flange.parentJoint, flange.placement
-    parts = _arm_parts(model, scene)
+    parts = arm_parts(model, scene.robot)
 
     def held(name: str, placement: Any, shape: Shape) -> Part:
         return Part(name=name, chain=joint, joint=joint, placement=to_joint * placement, shape=solid_of(shape))
@@ -87,15 +87,24 @@ def collision_parts(
     return tuple(parts)
 
 
-def _arm_parts(model: Any, scene: Scene) -> list[Part]:
+def arm_parts(model: Any, robot: Robot) -> list[Part]:
+    """List the solids of an arm.
+
+    Args:
+        model: The arm's model in the world.
+        robot: The arm.
+
+    Raises:
+        DefinitionError: A collision shape of the description cannot be read.
+    """
     import pinocchio
 
-    text, convex = convex_parts(scene.robot.urdf)
+    text, convex = convex_parts(robot.urdf)
     try:
         solids = pinocchio.buildGeomFromUrdfString(model, text, pinocchio.GeometryType.COLLISION)
     except (ValueError, RuntimeError) as error:
         raise DefinitionError(
-            f"the collision shapes of the robot {scene.robot.id} cannot be read",
+            f"the collision shapes of the robot {robot.id} cannot be read",
             hint=str(error).strip() or "use boxes and cylinders alone",
         ) from error
     primitive = [
