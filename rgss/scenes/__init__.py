@@ -12,6 +12,7 @@ from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
 from rgss.scenes.scene_file import load_scene
 from rgss.scenes.shapes import Box, Cylinder, Shape
+from rgss.scenes.urdf_chain import UrdfChain, chain_to, kind_of
 from rgss.scenes.waypoints import Waypoint, waypoint_poses
 
 __all__ = [
@@ -38,12 +39,15 @@ __all__ = [
     "SceneDocument",
     "Shape",
     "Task",
+    "UrdfChain",
     "Waypoint",
     "Workpiece",
     "assembled_urdf",
+    "chain_to",
     "convex_parts",
     "finger_joint",
     "finger_link",
+    "kind_of",
     "load_gripper",
     "load_gripper_file",
     "load_robot",

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rgss.trials.settings import PlanningSettings, TrialSettings
     from rgss.trials.tracing import run_traced_trial
     from rgss.trials.trial_spec import TrialSpec
+    from rgss.trials.workcell import Workcell
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
 
@@ -41,6 +42,7 @@ __all__ = [
     "TaskPlan",
     "TrialSettings",
     "TrialSpec",
+    "Workcell",
     "closing_impact",
     "drawn_values",
     "mujoco_settings",
