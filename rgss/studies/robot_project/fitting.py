@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
 from rgss.kinematics import Arm, ArmDynamics, Load, inverse_kinematics
-from rgss.scenes import GripperGeometry, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
+from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
-from rgss.trials import Workcell, reach_problems
+from rgss.trials import Workcell, waypoint_configurations
+
+Array = NDArray[np.float64]
 
 _SAMPLES = 2048
+_ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
 _CLEARANCE_M = 0.008
 _LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.1, 100.0
 
@@ -53,9 +58,24 @@ def payload_at_reach_kg(robot: Robot) -> float:
     return min(max(held, _LEAST_PAYLOAD_KG), _MOST_PAYLOAD_KG)
 
 
-def fitted(
-    folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]
-) -> tuple[Layout, tuple[float, ...]]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FittedCell:
+    """A cell that suits an arm.
+
+    Attributes:
+        layout: Where the tables are.
+        home: Joint positions above the object, in rad or m.
+        lower: Lower ends of ranges about the configurations at all waypoints.
+        upper: Their upper ends.
+    """
+
+    layout: Layout
+    home: tuple[float, ...]
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+
+
+def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]) -> FittedCell:
     """The first layout in which the arm reaches every waypoint with every gripper, and a home for it.
 
     Args:
@@ -73,17 +93,29 @@ def fitted(
         scene = load_scene(path, project=folder)
         if not all(_reaches_ends(scene, geometry) for geometry in geometries):
             continue
-        if any(
-            problem.waypoint for one in geometries for problem in reach_problems(scene, one, clearance_m=_CLEARANCE_M)
-        ):
-            continue
-        home = _home(scene, geometries)
-        if home is not None:
-            return layout, home
+        stops = [_stops(scene, geometry) for geometry in geometries]
+        if all(len(one) == len(Waypoint) for one in stops):
+            lower, upper = _ranges(robot, np.array([q for one in stops for q in one.values()]))
+            home = stops[0][Waypoint.GRASP_DEPARTURE].tolist()
+            return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper)
     raise DefinitionError(
         f"no layout was found in which {robot.id} grasps a cup on a table with its tool pointing down",
         hint="is --flange the link whose z axis points out of the arm? Does the arm turn its tool down at all?",
     )
+
+
+def _stops(scene: Scene, geometry: GripperGeometry) -> Mapping[Waypoint, Array]:
+    """Valid configurations at the waypoints, with the least travel from one to the next."""
+    return waypoint_configurations(Workcell(scene, geometry, clearance_m=_CLEARANCE_M))[0]
+
+
+def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Ranges that hold configurations with some room, within the arm's own."""
+    room = np.array([_ROOM[joint.kind] for joint in robot.joints])
+    own = np.array([(joint.lower_rad, joint.upper_rad) for joint in robot.joints]).T
+    lower = np.maximum(np.round(np.min(configurations, axis=0) - room, 2), own[0])
+    upper = np.minimum(np.round(np.max(configurations, axis=0) + room, 2), own[1])
+    return tuple(lower.tolist()), tuple(upper.tolist())
 
 
 def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
@@ -92,19 +124,8 @@ def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
     return all(inverse.nearest(poses[waypoint], scene.robot.home_rad) is not None for waypoint in ends)
 
 
-def _home(scene: Scene, geometries: Sequence[GripperGeometry]) -> tuple[float, ...] | None:
-    """The valid configuration above the object that is nearest to the middle of the ranges."""
-    middle = np.array(scene.robot.home_rad)
-    cells = [Workcell(scene, geometry, clearance_m=_CLEARANCE_M) for geometry in geometries]
-    models = [next(iter(cell.planning.values())) for cell in cells]
-    pose = waypoint_poses(scene)[Waypoint.GRASP_DEPARTURE]
-    found = [q for q in inverse_kinematics(cells[0].arm).solve(pose) if all(model.is_valid(q) for model in models)]
-    nearest = min(found, key=lambda q: float(np.linalg.norm(q - middle)), default=None)
-    return None if nearest is None else tuple(nearest.tolist())
-
-
-def _sampled(robot: Robot) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _sampled(robot: Robot) -> Array:
     lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
     shares = np.random.default_rng(0).random((_SAMPLES, len(robot.joints)))
-    samples: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = lower + shares * (upper - lower)
+    samples: Array = lower + shares * (upper - lower)
     return samples

@@ -53,6 +53,10 @@ def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
             "joints.acceleration",
             f"A URDF has none; each joint reaches its speed in {_ACCELERATION_TIME_S:g} s, {most:g} rad/s^2 at most.",
         ),
+        (
+            "joints.range",
+            "The part of the URDF's ranges about the task's configurations; planners search no turns beyond.",
+        ),
         ("payload", "What the joints' efforts hold, with the arm as far out as it reaches, rounded down."),
         ("tool_acceleration", "That of a common collaborative arm."),
         ("home", "A configuration above the place where the object stands, away from everything."),

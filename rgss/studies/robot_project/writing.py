@@ -6,6 +6,7 @@ import re
 import shutil
 import tempfile
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from rgss.documents import content_digest
@@ -61,7 +62,7 @@ def write_robot_project(urdf: Path, folder: Path, *, flange: str | None = None) 
     return names
 
 
-def _write_files(project: Path, urdf: Path, text: str, root: ET.Element, arm: UrdfArm) -> None:
+def _write_files(project: Path, urdf: Path, source: str, root: ET.Element, arm: UrdfArm) -> None:
     id_ = _identifier(arm.name)
     robots = project / "scenes" / "robots"
     texts = scaffold_texts()
@@ -73,18 +74,19 @@ def _write_files(project: Path, urdf: Path, text: str, root: ET.Element, arm: Ur
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(_renamed(content, old, id_, arm.name), encoding="utf-8", newline="\n")
     robots.mkdir(parents=True, exist_ok=True)
-    (robots / f"{id_}.urdf").write_text(_with_copied_files(text, root, urdf, robots), encoding="utf-8")
+    (robots / f"{id_}.urdf").write_text(_with_copied_files(source, root, urdf, robots), encoding="utf-8")
     start = tuple(min(max(0.5 * (joint.lower + joint.upper), joint.lower), joint.upper) for joint in arm.joints)
     robot_file = robots / f"{id_}.yaml"
     robot_file.write_text(robot_text(arm, id_=id_, urdf=f"{id_}.urdf", home=start, payload_kg=1.0), encoding="utf-8")
     robot = load_robot(robot_file, base=Pose(), label=f"scenes/robots/{id_}.yaml", project=project)
     geometries = [load_gripper(path) for path in sorted((project / "scenes" / "grippers").glob("*.yaml"))]
-    layout, home = fitted(project, robot, f"{id_}.yaml", geometries)
+    cell = fitted(project, robot, f"{id_}.yaml", geometries)
     payload_kg = payload_at_reach_kg(robot)
-    robot_file.write_text(
-        robot_text(arm, id_=id_, urdf=f"{id_}.urdf", home=home, payload_kg=payload_kg), encoding="utf-8"
-    )
-    (project / "scenes" / "kitchen.yaml").write_text(scene_text(layout, robot=f"{id_}.yaml"), encoding="utf-8")
+    ranges = zip(arm.joints, cell.lower, cell.upper, strict=True)
+    narrowed = replace(arm, joints=tuple(replace(joint, lower=low, upper=high) for joint, low, high in ranges))
+    text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, payload_kg=payload_kg)
+    robot_file.write_text(text, encoding="utf-8")
+    (project / "scenes" / "kitchen.yaml").write_text(scene_text(cell.layout, robot=f"{id_}.yaml"), encoding="utf-8")
 
 
 def _read(urdf: Path) -> tuple[str, ET.Element]:

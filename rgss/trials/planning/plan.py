@@ -63,7 +63,7 @@ def plan_task(
         past_failures: Whether the moves after one that finds no path are planned too, as planners are compared.
     """
     scene, models = cell.scene, cell.planning
-    stops, lift, reasons = _configurations(cell)
+    stops, lift, reasons = waypoint_configurations(cell)
     chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
     moves: dict[Phase, PlannedMove] = {}
     for phase, kind in zip(PLANNED_PHASES, settings.moves, strict=True):
@@ -111,13 +111,16 @@ def plan_of(spec: TrialSpec) -> TaskPlan:
 
 
 @lru_cache(maxsize=4)
-def _configurations(
+def waypoint_configurations(
     cell: Workcell,
 ) -> tuple[Mapping[Waypoint, Array], Array | None, Mapping[Waypoint, GoalReason]]:
     """One configuration for each waypoint: collision-free in every move that meets there, least travel.
 
     They are the same for every planner and seed, and so worked out once for a workcell. Beside them are
     the straight lift, and why waypoints that have no configuration have none.
+
+    Args:
+        cell: Scene, arm and collision models.
     """
     models = cell.planning
     inverse = inverse_kinematics(cell.arm)
