@@ -19,6 +19,7 @@ from rgss.trials import Workcell, waypoint_configurations
 Array = NDArray[np.float64]
 
 _SAMPLES = 2048
+_LEAST_REACH_M = 0.2
 _ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
 _CLEARANCE_M = 0.008
 _LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.1, 100.0
@@ -88,7 +89,8 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
         DefinitionError: There is none.
     """
     path = folder / "scenes" / "kitchen.yaml"
-    for layout in layouts(horizontal_reach_m(robot)):
+    reach_m = horizontal_reach_m(robot)
+    for layout in layouts(reach_m) if reach_m >= _LEAST_REACH_M else ():
         path.write_text(scene_text(layout, robot=robot_file), encoding="utf-8")
         scene = load_scene(path, project=folder)
         if not all(_reaches_ends(scene, geometry) for geometry in geometries):
