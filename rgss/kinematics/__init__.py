@@ -7,6 +7,7 @@ from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.kinematics.inverse import InverseKinematics, inverse_kinematics
+from rgss.kinematics.lasting_contacts import lasting_contacts, touching_links
 from rgss.kinematics.overlap_search import Overlap, Solid, overlaps
 
 __all__ = [
@@ -25,7 +26,9 @@ __all__ = [
     "follow_line",
     "gripper_loads",
     "inverse_kinematics",
+    "lasting_contacts",
     "overlaps",
     "straight_line",
+    "touching_links",
     "workpiece_load",
 ]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,30 +32,54 @@ def lasting_contacts(robot: Robot) -> frozenset[frozenset[str]]:
     Args:
         robot: The arm.
     """
-    import pinocchio
-
-    model = build_model(robot)
-    data = model.createData()
-    geometry = pinocchio.GeometryModel()
-    parts = arm_parts(model, robot)
-    for index, part in enumerate(parts):
-        geometry.addGeometryObject(
-            pinocchio.GeometryObject(f"{part.name}#{index}", part.joint, part.placement, part.shape)
-        )
-    names: list[frozenset[str]] = []
-    for first, one in enumerate(parts):
-        for second in range(first + 1, len(parts)):
-            if one.can_meet(parts[second]):
-                geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
-                names.append(frozenset((one.name, parts[second].name)))
-    state = geometry.createData()
-    touching = set(names)
+    pairs = _LinkPairs(robot)
+    touching = set(pairs.names)
     for q in _sampled(robot):
         if not touching:
             break
-        pinocchio.computeCollisions(model, data, geometry, state, q, _FIND_ALL)
-        touching &= {pair for pair, result in zip(names, state.collisionResults, strict=True) if result.isCollision()}
+        touching &= pairs.touching(q)
     return frozenset(touching)
+
+
+def touching_links(robot: Robot, q: Sequence[float]) -> tuple[tuple[str, str], ...]:
+    """Pairs of an arm's links that touch in a configuration, neighbours left out.
+
+    Args:
+        robot: The arm.
+        q: Joint positions, shape (n,).
+    """
+    found = _LinkPairs(robot).touching(np.array(q))
+    return tuple(sorted((min(pair), max(pair)) for pair in found))
+
+
+class _LinkPairs:
+    """Pairs of the solids of an arm that can meet."""
+
+    def __init__(self, robot: Robot) -> None:
+        import pinocchio
+
+        self._engine: Any = pinocchio
+        self._model = build_model(robot)
+        self._data = self._model.createData()
+        self._geometry = pinocchio.GeometryModel()
+        parts = arm_parts(self._model, robot)
+        for index, part in enumerate(parts):
+            self._geometry.addGeometryObject(
+                pinocchio.GeometryObject(f"{part.name}#{index}", part.joint, part.placement, part.shape)
+            )
+        self.names: list[frozenset[str]] = []
+        for first, one in enumerate(parts):
+            for second in range(first + 1, len(parts)):
+                if one.can_meet(parts[second]):
+                    self._geometry.addCollisionPair(pinocchio.CollisionPair(first, second))
+                    self.names.append(frozenset((one.name, parts[second].name)))
+        self._state = self._geometry.createData()
+
+    def touching(self, q: Vector) -> set[frozenset[str]]:
+        """Names of the pairs that touch."""
+        self._engine.computeCollisions(self._model, self._data, self._geometry, self._state, q, _FIND_ALL)
+        results = self._state.collisionResults
+        return {pair for pair, result in zip(self.names, results, strict=True) if result.isCollision()}
 
 
 def _sampled(robot: Robot) -> Iterator[Vector]:

@@ -5,6 +5,7 @@ from rgss.scenes.convex_parts import ConvexPart, convex_parts, vertices_of, with
 from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
+from rgss.scenes.mesh_shapes import MeshSummary, mesh_summary
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS, pad_ribs
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
@@ -30,6 +31,7 @@ __all__ = [
     "GripperGeometry",
     "Joint",
     "JointKind",
+    "MeshSummary",
     "PlaceRegion",
     "Pose",
     "Robot",
@@ -52,6 +54,7 @@ __all__ = [
     "load_gripper_file",
     "load_robot",
     "load_scene",
+    "mesh_summary",
     "pad_ribs",
     "vertices_of",
     "waypoint_poses",

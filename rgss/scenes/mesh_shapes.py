@@ -108,6 +108,8 @@ def _read(path: Path, scale: tuple[float, float, float]) -> Any:
         raise DefinitionError(f"{path.name} cannot be read as a mesh: {error}", hint="use STL, OBJ or PLY") from error
     if len(mesh.vertices) < 4 or not np.all(np.isfinite(mesh.vertices)):
         raise DefinitionError(f"{path.name} is no mesh with a volume", hint="use STL, OBJ or PLY")
+    # Corners that differ in normal or texture alone are one, or no mesh with sharp edges would be closed.
+    mesh.merge_vertices(merge_tex=True, merge_norm=True)
     mesh.apply_scale(scale)
     return mesh
 

@@ -70,6 +70,7 @@ def _check(options: argparse.Namespace) -> int:
         unread_findings,
         unused_findings,
     )
+    from rgss.studies.robot_project import robot_findings
 
     skipped = ""
     folder = find_project(options.project)
@@ -87,6 +88,7 @@ def _check(options: argparse.Namespace) -> int:
             *bench_findings(project),
             *impact_findings(project),
             *scene.findings,
+            *robot_findings(project),
             *_findings(project, options),
         )
     except DocumentError as error:

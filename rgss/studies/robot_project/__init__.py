@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING
 
 from rgss.lazy_exports import lazy_exports
 
-__all__ = ["write_robot_project"]
+__all__ = ["RobotSummary", "robot_findings", "robot_summary", "write_robot_project"]
 
 if TYPE_CHECKING:
+    from rgss.studies.robot_project.description import robot_findings
+    from rgss.studies.robot_project.summary import RobotSummary, robot_summary
     from rgss.studies.robot_project.writing import write_robot_project
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -32,7 +32,7 @@ def horizontal_reach_m(robot: Robot) -> float:
         robot: The arm.
     """
     arm = Arm(robot, Pose())
-    positions = arm.tool_position(_sampled(robot)) - np.array(arm.first_axis_m)
+    positions = arm.tool_position(sampled_configurations(robot)) - np.array(arm.first_axis_m)
     return float(np.max(np.linalg.norm(positions, axis=1)))
 
 
@@ -43,7 +43,7 @@ def payload_at_reach_kg(robot: Robot) -> float:
         robot: The arm.
     """
     arm = Arm(robot, Pose())
-    samples = _sampled(robot)
+    samples = sampled_configurations(robot)
     offsets = (arm.tool_position(samples) - np.array(arm.first_axis_m))[:, :2]
     q = samples[int(np.argmax(np.linalg.norm(offsets, axis=1)))]
     still = np.zeros(len(robot.joints))
@@ -126,7 +126,12 @@ def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
     return all(inverse.nearest(poses[waypoint], scene.robot.home_rad) is not None for waypoint in ends)
 
 
-def _sampled(robot: Robot) -> Array:
+def sampled_configurations(robot: Robot) -> Array:
+    """Joint positions drawn evenly from the ranges, the same at every call, shape (k, n).
+
+    Args:
+        robot: The arm.
+    """
     lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
     shares = np.random.default_rng(0).random((_SAMPLES, len(robot.joints)))
     samples: Array = lower + shares * (upper - lower)
