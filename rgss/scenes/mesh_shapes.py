@@ -17,13 +17,14 @@ Vertices = tuple[tuple[float, float, float], ...]
 Array = NDArray[np.float64]
 
 HULL_TOLERANCE_M = 5e-4
-"""Greatest distance of a mesh's corner outside the shape that stands for it, while that has fewer corners than most."""
+"""Distance of corners over the shape from which it gets more of them. The shape is then drawn out over the rest."""
 
 MOST_VERTICES = 160
 """Most corners of a shape: contact and collision checks take time in proportion."""
 
 _SUFFIXES = frozenset({".stl", ".obj", ".dae", ".ply"})
 _CONCAVITY = 0.05
+_EXACT = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,24 +130,26 @@ def _convex_pieces(body: Any) -> list[Array]:
 
 
 def _reduced_hull(points: Array, path: Path) -> Vertices:
-    """Corners of a hull, the farthest first, until no other corner is farther outside than the tolerance."""
+    """Corners of a shape that holds all points: of their hull the farthest ones, drawn out over those left away."""
     from scipy.spatial import ConvexHull, QhullError
 
     try:
         corners = points[np.sort(ConvexHull(points).vertices)]
         corners = corners[np.lexsort(corners.T)]
         chosen = _extremes(corners)
-        while len(chosen) < min(MOST_VERTICES, len(corners)):
-            equations = ConvexHull(corners[chosen]).equations
-            outside = np.max(corners @ equations[:, :3].T + equations[:, 3], axis=1)
-            if float(np.max(outside)) <= HULL_TOLERANCE_M:
+        while True:
+            normals, offsets = np.split(ConvexHull(corners[chosen]).equations, [3], axis=1)
+            outside = np.max(corners @ normals.T + offsets.T, axis=1)
+            if len(chosen) >= min(MOST_VERTICES, len(corners)) or np.max(outside) <= HULL_TOLERANCE_M:
                 break
-            # The farthest of those outside each face at once would be fewer hulls, but depends on their order.
             chosen = [*chosen, int(np.argmax(np.round(outside, 9)))]
     except QhullError:
         raise DefinitionError(f"{path.name} is flat and has no volume", hint="use a mesh with a thickness") from None
-    kept = np.unique(np.round(corners[chosen], 7), axis=0)
-    return tuple((float(x), float(y), float(z)) for x, y, z in kept)
+    centre = np.mean(corners[chosen], axis=0)
+    depths = -(normals @ centre + offsets[:, 0])
+    growth = float(np.max((corners - centre) @ normals.T / depths))
+    kept = centre + (corners[chosen] - centre) * growth if growth > 1.0 + _EXACT else corners[chosen]
+    return tuple((float(x), float(y), float(z)) for x, y, z in np.unique(np.round(kept, 7), axis=0))
 
 
 def _extremes(corners: Array) -> list[int]:
