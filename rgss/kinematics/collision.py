@@ -15,7 +15,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import Part, collision_parts
-from rgss.kinematics.lasting_contacts import lasting_contacts
+from rgss.kinematics.link_contacts import lasting_contacts
 from rgss.scenes import GripperGeometry, Scene
 
 Vector = NDArray[np.float64]

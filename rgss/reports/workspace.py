@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.documents import write_output
 from rgss.errors import DefinitionError
 
 _SUFFIXES = (".png", ".svg")
@@ -21,7 +23,8 @@ def draw_workspace(positions_m: NDArray[np.float64], path: Path, *, title: str) 
         title: What is written above it.
 
     Raises:
-        DefinitionError: The file is of another kind, or cannot be written.
+        DefinitionError: The file is of another kind.
+        StorageError: It cannot be written.
     """
     from matplotlib.figure import Figure
 
@@ -38,7 +41,7 @@ def draw_workspace(positions_m: NDArray[np.float64], path: Path, *, title: str) 
         axes.set_aspect("equal")
         axes.grid(visible=True, color="#dddddd", linewidth=0.5)
     figure.suptitle(f"Workspace of the flange of {title}")
-    try:
-        figure.savefig(path, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
-    except OSError as error:
-        raise DefinitionError(f"{path} cannot be written: {error.strerror}", hint="name another file") from error
+    drawn = BytesIO()
+    kind = path.suffix.lower().removeprefix(".")
+    figure.savefig(drawn, format=kind, metadata={"Date": None} if kind == "svg" else None)
+    write_output(path, drawn.getvalue())

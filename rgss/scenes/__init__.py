@@ -1,7 +1,7 @@
 """Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
 
 from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
-from rgss.scenes.convex_parts import ConvexPart, convex_parts, vertices_of, with_mesh_files
+from rgss.scenes.convex_shapes import ConvexPart, convex_parts, vertices_of, with_mesh_files
 from rgss.scenes.document import GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file

@@ -30,12 +30,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
     """
     loaded = load_document(path, RobotDocument, label=label)
     entry, document = loaded.value, loaded.document
-    findings = [
-        document.finding("scene.range", f"joint {joint.name!r} has an empty range", ("joints", index, "range"))
-        for index, joint in enumerate(entry.joints)
-        if joint.range[0].value >= joint.range[1].value
-    ]
-    findings.extend(_repeated_joints(entry, document))
+    findings = [*_empty_ranges(entry, document), *_repeated_joints(entry, document)]
     findings.extend(
         not_positive(
             document,
@@ -88,6 +83,13 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         files=urdf.files,
         tool_speed_m_s=entry.tool_speed,
     )
+
+
+def _empty_ranges(entry: RobotDocument, document: Document) -> Iterable[Finding]:
+    for index, joint in enumerate(entry.joints):
+        if joint.range[0].value >= joint.range[1].value:
+            message = f"joint {joint.name!r} has an empty range"
+            yield document.finding("scene.range", message, ("joints", index, "range"))
 
 
 def _repeated_joints(entry: RobotDocument, document: Document) -> Iterable[Finding]:

@@ -16,7 +16,7 @@ from xml.parsers import expat
 from rgss.documents import FilePlace, content_digest, place_of
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity, shown
-from rgss.scenes.convex_parts import convex_element
+from rgss.scenes.convex_shapes import convex_element
 from rgss.scenes.document import CollisionShapes
 from rgss.scenes.mesh_shapes import shapes_of_mesh
 from rgss.scenes.robot import RobotFile

@@ -9,7 +9,7 @@ import pytest
 from rgss.kinematics import Arm
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import arm_parts
-from rgss.kinematics.lasting_contacts import lasting_contacts
+from rgss.kinematics.link_contacts import lasting_contacts
 from rgss.physics.engine import load_urdf_text
 from rgss.scenes import Pose, convex_parts, load_robot
 from tests.robots.conftest import urdf_of
