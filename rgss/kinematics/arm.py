@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -72,7 +73,7 @@ class Arm:
 
         No axis is ever farther from the tool.
         """
-        slides = sum(
+        slides = math.fsum(
             max(abs(joint.lower_rad), abs(joint.upper_rad))
             for joint in self.robot.joints
             if joint.kind is JointKind.PRISMATIC

@@ -21,6 +21,7 @@ Vector = NDArray[np.float64]
 
 _STARTS = 128
 _ROUNDS = (1, 7, 24, 96, 384)
+_MOST_TRIED = 512
 _ITERATIONS = 60
 _CONVERGED = 1e-11
 _ERROR_DAMPING, _LEAST_DAMPING = 0.5, 1e-12
@@ -91,7 +92,7 @@ class NumericalInverse:
         """
         near = np.asarray(reference, dtype=float)
         residuals = self._residuals(tool_pose_world)
-        starts = np.vstack([near, self._starts(sum(_ROUNDS) - 1)])
+        starts = np.vstack([near, self._starts(_MOST_TRIED - 1)])
         for residual in residuals:
             first = 0
             for count in _ROUNDS:

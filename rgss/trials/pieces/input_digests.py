@@ -191,7 +191,7 @@ def _geometry_digest(scene: Scene) -> str:
     for joint in robot["joints"]:
         for name in _RATES:
             del joint[name]
-        del joint["torque_n_m"], joint["kind"]  # the URDF has the kind
+        del joint["torque_n_m"]
     geometry = {
         "robot": robot,
         "bodies": [{"id": body.id, "shape": _shape(body.shape), "pose": to_plain(body.pose)} for body in scene.bodies],
