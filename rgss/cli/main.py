@@ -22,6 +22,7 @@ VERBS = (
     "init",
     "check",
     "variants",
+    "robot",
     "planners",
     "run",
     "sweep",

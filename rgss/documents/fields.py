@@ -28,6 +28,36 @@ def _reader_of(unit: str) -> Callable[[Any], float]:
     return read
 
 
+@dataclass(frozen=True, slots=True)
+class JointQuantity:
+    """A quantity of a joint, which turns or slides.
+
+    Attributes:
+        value: In rad, or in m, and so on.
+        is_linear: Whether it is a length, a speed along a line, a linear acceleration or a force.
+    """
+
+    value: float
+    is_linear: bool
+
+
+def _joint_reader_of(angular: str, linear: str) -> Callable[[Any], JointQuantity]:
+    """Reader of a quantity whose unit says whether the joint turns or slides."""
+    read_angular, read_linear = _reader_of(angular), _reader_of(linear)
+
+    def read(value: Any) -> JointQuantity:
+        try:
+            return JointQuantity(value=read_angular(value), is_linear=False)
+        except PydanticCustomError:
+            try:
+                return JointQuantity(value=read_linear(value), is_linear=True)
+            except PydanticCustomError:
+                pass
+            raise
+
+    return read
+
+
 def _as_field_error(error: QuantityError) -> PydanticCustomError:
     return PydanticCustomError("quantity", "{message}", {"message": error.message, "hint": error.hint})
 
@@ -61,6 +91,12 @@ def _schema(unit: str) -> WithJsonSchema:
     )
 
 
+def _joint_schema(angular: str, linear: str) -> WithJsonSchema:
+    schema = dict(_schema(angular).json_schema or {})
+    schema["description"] = f"A quantity in {angular}, or of a joint that slides in {linear}."
+    return WithJsonSchema(schema)
+
+
 def _check_unit(text: str) -> str:
     try:
         dimension(text)
@@ -79,6 +115,14 @@ RadiansPerSecond = Annotated[float, BeforeValidator(_reader_of("rad/s")), _schem
 RadiansPerSecondSquared = Annotated[float, BeforeValidator(_reader_of("rad/s**2")), _schema("rad/s**2")]
 MetresPerSecond = Annotated[float, BeforeValidator(_reader_of("m/s")), _schema("m/s")]
 MetresPerSecondSquared = Annotated[float, BeforeValidator(_reader_of("m/s**2")), _schema("m/s**2")]
+JointPosition = Annotated[JointQuantity, BeforeValidator(_joint_reader_of("rad", "m")), _joint_schema("rad", "m")]
+JointSpeed = Annotated[JointQuantity, BeforeValidator(_joint_reader_of("rad/s", "m/s")), _joint_schema("rad/s", "m/s")]
+JointAcceleration = Annotated[
+    JointQuantity,
+    BeforeValidator(_joint_reader_of("rad/s**2", "m/s**2")),
+    _joint_schema("rad/s**2", "m/s**2"),
+]
+JointEffort = Annotated[JointQuantity, BeforeValidator(_joint_reader_of("N*m", "N")), _joint_schema("N*m", "N")]
 Hertz = Annotated[float, BeforeValidator(_reader_of("Hz")), _schema("Hz")]
 Dimensionless = Annotated[
     float,

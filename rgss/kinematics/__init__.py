@@ -6,5 +6,6 @@ from rgss.kinematics.cartesian import FollowedLine, LineBreak, follow_line, stra
 from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
-from rgss.kinematics.inverse import InverseKinematics
+from rgss.kinematics.inverse import InverseKinematics, inverse_kinematics
+from rgss.kinematics.link_contacts import lasting_contacts, touching_links
 from rgss.kinematics.overlap_search import Overlap, Solid, overlaps

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,13 +10,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rgss.kinematics.description import build_model, pose_of, transform
-from rgss.scenes import Pose, Robot
+from rgss.scenes import JointKind, Pose, Robot
 
 Vector = NDArray[np.float64]
 
 
 class Arm:
-    """A six-joint arm with a tool at its flange.
+    """A serial arm with a tool at its flange.
+
+    An array of joint positions has one entry for each joint, from the base to the flange: in rad for a revolute joint,
+    in m for a prismatic one. n is the number of joints, k that of configurations.
 
     Args:
         robot: The arm.
@@ -40,31 +44,41 @@ class Arm:
         )
         self._data = self._model.createData()
         directions, steps = self.joint_axes()
+        self._axes = directions
+        self._slides = [joint.kind is JointKind.PRISMATIC for joint in robot.joints]
         self._rodrigues = [_rodrigues(direction) for direction in directions]
         self._points = np.cumsum(steps, axis=0)
 
     @property
     def lower_rad(self) -> Vector:
-        """Lower ends of the joints' planning ranges, shape (6,)."""
+        """Lower ends of the joints' planning ranges, shape (n,)."""
         return np.array([joint.lower_rad for joint in self.robot.joints])
 
     @property
     def upper_rad(self) -> Vector:
-        """Upper ends of the joints' planning ranges, shape (6,)."""
+        """Upper ends of the joints' planning ranges, shape (n,)."""
         return np.array([joint.upper_rad for joint in self.robot.joints])
 
     def tool_pose(self, q: Sequence[float] | Vector) -> Pose:
         """Transform of the tool-centre frame to the world.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         return pose_of(self._placement(q))
 
     @property
     def reach_m(self) -> float:
-        """Length of the arm from its first axis to the tool along the links: no axis is ever farther from the tool."""
-        return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum())
+        """Length of the arm from its first axis to the tool along the links, slides drawn out.
+
+        No axis is ever farther from the tool.
+        """
+        slides = math.fsum(
+            max(abs(joint.lower_rad), abs(joint.upper_rad))
+            for joint in self.robot.joints
+            if joint.kind is JointKind.PRISMATIC
+        )
+        return float(np.linalg.norm(np.diff(self._points, axis=0), axis=1).sum()) + slides
 
     @property
     def first_axis_m(self) -> tuple[float, float, float]:
@@ -76,10 +90,10 @@ class Arm:
         """Positions of the tool centre in the world.
 
         Args:
-            qs: Joint angles in rad, shape (n, 6).
+            qs: Joint positions, shape (k, n).
 
         Returns:
-            Positions in m, shape (n, 3).
+            Positions in m, shape (k, 3).
         """
         return self._tool_motion(np.atleast_2d(np.asarray(qs, dtype=float)), None)[0]
 
@@ -87,11 +101,11 @@ class Arm:
         """Positions and velocities of the tool centre in the world.
 
         Args:
-            qs: Joint angles in rad, shape (n, 6).
-            dqs: Joint speeds in rad/s, shape (n, 6).
+            qs: Joint positions, shape (k, n).
+            dqs: Joint speeds in rad/s or m/s, shape (k, n).
 
         Returns:
-            Positions in m and velocities in m/s, each of shape (n, 3).
+            Positions in m and velocities in m/s, each of shape (k, 3).
         """
         rows, rates = (np.atleast_2d(np.asarray(values, dtype=float)) for values in (qs, dqs))
         return self._tool_motion(rows, rates)
@@ -103,6 +117,11 @@ class Arm:
         positions: Vector = np.tile(self._points[-1], (len(rows), 1))
         velocities = np.zeros((len(rows), 3))
         for joint in reversed(range(len(self._rodrigues))):
+            if self._slides[joint]:
+                positions = positions + rows[:, joint, None] * self._axes[joint]
+                if rates is not None:
+                    velocities = velocities + rates[:, joint, None] * self._axes[joint]
+                continue
             point, turn = self._points[joint], self._rodrigues[joint]
             cosine, sine = cosines[:, joint, None], sines[:, joint, None]
             arms = _turned(positions - point, turn, cosine, sine)
@@ -115,10 +134,10 @@ class Arm:
         """Jacobian at the tool centre along the axes of the world: ``(v, ω) = J(q) q̇``.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
 
         Returns:
-            Shape (6, 6): the linear rows in m/rad first, then the angular rows.
+            Shape (6, n): the linear rows first, in m/rad or m/m, then the angular rows.
         """
         jacobian: Vector = self._engine.computeFrameJacobian(
             self._model,
@@ -133,12 +152,14 @@ class Arm:
         """Axes of the joints and a point of the tool at the zero configuration, in the world.
 
         Returns:
-            Unit directions, shape (6, 3), and the steps between points on consecutive axes, shape
-            (7, 3): from the world's origin to the first, …, from the last to the tool centre. This is
+            Unit directions, shape (n, 3), and the steps between points on consecutive axes, shape
+            (n + 1, 3): from the world's origin to the first, …, from the last to the tool centre. This is
             the product-of-exponentials form that the analytic inverse kinematics takes.
         """
         zero = np.zeros(self._model.nq)
-        directions = np.array(self._engine.computeJointJacobians(self._model, self._data, zero))[3:].T
+        jacobian = np.array(self._engine.computeJointJacobians(self._model, self._data, zero))
+        slides = [joint.kind is JointKind.PRISMATIC for joint in self.robot.joints]
+        directions = np.where(np.array(slides)[:, None], jacobian[:3].T, jacobian[3:].T)
         joints = [self._data.oMi[index].translation for index in range(1, self._model.njoints)]
         points = np.array([np.zeros(3), *joints, self._placement(zero).translation])
         return directions, np.diff(points, axis=0)

@@ -33,7 +33,7 @@ def choose_branches(
     over the chain for every choice at its first waypoint at once; ties go to the earlier candidate.
 
     Args:
-        candidates: For each waypoint, configurations in rad, each of shape (6,).
+        candidates: For each waypoint, configurations, each of shape (n,).
         legs: Pairs (from, to) of waypoint indices; each starts where the one before ended, and the
             chain visits every waypoint.
         weights: Weight of each joint in the travel; all one by default.

@@ -29,7 +29,7 @@ class FollowedLine:
     """A straight line of the tool as far as the arm follows it in one branch.
 
     Attributes:
-        configurations_rad: Joint angles, shape (n, 6), from the start on.
+        configurations_rad: Joint positions, shape (k, n), from the start on.
         fraction: Share of the line that they cover.
         broken: What ends it there; None if it is whole.
     """
@@ -52,7 +52,7 @@ def straight_line(
 
     Args:
         inverse: Inverse kinematics of the arm.
-        start: Joint angles in rad at the start, shape (6,).
+        start: Joint positions at the start, shape (n,).
         goal: Transform of the tool-centre frame to the world at the end.
         step_m: Greatest distance of the tool between two rows of the result.
         step_rad: Greatest turn of the tool between two rows of the result.
@@ -60,7 +60,7 @@ def straight_line(
             ends there, as it does at a singularity.
 
     Returns:
-        Joint angles in rad, shape (n, 6), from the start to the goal; None when the line leaves the reach
+        Joint positions, shape (k, n), from the start to the goal; None when the line leaves the reach
         or the joints' ranges, or the branch ends on the way.
     """
     line = follow_line(
@@ -79,6 +79,7 @@ def follow_line(
     start: Sequence[float] | Vector,
     goal: Pose,
     *,
+    goal_configuration: Sequence[float] | Vector | None = None,
     step_m: float = 0.005,
     step_rad: float = 0.02,
     largest_joint_step_rad: float = 0.2,
@@ -87,8 +88,10 @@ def follow_line(
 
     Args:
         inverse: Inverse kinematics of the arm.
-        start: Joint angles in rad at the start, shape (6,).
+        start: Joint positions at the start, shape (n,).
         goal: Transform of the tool-centre frame to the world at the end.
+        goal_configuration: Joint positions at the end, shape (n,). A redundant arm is led to them along the line;
+            for another arm the end follows from the branch.
         step_m: Greatest distance of the tool between two rows of the result.
         step_rad: Greatest turn of the tool between two rows of the result.
         largest_joint_step_rad: Greatest change of a joint between two rows.
@@ -99,7 +102,10 @@ def follow_line(
     turn = _angle(origin.quaternion_xyzw, goal.quaternion_xyzw)
     count = max(1, math.ceil(distance / step_m - 1e-9), math.ceil(turn / step_rad - 1e-9))
     for index in range(1, count + 1):
-        q = inverse.nearest(_between(origin, goal, index / count), rows[-1])
+        near = rows[-1]
+        if goal_configuration is not None and inverse.is_redundant:
+            near = near + (np.asarray(goal_configuration, dtype=float) - near) / (count + 1 - index)
+        q = inverse.nearest(_between(origin, goal, index / count), near)
         broken = LineBreak.UNREACHABLE if q is None else None
         if q is not None and np.max(np.abs(q - rows[-1])) > largest_joint_step_rad:
             broken = LineBreak.BRANCH_ENDS

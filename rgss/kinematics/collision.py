@@ -15,6 +15,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import Part, collision_parts
+from rgss.kinematics.link_contacts import lasting_contacts
 from rgss.scenes import GripperGeometry, Scene
 
 Vector = NDArray[np.float64]
@@ -51,7 +52,8 @@ class CollisionModel:
     """State validity of the arm in a scene, for one situation.
 
     Checked are arm, gripper and carried workpiece against the scene's bodies and the standing
-    workpiece; the links of the arm against each other unless they are neighbours; gripper and carried
+    workpiece; the links of the arm against each other unless they are neighbours or touch however the arm
+    stands; gripper and carried
     workpiece against the arm. Parts that cannot move relative to each other are not checked: the
     gripper and what it holds, the base and the scene.
 
@@ -91,7 +93,7 @@ class CollisionModel:
         margins: list[float] = []
         self._pairs: list[tuple[str, str]] = []
         self._clear: list[int] = []
-        allowed = _checked_pairs(situation, scene, parts)
+        allowed = _checked_pairs(situation, scene, parts) | lasting_contacts(scene.robot)
         for first, one in enumerate(parts):
             for second in range(first + 1, len(parts)):
                 other = parts[second]
@@ -120,7 +122,7 @@ class CollisionModel:
         """True if a configuration keeps the joint ranges, touches nothing and keeps what it carries upright.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         # Plain floats compare several times faster than the elements of an array.
         angles: Sequence[float] = q.tolist() if isinstance(q, np.ndarray) else q
@@ -140,7 +142,7 @@ class CollisionModel:
         """Index of the first configuration that is invalid; None if all are valid.
 
         Args:
-            qs: Joint angles in rad, shape (n, 6), each between two configurations that keep the joint ranges and so
+            qs: Joint positions, shape (k, n), each between two configurations that keep the joint ranges and so
                 within these itself.
         """
         collide, model, data, manager = self._engine.computeCollisions, self._model, self._data, self._manager
@@ -160,7 +162,7 @@ class CollisionModel:
         """Name all pairs of parts that touch, or are nearer than the clearance.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
 
         Returns:
             Pairs of names, each pair and all of them in alphabetical order.
@@ -179,7 +181,7 @@ class CollisionModel:
         """Distance in m between the two parts that are nearest to touching; negative when they overlap.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         return min((float(result.min_distance) for result in self._state.distanceResults), default=float("inf"))
@@ -190,7 +192,7 @@ class CollisionModel:
         Of these pairs the clearance is demanded. The workpiece and the bodies that it stands on by intention are none.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         results = self._state.distanceResults
@@ -200,7 +202,7 @@ class CollisionModel:
         """The pair of parts with the least distance beyond its clearance; None where no pair is checked.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
         pairs = [
@@ -215,7 +217,7 @@ class CollisionModel:
         """Angle between the axis of what is carried and the vertical; None where nothing has to stay upright.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         if self._least_upright is None:
             return None

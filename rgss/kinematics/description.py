@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rgss.errors import DefinitionError
-from rgss.scenes import Pose, Robot
+from rgss.scenes import Pose, Robot, convex_parts
 
 
 def build_model(robot: Robot) -> Any:
@@ -23,7 +23,7 @@ def build_model(robot: Robot) -> Any:
     import pinocchio
 
     try:
-        model = pinocchio.buildModelFromXML(robot.urdf)
+        model = pinocchio.buildModelFromXML(convex_parts(robot.urdf)[0])
     except (ValueError, RuntimeError) as error:
         raise DefinitionError(
             f"the description of the robot {robot.id} cannot be read", hint=str(error).strip() or "it is no URDF"

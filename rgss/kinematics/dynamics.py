@@ -94,12 +94,12 @@ class ArmDynamics:
         """Torques that produce accelerations, by the recursive Newton-Euler algorithm.
 
         Args:
-            q: Joint angles in rad, shape (6,).
-            dq: Joint speeds in rad/s, shape (6,).
-            ddq: Joint accelerations in rad/s², shape (6,).
+            q: Joint positions, shape (n,).
+            dq: Joint speeds in rad/s or m/s, shape (n,).
+            ddq: Joint accelerations in rad/s² or m/s², shape (n,).
 
         Returns:
-            Joint torques in N·m, shape (6,).
+            Joint torques in N·m, or forces in N, shape (n,).
         """
         found: Vector = self._engine.rnea(
             self._model,
@@ -114,7 +114,7 @@ class ArmDynamics:
         """Potential energy of arm and loads in gravity, relative to the world's origin.
 
         Args:
-            q: Joint angles in rad, shape (6,).
+            q: Joint positions, shape (n,).
         """
         return float(self._engine.computePotentialEnergy(self._model, self._data, np.asarray(q, dtype=float)))
 

@@ -5,10 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import transform
-from rgss.scenes import GRIPPER_BASE_LINK, Box, GripperGeometry, Scene, Shape, finger_link
+from rgss.scenes import (
+    GRIPPER_BASE_LINK,
+    Box,
+    ConvexPart,
+    GripperGeometry,
+    Robot,
+    Scene,
+    Shape,
+    convex_parts,
+    finger_link,
+)
+
+# The engine takes its flag by position alone.
+_KEEP_TRIANGLES = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -51,7 +66,7 @@ def collision_parts(
     """
     flange = model.frames[model.getFrameId(scene.robot.flange)]
     joint, to_joint = flange.parentJoint, flange.placement
-    parts = _arm_parts(model, scene)
+    parts = arm_parts(model, scene.robot)
 
     def held(name: str, placement: Any, shape: Shape) -> Part:
         return Part(name=name, chain=joint, joint=joint, placement=to_joint * placement, shape=solid_of(shape))
@@ -72,17 +87,27 @@ def collision_parts(
     return tuple(parts)
 
 
-def _arm_parts(model: Any, scene: Scene) -> list[Part]:
+def arm_parts(model: Any, robot: Robot) -> list[Part]:
+    """List the solids of an arm.
+
+    Args:
+        model: The arm's model in the world.
+        robot: The arm.
+
+    Raises:
+        DefinitionError: A collision shape of the description cannot be read.
+    """
     import pinocchio
 
+    text, convex = convex_parts(robot.urdf)
     try:
-        solids = pinocchio.buildGeomFromUrdfString(model, scene.robot.urdf, pinocchio.GeometryType.COLLISION)
+        solids = pinocchio.buildGeomFromUrdfString(model, text, pinocchio.GeometryType.COLLISION)
     except (ValueError, RuntimeError) as error:
         raise DefinitionError(
-            f"the collision shapes of the robot {scene.robot.id} cannot be read",
+            f"the collision shapes of the robot {robot.id} cannot be read",
             hint=str(error).strip() or "use boxes and cylinders alone",
         ) from error
-    return [
+    primitive = [
         Part(
             name=model.frames[solid.parentFrame].name,
             chain=solid.parentJoint,
@@ -92,6 +117,24 @@ def _arm_parts(model: Any, scene: Scene) -> list[Part]:
         )
         for solid in solids.geometryObjects
     ]
+    return primitive + [_convex_part(model, part) for part in convex]
+
+
+def _convex_part(model: Any, part: ConvexPart) -> Part:
+    import coal
+    import pinocchio
+
+    frame = model.frames[model.getFrameId(part.link, pinocchio.FrameType.BODY)]
+    corners = coal.StdVec_Vec3s()
+    for vertex in part.vertices_m:
+        corners.append(np.array(vertex))
+    return Part(
+        name=part.link,
+        chain=frame.parentJoint,
+        joint=frame.parentJoint,
+        placement=frame.placement * transform(part.pose),
+        shape=coal.ConvexBase.convexHull(corners, _KEEP_TRIANGLES, "Qt"),
+    )
 
 
 def solid_of(shape: Shape) -> Any:

@@ -53,9 +53,9 @@ class ToolKinematics(Protocol):
     """Position and Jacobian of the tool centre."""
 
     def tool_position(self, qs: ArrayLike) -> NDArray[np.float64]:
-        """Positions of the tool centre in m, shape (n, 3), for joint angles in rad, shape (n, 6)."""
+        """Positions of the tool centre in m, shape (k, 3), for joint positions, shape (k, n)."""
         ...
 
     def tool_jacobian(self, q: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]:
-        """Jacobian at the tool centre, shape (6, 6), the linear rows in m/rad first, for joint angles in rad."""
+        """Jacobian at the tool centre, shape (6, n), the linear rows first, for joint positions."""
         ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
@@ -13,6 +13,8 @@ from types import TracebackType
 from typing import Any, BinaryIO, TypeVar
 
 from rgss.errors import SimulationError
+from rgss.physics.hulls import mesh_text
+from rgss.scenes import with_mesh_files
 
 _Owner = TypeVar("_Owner", bound="ClientOwner")
 
@@ -76,10 +78,15 @@ def load_urdf_text(client: int, text: str, *, position: Any, orientation: Any, f
         SimulationError: The engine could not read the description.
     """
     module = pybullet()
-    handle, name = tempfile.mkstemp(suffix=".urdf")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+    with tempfile.TemporaryDirectory() as folder:
+
+        def write_mesh(number: int, corners: Sequence[tuple[float, float, float]]) -> str:
+            path = Path(folder) / f"{number}.obj"
+            path.write_text(mesh_text(corners), encoding="ascii")
+            return str(path)
+
+        name = str(Path(folder) / "robot.urdf")
+        Path(name).write_text(with_mesh_files(text, write_mesh), encoding="utf-8")
         with _engine_output() as output:
             try:
                 body = module.loadURDF(
@@ -90,8 +97,6 @@ def load_urdf_text(client: int, text: str, *, position: Any, orientation: Any, f
                 raise SimulationError(
                     f"the physics engine cannot load the robot: {reasons}", hint="check its URDF"
                 ) from error
-    finally:
-        Path(name).unlink(missing_ok=True)
     return int(body)
 
 

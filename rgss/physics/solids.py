@@ -7,6 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
+
+from rgss.physics.hulls import hull_triangles
 from rgss.scenes import Box, Cylinder
 
 _FACETS = 32
@@ -48,6 +51,19 @@ def box_surface(shape: Box) -> Surface:
                 normals.append((normal[0], normal[1], normal[2]))
             indices += [first, first + 1, first + 2, first, first + 2, first + 3]
     return Surface(vertices_m=tuple(vertices), normals=tuple(normals), indices=tuple(indices))
+
+
+def hull_surface(corners: Sequence[Vector]) -> Surface:
+    """The surface of a convex shape, given by its corners; flat between its edges."""
+    vertices: list[Vector] = []
+    normals: list[Vector] = []
+    for triangle in hull_triangles(corners).tolist():
+        a, b, c = (np.array(corners[index]) for index in triangle)
+        normal = np.cross(b - a, c - a)
+        x, y, z = (normal / np.linalg.norm(normal)).tolist()
+        vertices += [corners[index] for index in triangle]
+        normals += [(x, y, z)] * 3
+    return Surface(vertices_m=tuple(vertices), normals=tuple(normals), indices=tuple(range(len(vertices))))
 
 
 def cylinder_surface(shape: Cylinder) -> Surface:

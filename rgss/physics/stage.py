@@ -15,7 +15,7 @@ from typing import Any
 
 from rgss.errors import SimulationError
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
-from rgss.physics.solids import Surface, box_surface, cup_surface, cylinder_surface
+from rgss.physics.solids import Surface, box_surface, cup_surface, cylinder_surface, hull_surface
 from rgss.scenes import (
     GRIPPER_BASE_LINK,
     Box,
@@ -25,12 +25,14 @@ from rgss.scenes import (
     Scene,
     Shape,
     assembled_urdf,
+    convex_parts,
     finger_joint,
     finger_link,
 )
 
 Colour = Sequence[float]
 
+ARM_COLOUR = (0.78, 0.79, 0.81, 1.0)
 GRIPPER_BASE_COLOUR = (0.22, 0.23, 0.26, 1.0)
 FINGER_COLOUR = (0.96, 0.74, 0.15, 1.0)
 RAIL_COLOUR = (0.45, 0.47, 0.50, 1.0)
@@ -173,6 +175,8 @@ class Stage:
         for _, link, kind, size, _, position, orientation, colour, *_ in engine.getVisualShapeData(
             self._robot, physicsClientId=client
         ):
+            if kind == engine.GEOM_MESH:
+                continue
             shape: Shape = (
                 Box(size_m=tuple(size)) if kind == engine.GEOM_BOX else Cylinder(radius_m=size[1], height_m=size[0])
             )
@@ -180,6 +184,11 @@ class Stage:
             part = self._add(self.moving, _surface(shape), Pose(), colours.get(link, colour))
             self._half_sizes[part] = _half_size(shape)
             self._parts.append((part, link, pose))
+        links[engine.getBodyInfo(self._robot, physicsClientId=client)[0].decode()] = -1
+        for convex in convex_parts(self._scene.robot.urdf)[1]:
+            part = self._add(self.moving, hull_surface(convex.vertices_m), Pose(), ARM_COLOUR)
+            self._half_sizes[part] = _half_extent(convex.vertices_m)
+            self._parts.append((part, links[convex.link], convex.pose))
         self._add_rails(links[GRIPPER_BASE_LINK])
 
     def _add_rails(self, base_link: int) -> None:
@@ -207,6 +216,12 @@ class Stage:
 
 def _surface(shape: Shape) -> Surface:
     return box_surface(shape) if isinstance(shape, Box) else cylinder_surface(shape)
+
+
+def _half_extent(corners: Sequence[tuple[float, float, float]]) -> tuple[float, float, float]:
+    """Half sizes of the box about the origin that holds all corners."""
+    x, y, z = (max(abs(corner[axis]) for corner in corners) for axis in range(3))
+    return x, y, z
 
 
 def _half_size(shape: Shape) -> tuple[float, float, float]:

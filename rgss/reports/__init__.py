@@ -8,5 +8,6 @@ if TYPE_CHECKING:
     from rgss.reports.failure_drivers import case_lines, cases_to_json, driver_lines, drivers_to_json
     from rgss.reports.plain_text import aligned_table
     from rgss.reports.study_page import TrialPictures, study_report_to_html
+    from rgss.reports.workspace import draw_workspace
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

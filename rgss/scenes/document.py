@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import Enum
 from typing import Annotated
 
 from pydantic import Field, StringConstraints
@@ -10,18 +11,20 @@ from rgss.documents import (
     Dimensionless,
     DocumentModel,
     Identifier,
+    JointAcceleration,
+    JointEffort,
+    JointPosition,
+    JointSpeed,
     Kilograms,
     Metres,
     MetresPerSecond,
     MetresPerSecondSquared,
-    NewtonMetres,
     Newtons,
     Radians,
-    RadiansPerSecond,
-    RadiansPerSecondSquared,
     Seconds,
     Text,
 )
+from rgss.scenes.robot import MOST_JOINTS
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, LARGEST_DRAG_M, LARGEST_DROP_M
 from rgss.scenes.uncertainty import CorrelationEntry, DistributionEntry, QuantityName
 
@@ -101,6 +104,8 @@ class RobotPlacementEntry(DocumentModel):
 
     description: Text
     base: Point
+    roll: Radians = 0.0
+    pitch: Radians = 0.0
     yaw: Radians = 0.0
 
 
@@ -123,10 +128,18 @@ class JointEntry(DocumentModel):
     """One joint's limits."""
 
     name: Identifier
-    range: tuple[Radians, Radians]
-    speed: RadiansPerSecond
-    acceleration: RadiansPerSecondSquared
-    torque: NewtonMetres
+    range: tuple[JointPosition, JointPosition]
+    speed: JointSpeed
+    acceleration: JointAcceleration
+    torque: JointEffort
+
+
+class CollisionShapes(str, Enum):
+    """Convex shapes that stand for a mesh in contact and collision checks."""
+
+    HULL = "hull"
+    DECOMPOSE = "decompose"
+    BOXES = "boxes"
 
 
 class RobotDocument(DocumentModel):
@@ -135,11 +148,14 @@ class RobotDocument(DocumentModel):
     robot: Identifier
     description: Text
     flange: Identifier
-    joints: Annotated[tuple[JointEntry, ...], Field(min_length=6, max_length=6)]
+    joints: Annotated[tuple[JointEntry, ...], Field(min_length=1, max_length=MOST_JOINTS)]
     payload: Kilograms
     tool_speed: MetresPerSecond | None = None
     tool_acceleration: MetresPerSecondSquared
-    home: tuple[Radians, Radians, Radians, Radians, Radians, Radians]
+    home: Annotated[tuple[JointPosition, ...], Field(min_length=1, max_length=MOST_JOINTS)]
+    frozen: dict[Identifier, JointPosition] = Field(default_factory=dict)
+    without: tuple[Identifier, ...] = ()
+    collision: CollisionShapes = CollisionShapes.HULL
     assumptions: tuple[AssumptionEntry, ...] = ()
 
 

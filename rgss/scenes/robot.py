@@ -3,13 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
 from rgss.scenes.pose import Pose
+
+MOST_JOINTS = 8
+"""Most joints of an arm."""
+
+
+class JointKind(str, Enum):
+    """Motion of a joint."""
+
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Joint:
-    """One revolute joint of the arm and its limits.
+    """One joint of the arm and its limits.
+
+    The units are those of a revolute joint; of a prismatic joint the range is in m, the speed in m/s, the acceleration
+    in m/s² and the greatest effort a force in N. Where lengths are taken in joint space, a metre counts as a radian.
 
     Attributes:
         name: Its name in the robot description.
@@ -18,6 +32,7 @@ class Joint:
         speed_rad_s: Greatest speed.
         acceleration_rad_s2: Greatest acceleration used for timing.
         torque_n_m: Greatest torque.
+        kind: What its position is: an angle or a displacement.
     """
 
     name: str
@@ -26,6 +41,7 @@ class Joint:
     speed_rad_s: float
     acceleration_rad_s2: float
     torque_n_m: float
+    kind: JointKind = JointKind.REVOLUTE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,11 +59,12 @@ class RobotFile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Robot:
-    """A six-joint arm.
+    """A serial arm.
 
     Attributes:
         id: Its name.
-        urdf: Text of its URDF, from the base to the flange, as engines are given it: primitive shapes only.
+        urdf: Text of its URDF, from the base to the flange, as engines are given it: every
+            joint is one of `joints` or fixed, and every collision shape primitive or convex.
         flange: Name of the link that carries the gripper; z points out of the flange.
         joints: The joints from base to flange.
         base: Transform of the arm's base frame to the world.

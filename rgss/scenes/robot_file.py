@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -11,8 +10,9 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location, named_file_findings, not_positive, too_slow
+from rgss.scenes.joint_units import home_findings, unit_findings
 from rgss.scenes.pose import Pose
-from rgss.scenes.robot import Joint, Robot
+from rgss.scenes.robot import Joint, JointKind, Robot
 from rgss.scenes.urdf_file import ReadUrdf, read_urdf
 
 
@@ -30,12 +30,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
     """
     loaded = load_document(path, RobotDocument, label=label)
     entry, document = loaded.value, loaded.document
-    findings = [
-        document.finding("scene.range", f"joint {joint.name!r} has an empty range", ("joints", index, "range"))
-        for index, joint in enumerate(entry.joints)
-        if joint.range[0] >= joint.range[1]
-    ]
-    findings.extend(_repeated_joints(entry, document))
+    findings = [*_empty_ranges(entry, document), *_repeated_joints(entry, document)]
     findings.extend(
         not_positive(
             document,
@@ -43,9 +38,9 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
                 (("joints", index, key), value)
                 for index, joint in enumerate(entry.joints)
                 for key, value in (
-                    ("speed", joint.speed),
-                    ("acceleration", joint.acceleration),
-                    ("torque", joint.torque),
+                    ("speed", joint.speed.value),
+                    ("acceleration", joint.acceleration.value),
+                    ("torque", joint.torque.value),
                 )
             ),
         )
@@ -56,11 +51,13 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
     if entry.tool_speed is not None:
         speed: list[tuple[Location, float]] = [(("tool_speed",), entry.tool_speed)]
         findings.extend((*not_positive(document, speed), *too_slow(document, speed)))
-    findings.extend(_home_findings(entry, document))
+    findings.extend(home_findings(entry, document))
     top = path.parent if project is None else project
     problems = list(named_file_findings(document, entry.description, ("description",), folder=path.parent, project=top))
     urdf = ReadUrdf() if problems else read_urdf(path.parent / entry.description, document, entry, project=top)
     findings.extend((*problems, *urdf.findings))
+    if not problems and not urdf.findings:
+        findings.extend(unit_findings(entry, document, urdf.kinds))
     if findings:
         raise DocumentError(sorted(findings))
     return Robot(
@@ -70,40 +67,29 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         joints=tuple(
             Joint(
                 name=joint.name,
-                lower_rad=joint.range[0],
-                upper_rad=joint.range[1],
-                speed_rad_s=joint.speed,
-                acceleration_rad_s2=joint.acceleration,
-                torque_n_m=joint.torque,
+                lower_rad=joint.range[0].value,
+                upper_rad=joint.range[1].value,
+                speed_rad_s=joint.speed.value,
+                acceleration_rad_s2=joint.acceleration.value,
+                torque_n_m=joint.torque.value,
+                kind=urdf.kinds[joint.name] or JointKind.REVOLUTE,
             )
             for joint in entry.joints
         ),
         base=base,
         payload_kg=entry.payload,
         tool_acceleration_m_s2=entry.tool_acceleration,
-        home_rad=entry.home,
+        home_rad=tuple(position.value for position in entry.home),
         files=urdf.files,
         tool_speed_m_s=entry.tool_speed,
     )
 
 
-def _home_findings(entry: RobotDocument, document: Document) -> Iterable[Finding]:
-    """A finding for each joint whose home position is outside its range."""
-    for index, (joint, home) in enumerate(zip(entry.joints, entry.home, strict=True)):
-        lower, upper = joint.range
-        if lower >= upper or lower <= home <= upper:
-            continue
-        side, limit = ("below its lower", lower) if home < lower else ("above its upper", upper)
-        yield document.finding(
-            "scene.home",
-            f"home of joint {joint.name!r} is {_degrees(home)}, {side} limit of {_degrees(limit)}",
-            ("home", index),
-            hint=f"give a position from {_degrees(lower)} to {_degrees(upper)}",
-        )
-
-
-def _degrees(angle_rad: float) -> str:
-    return f"{math.degrees(angle_rad):.6g} deg"
+def _empty_ranges(entry: RobotDocument, document: Document) -> Iterable[Finding]:
+    for index, joint in enumerate(entry.joints):
+        if joint.range[0].value >= joint.range[1].value:
+            message = f"joint {joint.name!r} has an empty range"
+            yield document.finding("scene.range", message, ("joints", index, "range"))
 
 
 def _repeated_joints(entry: RobotDocument, document: Document) -> Iterable[Finding]:

@@ -96,7 +96,7 @@ def _robot(
         findings.extend(problems)
         return None
     robot_path = path.parent / placement.description
-    base = Pose.from_roll_pitch_yaw(placement.base, (0.0, 0.0, placement.yaw))
+    base = Pose.from_roll_pitch_yaw(placement.base, (placement.roll, placement.pitch, placement.yaw))
     label = (Path(document.label).parent / placement.description).as_posix()
     try:
         return load_robot(robot_path, base=base, label=label, project=project)

@@ -6,15 +6,16 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rgss.documents import Document
 from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
-from rgss.scenes.robot import RobotFile
-from rgss.scenes.urdf_meshes import files_of, without_meshes
+from rgss.scenes.robot import JointKind, RobotFile
+from rgss.scenes.urdf_chain import chain_problems, kind_of, loads_without_inertia, settle
+from rgss.scenes.urdf_meshes import embed_collision_meshes, files_of, without_meshes
 
 _LARGEST_BYTES = 1024 * 1024
 _DEEPEST_NESTING = 40
@@ -32,6 +33,7 @@ _NUMBERS: Mapping[str, Mapping[str, int]] = {
     "box": {"size": 3},
     "cylinder": {"radius": 1, "length": 1},
     "sphere": {"radius": 1},
+    "mesh": {"scale": 3},
 }
 _COMPLETE = frozenset({"mass", "inertia", "box", "cylinder", "sphere"})
 _POSITIVE = frozenset({"mass", "box", "cylinder", "sphere"})
@@ -44,11 +46,13 @@ class ReadUrdf:
     Attributes:
         text: Its text as engines are given it; of use only when there are no findings.
         files: The meshes and textures that it names.
+        kinds: Kind of each joint by its name; None for one that can be no joint of an arm.
         findings: Every problem found.
     """
 
     text: str = ""
     files: tuple[RobotFile, ...] = ()
+    kinds: Mapping[str, JointKind | None] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
 
 
@@ -68,12 +72,23 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
         message = f"{shown(entry.description)} {error.problem}"
         return ReadUrdf(findings=(document.finding("scene.urdf", message, ("description",), hint=error.hint),))
     label = (Path(document.label).parent / entry.description).as_posix()
-    files, file_findings = files_of(text, path, project=project, label=label)
+    named = files_of(text, path, project=project, label=label)
     findings = [
         document.finding("scene.urdf", f"{shown(entry.description)} {problem}", location, hint=hint)
         for problem, location, hint in _problems(root, entry)
     ]
-    return ReadUrdf(text=without_meshes(text), files=files, findings=(*findings, *file_findings))
+    if findings or named.findings:
+        return ReadUrdf(findings=(*findings, *named.findings))
+    kinds = {joint.get("name", ""): kind_of(joint) for joint in root.findall("joint")}
+    changed = settle(root, entry)
+    if any(collision.find("geometry/mesh") is not None for collision in root.iter("collision")):
+        changed = True
+        findings += [
+            document.finding("scene.mesh", problem, ("description",), hint=hint)
+            for problem, hint in embed_collision_meshes(root, named, entry.collision)
+        ]
+    settled = ET.tostring(root, encoding="unicode") if changed else text
+    return ReadUrdf(text=without_meshes(settled), files=named.files, kinds=kinds, findings=tuple(findings))
 
 
 class _UrdfError(Exception):
@@ -125,12 +140,11 @@ def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Loc
     for index, joint in enumerate(entry.joints):
         if joint.name not in joints:
             yield f"has no joint {joint.name!r}", ("joints", index, "name"), "name the joints as the URDF does"
-    carried = {child.get("link", "") for child in root.findall("joint/child")}
-    for name, link in links.items():
-        if name in carried and not (link.findall("inertial/mass") and link.findall("inertial/inertia")):
-            # One engine would silently assume one kilogram, another none.
-            hint = "give it an <inertial> with both; a mere frame may weigh a gram"
-            yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint
+    yield from chain_problems(root, entry)
+    for name in loads_without_inertia(root):
+        # One engine would silently assume one kilogram, another none.
+        hint = "give it an <inertial> with both; a frame that is fixed and has no collision shape needs none"
+        yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint
     yield from _number_problems(root)
 
 
@@ -141,6 +155,9 @@ def _number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
                 text = element.get(attribute)
                 if text is None and element.tag not in _COMPLETE:
                     continue
+                if element.tag == "mass" and _is_zero(text):
+                    # Of what needs a mass, it was reported; a base or a frame may be written without.
+                    continue
                 positive = element.tag in _POSITIVE
                 if text is None or not _are_numbers(text, count, positive=positive):
                     found = f"no {attribute}" if text is None else f"{attribute}={shown(text)}"
@@ -150,6 +167,10 @@ def _number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
                         ("description",),
                         f"write {wanted}{' greater than zero' if positive else ''}",
                     )
+
+
+def _is_zero(text: str | None) -> bool:
+    return text is not None and bool(_NUMBER.fullmatch(text.strip())) and float(text) == 0.0
 
 
 def _are_numbers(text: str, count: int, *, positive: bool) -> bool:

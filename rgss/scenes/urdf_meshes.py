@@ -1,20 +1,24 @@
 """Files that a URDF names: meshes and textures, found inside the project and digested by their content.
 
-A mesh of a collision shape is refused until contact and collision checks with meshes are validated.
-A mesh that is only looked at is an input of every trial by its content, and takes part in no simulation.
+A mesh is an input of every trial by its content. One of a collision shape is simulated by convex shapes; one that is
+only looked at takes part in no simulation.
 """
 
 from __future__ import annotations
 
 import copy
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from xml.parsers import expat
 
 from rgss.documents import FilePlace, content_digest, place_of
+from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity, shown
+from rgss.scenes.convex_shapes import convex_element
+from rgss.scenes.document import CollisionShapes
+from rgss.scenes.mesh_shapes import shapes_of_mesh
 from rgss.scenes.robot import RobotFile
 
 LARGEST_MESH_BYTES = 256 * 1024 * 1024
@@ -30,19 +34,32 @@ class _Named:
     Attributes:
         tag: ``mesh`` or ``texture``.
         name: The file's name as the URDF has it; None if the element has none.
-        collides: Whether it is within a collision shape.
         line: Line of the element, from 1.
         column: Column of the element, from 1.
     """
 
     tag: str
     name: str | None
-    collides: bool
     line: int
     column: int
 
 
-def files_of(text: str, path: Path, *, project: Path, label: str) -> tuple[tuple[RobotFile, ...], tuple[Finding, ...]]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedFiles:
+    """The files that a URDF names.
+
+    Attributes:
+        files: Each with its digest, in the order of the names.
+        paths: Where each is, by its name.
+        findings: What is wrong.
+    """
+
+    files: tuple[RobotFile, ...]
+    paths: Mapping[str, Path]
+    findings: tuple[Finding, ...]
+
+
+def files_of(text: str, path: Path, *, project: Path, label: str) -> NamedFiles:
     """Find and digest the files that a URDF names.
 
     Args:
@@ -51,10 +68,9 @@ def files_of(text: str, path: Path, *, project: Path, label: str) -> tuple[tuple
         project: The folder that no name may lead out of.
         label: The URDF's name in messages.
 
-    Returns:
-        The files in the order of their names, and what is wrong.
     """
     found: dict[str, RobotFile] = {}
+    paths: dict[str, Path] = {}
     findings: list[Finding] = []
     for named in _named_files(text):
 
@@ -79,12 +95,6 @@ def files_of(text: str, path: Path, *, project: Path, label: str) -> tuple[tuple
         if target is None:
             report(f"{what} {problem}", hint)
             continue
-        if named.collides:
-            report(
-                f"{what} is a collision shape, and collisions with meshes are not simulated",
-                "replace it with boxes, cylinders or spheres; a mesh may stay in <visual>",
-            )
-            continue
         try:
             digest = content_digest(target, largest_bytes=LARGEST_MESH_BYTES)
         except OSError as error:
@@ -94,7 +104,44 @@ def files_of(text: str, path: Path, *, project: Path, label: str) -> tuple[tuple
             report(f"{what} is larger than {LARGEST_MESH_BYTES // 1024**2} MiB", "simplify it")
             continue
         found[named.name] = RobotFile(name=named.name, sha256=digest)
-    return tuple(found[name] for name in sorted(found)), tuple(findings)
+        paths[named.name] = target
+    files = tuple(found[name] for name in sorted(found))
+    return NamedFiles(files=files, paths=paths, findings=tuple(findings))
+
+
+def embed_collision_meshes(root: ET.Element, named: NamedFiles, how: CollisionShapes) -> Iterable[tuple[str, str]]:
+    """Put convex shapes in the place of collision meshes.
+
+    Args:
+        root: The URDF; it is changed.
+        named: The files that it names, all of them found.
+        how: What stands for a mesh.
+
+    Yields:
+        What is wrong with a mesh, and how to mend it.
+    """
+    digests = {file.name: file.sha256 for file in named.files}
+    for link in root.findall("link"):
+        for collision in link.findall("collision"):
+            mesh = collision.find("geometry/mesh")
+            if mesh is None:
+                continue
+            name = mesh.get("filename", "")
+            x, y, z = (float(word) for word in mesh.get("scale", "1 1 1").split())
+            try:
+                shapes = shapes_of_mesh(named.paths[name], sha256=digests[name], scale=(x, y, z), how=how)
+            except DefinitionError as error:
+                yield f"the collision mesh {shown(name)} of {shown(link.get('name', ''))}: {error.message}", error.hint
+                continue
+            at = list(link).index(collision)
+            link.remove(collision)
+            for vertices in reversed(shapes):
+                shape = copy.deepcopy(collision)
+                geometry = shape.find("geometry")
+                if geometry is not None:
+                    geometry.clear()
+                    geometry.append(convex_element(vertices))
+                link.insert(at, shape)
 
 
 def without_meshes(text: str) -> str:
@@ -121,7 +168,6 @@ def without_meshes(text: str) -> str:
 def _named_files(text: str) -> Iterable[_Named]:
     """The elements of a URDF that name a file, with their positions, which ElementTree does not keep."""
     found: list[_Named] = []
-    open_elements: list[str] = []
     parser = expat.ParserCreate()
 
     def start(tag: str, attributes: dict[str, str]) -> None:
@@ -130,15 +176,12 @@ def _named_files(text: str) -> Iterable[_Named]:
                 _Named(
                     tag=tag,
                     name=attributes.get("filename"),
-                    collides="collision" in open_elements,
                     line=parser.CurrentLineNumber,
                     column=parser.CurrentColumnNumber + 1,
                 )
             )
-        open_elements.append(tag)
 
     parser.StartElementHandler = start
-    parser.EndElementHandler = lambda _: open_elements.pop()
     parser.Parse(text.encode("utf-8"))
     return found
 

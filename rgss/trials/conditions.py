@@ -155,7 +155,8 @@ def nominal_conditions(spec: TrialSpec) -> Conditions:
 @lru_cache(maxsize=_KEPT)
 def _conditions_of(spec: TrialSpec) -> Conditions:
     nominal = nominal_conditions(spec)
-    draws = draws_of(spec.uncertainty, spec.seed) if spec.uncertainty.values else _NO_DRAWS
+    joints = len(spec.scene.robot.joints)
+    draws = draws_of(spec.uncertainty, spec.seed, joints=joints) if spec.uncertainty.values else _NO_DRAWS
     changes: dict[str, float | tuple[float, ...]] = {}
     for quantity in QUANTITIES.values():
         drawn = [draws[name] for name in quantity.draw_names if name in draws]

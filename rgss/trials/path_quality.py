@@ -56,13 +56,19 @@ def manipulability(arm: Arm, q: Array) -> float:
     """Manipulability √det(J Jᵀ) of a configuration in m³ (Yoshikawa 1985); 0 at a singularity.
 
     J is the Jacobian at the grasp centre, of which three rows are in m/rad and three in rad/rad. An arm of six joints
-    has a square one, so that the value is |det J|.
+    has a square one, so that the value is |det J|. An arm of fewer joints moves the tool in fewer directions: the value
+    is √det(Jᵀ J).
 
     Args:
         arm: Kinematics of the tool.
-        q: Joint angles in rad, shape (6,).
+        q: Joint positions, shape (n,).
     """
-    return abs(float(np.linalg.det(arm.tool_jacobian(q))))
+    jacobian = arm.tool_jacobian(q)
+    rows, columns = jacobian.shape
+    if rows == columns:
+        return abs(float(np.linalg.det(jacobian)))
+    square = jacobian @ jacobian.T if columns > rows else jacobian.T @ jacobian
+    return math.sqrt(max(0.0, float(np.linalg.det(square))))
 
 
 def _least(trajectory: SampledTrajectory, value: Callable[[Array], float]) -> float:

@@ -20,14 +20,14 @@ class SampledTrajectory(Protocol):
         """Its length in time."""
 
     def positions(self, times_s: Array) -> Array:
-        """Joint positions (n, 6) at times (n,)."""
+        """Joint positions (k, n) at times (k,)."""
 
 
 class ToolPositions(Protocol):
     """Forward kinematics of the tool position."""
 
     def tool_position(self, configurations_rad: Array) -> Array:
-        """Positions (n, 3) of the grasp centre in the world for configurations (n, 6)."""
+        """Positions (k, 3) of the grasp centre in the world for configurations (k, n)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,8 +35,8 @@ class Reference:
     """Targets for each step of a move, and what the tool does along it.
 
     Attributes:
-        positions_rad: Joint positions (n + 1, 6), the first at the start.
-        velocities_rad_s: Mean joint velocities (n, 6) over each step.
+        positions_rad: Joint positions (k + 1, n), the first at the start.
+        velocities_rad_s: Mean joint velocities (k, n) over each step.
         tool_m: Tool positions (n + 1, 3) in the world.
         load_m_s2: Magnitude (n,) of tool acceleration minus gravity over each step: the load
             that a grasp carries for each kilogram.

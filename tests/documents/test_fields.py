@@ -24,6 +24,12 @@ QUANTITIES = {
     "Hertz": ("0.24 kHz", 240.0),
     "Dimensionless": ("95 %", 0.95),
 }
+JOINT_QUANTITIES = {
+    "JointPosition": (("180 deg", math.pi), ("120 mm", 0.12)),
+    "JointSpeed": (("90 deg/s", math.pi / 2), ("500 mm/s", 0.5)),
+    "JointAcceleration": (("90 deg/s^2", math.pi / 2), ("9.81 m/s²", 9.81)),
+    "JointEffort": (("330 N*m", 330.0), ("1.5 kN", 1500.0)),
+}
 
 
 def adapter(name):
@@ -42,6 +48,7 @@ def test_every_field_is_tested():
         "Document",
         "DocumentModel",
         "Identifier",
+        "JointQuantity",
         "LoadedDocument",
         "QuantityText",
         "ReadFrom",
@@ -50,7 +57,17 @@ def test_every_field_is_tested():
     }
     of_fields = {name for name in vars(documents) if hasattr(fields, name) and not name.islower() and name[0] != "_"}
 
-    assert of_fields - others == set(QUANTITIES)
+    assert of_fields - others == {*QUANTITIES, *JOINT_QUANTITIES}
+
+
+@pytest.mark.parametrize(("name", "cases"), JOINT_QUANTITIES.items())
+def test_the_unit_of_a_joints_quantity_says_whether_it_turns_or_slides(name, cases):
+    found = [adapter(name).validate_python(text) for text, _ in cases]
+    assert [(one.value, one.is_linear) for one in found] == [
+        (pytest.approx(value), linear) for (_, value), linear in zip(cases, (False, True), strict=True)
+    ]
+    assert refusal(name, "3 kg")["type"] == "quantity"
+    assert "or of a joint that slides in" in adapter(name).json_schema()["description"]
 
 
 @pytest.mark.parametrize(("name", "text", "value"), [(name, *case) for name, case in QUANTITIES.items()])

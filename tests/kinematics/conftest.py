@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rgss.kinematics import Arm, InverseKinematics
+from rgss.kinematics import Arm, inverse_kinematics
 from rgss.scenes import (
     Box,
     Cylinder,
@@ -147,7 +147,7 @@ def arm(robot, gripper):
 
 @pytest.fixture(scope="session")
 def inverse(arm):
-    return InverseKinematics(arm)
+    return inverse_kinematics(arm)
 
 
 @pytest.fixture

@@ -7,7 +7,9 @@ from dataclasses import replace
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.kinematics import Arm, InverseKinematics
+from rgss.kinematics import Arm, inverse_kinematics
+from rgss.kinematics.analytic_inverse import AnalyticInverse
+from rgss.kinematics.numerical_inverse import NumericalInverse
 from rgss.scenes import Pose
 
 
@@ -39,7 +41,9 @@ def test_an_arm_whose_inverse_kinematics_are_not_analytic(new_robot):
         '<origin xyz="-0.612 0 0" rpy="0 0 0"/>', '<origin xyz="-0.612 0.1 0.05" rpy="0.4 0.3 0"/>'
     )
     twisted = twisted.replace('<origin xyz="-0.5723 0 0" rpy="0 0 0"/>', '<origin xyz="-0.5 0 0.1" rpy="0.5 0.2 0"/>')
+    arm = Arm(new_robot(urdf=twisted), Pose())
     with pytest.raises(DefinitionError) as caught:
-        InverseKinematics(Arm(new_robot(urdf=twisted), Pose()))
+        AnalyticInverse(arm)
     assert caught.value.message == "the robot ur10 has no known analytic inverse kinematics"
-    assert caught.value.hint == "use an arm with a spherical wrist or three parallel axes"
+    assert caught.value.hint == "use an arm with a spherical wrist or three parallel axes, or the numerical one"
+    assert isinstance(inverse_kinematics(arm), NumericalInverse)

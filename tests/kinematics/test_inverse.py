@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.kinematics import Arm, InverseKinematics
-from rgss.kinematics.inverse import TOLERANCE
+from rgss.kinematics import Arm, inverse_kinematics
+from rgss.kinematics.configurations import TOLERANCE
 from rgss.scenes import Pose
 
 DOWN = Pose.from_roll_pitch_yaw((0.7, -0.3, 0.95), (math.pi, 0.0, 0.0))
@@ -43,7 +43,7 @@ def test_a_generic_pose_has_eight_branches(inverse):
 @pytest.mark.verifies("SYS-035")
 def test_branches_equal_those_of_an_independent_solver(robot, reference):
     arm = Arm(replace(robot, base=Pose()), Pose())
-    inverse = InverseKinematics(arm)
+    inverse = inverse_kinematics(arm)
     counts = set()
     for each in reference:
         ours = directions(inverse.solve(arm.tool_pose(np.array(each["configuration_rad"]))))
@@ -68,10 +68,10 @@ def test_whole_turns_within_the_ranges_are_all_there_and_none_beyond(inverse, ro
 
 def test_narrow_ranges_leave_the_branches_that_fit(new_robot, robot, gripper, inverse):
     joints = tuple(replace(joint, lower_rad=-math.pi, upper_rad=math.pi) for joint in robot.joints)
-    narrow = InverseKinematics(Arm(new_robot(joints=joints), gripper.grasp_centre))
+    narrow = inverse_kinematics(Arm(new_robot(joints=joints), gripper.grasp_centre))
     assert len(narrow.solve(DOWN)) == 8
     elbow_up = tuple(replace(joint, lower_rad=0.0) if joint.name == "elbow_joint" else joint for joint in joints)
-    assert len(InverseKinematics(Arm(new_robot(joints=elbow_up), gripper.grasp_centre)).solve(DOWN)) == 4
+    assert len(inverse_kinematics(Arm(new_robot(joints=elbow_up), gripper.grasp_centre)).solve(DOWN)) == 4
 
 
 def test_solutions_are_in_lexicographic_order_and_the_same_every_time(inverse):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rgss.kinematics.inverse import TOLERANCE
+from rgss.kinematics.configurations import TOLERANCE
 
 RECORD = Path(__file__).parent / "ur10_reference.json"
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rgss.kinematics import Arm, CollisionContext, CollisionModel, InverseKinematics
+from rgss.kinematics import Arm, CollisionContext, CollisionModel, InverseKinematics, inverse_kinematics
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, Pose, Scene, load_gripper, load_scene
 
@@ -106,7 +106,7 @@ def cell_with(fingers: int) -> Cell:
         friction=0.7,
     )
     arm = Arm(scene.robot, geometry.grasp_centre)
-    inverse = InverseKinematics(arm)
+    inverse = inverse_kinematics(arm)
     situation = CollisionContext(opening_m=geometry.largest_opening_m, standing=scene.workpiece.pose)
     collision = CollisionModel(scene, geometry, situation)
     free = [q for q in inverse.solve(scene.grasp) if collision.is_valid(q)]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rgss.kinematics import Arm, InverseKinematics
+from rgss.kinematics import Arm, inverse_kinematics
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, load_gripper, load_scene
 
@@ -25,7 +25,7 @@ def digest(fingers: int) -> str:
         finger_force_n=10.0,
         friction=0.7,
     )
-    inverse = InverseKinematics(Arm(scene.robot, geometry.grasp_centre))
+    inverse = inverse_kinematics(Arm(scene.robot, geometry.grasp_centre))
     down = inverse.nearest(scene.grasp, scene.robot.home_rad)
     up = inverse.nearest(scene.grasp.raised(0.1), down)
     content = hashlib.sha256()

@@ -28,6 +28,9 @@ OWN_WRITERS = {
     "rgss/documents/output_files.py",
     "rgss/physics/engine.py",
     "rgss/exchange/applying.py",
+    "rgss/studies/robot_project/draft.py",
+    "rgss/studies/robot_project/fitting.py",
+    "rgss/studies/robot_project/writing.py",
     "rgss/studies/scaffolding.py",
     "rgss/sweep/worker_process.py",
 }

@@ -61,11 +61,14 @@ def test_a_joint_that_stands_twice_is_found(kitchen):
     )
 
 
-def test_six_joints_are_needed(kitchen):
+def test_a_joint_that_is_left_out_is_named(kitchen):
     text = kitchen.texts["robots/six.yaml"]
     line = next(line for line in text.splitlines() if "joint_6" in line)
     kitchen.change("robots/six.yaml", line + "\n", "")
-    assert any("at least 6 entries are expected" in finding for finding in kitchen.findings("robot"))
+    found = kitchen.findings("robot")
+    assert any("home has 6 positions, and there are 5 joints" in finding for finding in found)
+    names = ", ".join(f"joint_{number}" for number in range(1, 7))
+    assert any(f"the movable joints {names}" in finding for finding in found)
 
 
 def test_all_problems_come_at_once(kitchen):
@@ -161,15 +164,13 @@ def test_a_mesh_that_is_only_seen_is_an_input_by_its_content(kitchen, name):
     assert first.urdf.count("<cylinder") == kitchen.texts["robots/six.urdf"].count("<cylinder") + 1
 
 
-def test_a_mesh_that_collides_is_refused_at_its_place_in_the_urdf(kitchen):
+def test_a_mesh_that_collides_but_is_none_is_found(kitchen):
     (kitchen.folder / "robots").mkdir()
     (kitchen.folder / "robots/part.stl").write_bytes(b"solid")
     with_mesh(kitchen, '<collision><geometry>\n <mesh filename="part.stl"/></geometry></collision></link>')
     (finding,) = kitchen.findings("robot")
-    assert finding == (
-        "robots/six.urdf:3:2 scene.mesh the mesh 'part.stl' is a collision shape, and collisions with meshes are not "
-        "simulated (replace it with boxes, cylinders or spheres; a mesh may stay in <visual>)"
-    )
+    assert "scene.mesh the collision mesh 'part.stl' of 'base': part.stl " in finding
+    assert "(use STL, OBJ or PLY)" in finding
 
 
 @pytest.mark.parametrize(

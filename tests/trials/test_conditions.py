@@ -81,7 +81,7 @@ def test_all_designs_have_the_same_draws(spec_of):
     two, three = (replace(spec_of(variant, 5), uncertainty=uncertainty) for variant in (30, 12))
 
     assert two.gripper.geometry.fingers != three.gripper.geometry.fingers
-    assert conditions_of(two).draws == conditions_of(three).draws == draws_of(uncertainty, 5)
+    assert conditions_of(two).draws == conditions_of(three).draws == draws_of(uncertainty, 5, joints=6)
     assert conditions_of(two).draws != conditions_of(replace(two, seed=6)).draws
 
 

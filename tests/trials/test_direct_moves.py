@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rgss.evidence import PLANNED_PHASES, Failure, Fidelity, Phase, PlanOutcome
-from rgss.kinematics import InverseKinematics
+from rgss.kinematics import inverse_kinematics
 from rgss.motion import ClockKind, PlanningClock
 from rgss.scenes import Waypoint, waypoint_poses
 from rgss.trials.move_kinds import MoveKind
@@ -140,7 +140,7 @@ class Ends:
 
     def __init__(self, spec, planned):
         self.cell = cell_of(spec)
-        self.inverse = InverseKinematics(self.cell.arm)
+        self.inverse = inverse_kinematics(self.cell.arm)
         self.poses = waypoint_poses(self.cell.scene)
         self.start, self.goal = planned.moves[Phase.MOVE_TO_GRASP].path_rad[[0, -1]]
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rgss.evidence import Failure, Phase
-from rgss.kinematics import Arm, CollisionContext, CollisionModel, InverseKinematics
+from rgss.kinematics import Arm, CollisionContext, CollisionModel, inverse_kinematics
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, load_gripper, load_scene
 from rgss.trials.execution import Execution
@@ -63,7 +63,7 @@ class Lift:
         self.scene = load_scene(SCENES / "restaurant.yaml")
         self.geometry = load_gripper(SCENES / "grippers" / f"kg-{fingers}.yaml")
         self.arm = Arm(self.scene.robot, self.geometry.grasp_centre)
-        self.inverse = InverseKinematics(self.arm)
+        self.inverse = inverse_kinematics(self.arm)
         standing = CollisionContext(opening_m=self.geometry.largest_opening_m, standing=self.scene.workpiece.pose)
         free = CollisionModel(self.scene, self.geometry, standing)
         home = np.array(self.scene.robot.home_rad)

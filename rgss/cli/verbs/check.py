@@ -71,6 +71,7 @@ def _check(options: argparse.Namespace) -> int:
         unread_findings,
         unused_findings,
     )
+    from rgss.studies.robot_project import robot_findings
 
     skipped = ""
     folder = find_project(options.project)
@@ -89,6 +90,7 @@ def _check(options: argparse.Namespace) -> int:
             *impact_findings(project),
             *assumption_findings(project),
             *scene.findings,
+            *robot_findings(project),
             *_findings(project, options),
         )
     except DocumentError as error:

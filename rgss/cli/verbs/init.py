@@ -7,13 +7,22 @@ from pathlib import Path
 
 HELP = "make a new project: one scene, four designs, requirements that trace to them"
 EXAMPLE = "rgss init my_project"
-MORE_EXAMPLES = (("rgss init", "in the current folder, which keeps what it has"),)
+MORE_EXAMPLES = (
+    ("rgss init", "in the current folder, which keeps what it has"),
+    ("rgss init --robot my_arm.urdf my_project", "round an arm of which there is a URDF"),
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     parser.add_argument(
         "folder", nargs="?", type=Path, default=Path(), metavar="FOLDER", help="the new folder (default: this one)"
+    )
+    parser.add_argument(
+        "--robot", type=Path, metavar="URDF", help="make it round this arm; the URDF and its meshes are copied"
+    )
+    parser.add_argument(
+        "--flange", metavar="LINK", help="with --robot: the link that carries the gripper (default: the arm's last)"
     )
 
 
@@ -29,7 +38,9 @@ def run(options: argparse.Namespace) -> int:
     folder: Path = options.folder
     if options.project is not None:
         raise DefinitionError("--project names a project that is there", hint=f"rgss init {options.project}")
-    files = write_scaffold(folder)
+    if options.flange is not None and options.robot is None:
+        raise DefinitionError("--flange names a link of a URDF", hint="give the URDF with --robot")
+    files = write_scaffold(folder) if options.robot is None else _robot_files(options)
     if options.json:
         print_json({"folder": str(folder), "files": list(files)})
         return CLEAN
@@ -41,3 +52,11 @@ def run(options: argparse.Namespace) -> int:
     print("  rgss sweep     # run the trials in simulation")
     print("  rgss trade     # which design is best, and why")
     return CLEAN
+
+
+def _robot_files(options: argparse.Namespace) -> tuple[str, ...]:
+    from rgss.engines import require_engines
+    from rgss.studies.robot_project import write_robot_project
+
+    require_engines("rgss init --robot")
+    return write_robot_project(options.robot, options.folder, flange=options.flange)

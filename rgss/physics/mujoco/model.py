@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import SimulationError
-from rgss.physics.mujoco.robot_links import RobotLink, read_links
+from rgss.physics.mujoco.robot_links import Corners, RobotLink, read_links
 from rgss.physics.mujoco.solids import Capsule, Solid, finger_solids
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene
@@ -113,8 +113,8 @@ class _Builder:
             "ccd_iterations": "100",
         }
         ET.SubElement(ET.SubElement(self.root, "option", option), "flag", {"multiccd": "enable"})
-        self._world, self._contact, self._equality, self._actuator = (
-            ET.SubElement(self.root, part) for part in ("worldbody", "contact", "equality", "actuator")
+        self._asset, self._world, self._contact, self._equality, self._actuator = (
+            ET.SubElement(self.root, part) for part in ("asset", "worldbody", "contact", "equality", "actuator")
         )
 
     def add_scene(self) -> None:
@@ -181,6 +181,10 @@ class _Builder:
         for index, (shape, at) in enumerate(link.shapes):
             name = f"link:{link.name}:{index}"
             self.links[name] = link.name
+            if isinstance(shape, tuple):
+                # The engine keeps a mesh about its centre of mass and places a geom of it as its file has it.
+                corners = " ".join(_numbers(corner) for corner in shape)
+                ET.SubElement(self._asset, "mesh", {"name": name, "vertex": corners})
             _add_geom(body, name, shape, at, touches=_MACHINE)
         if link.joint:
             kind = {"type": "slide"} if link.is_prismatic else {}
@@ -242,17 +246,20 @@ def _add_inertial(
     ET.SubElement(body, "inertial", attributes)
 
 
-def _add_geom(parent: ET.Element, name: str, shape: Solid, pose: Pose, *, touches: tuple[int, int]) -> None:
+def _add_geom(parent: ET.Element, name: str, shape: Solid | Corners, pose: Pose, *, touches: tuple[int, int]) -> None:
     if isinstance(shape, Box):
         kind, size = "box", [edge / 2 for edge in shape.size_m]
     elif isinstance(shape, Cylinder):
         kind, size = "cylinder", [shape.radius_m, shape.half_height_m]
     elif isinstance(shape, Capsule):
         kind, size = "capsule", [shape.radius_m, shape.half_length_m]
+    elif isinstance(shape, tuple):
+        kind, size = "mesh", []
     else:
         kind, size = "sphere", [shape]
     own, others = touches
-    attributes = {"name": name, "type": kind, "size": _numbers(size)}
+    extent = {"mesh": name} if kind == "mesh" else {"size": _numbers(size)}
+    attributes = {"name": name, "type": kind, **extent}
     bits = {"contype": str(own), "conaffinity": str(others)}
     ET.SubElement(parent, "geom", {**attributes, **bits, **_placed(pose)})
 

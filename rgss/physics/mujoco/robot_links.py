@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import SimulationError
-from rgss.scenes import Box, Cylinder, Pose, Shape
+from rgss.scenes import Box, Cylinder, Pose, Shape, vertices_of
 
 Vector3 = tuple[float, float, float]
-LinkShape = tuple["Shape | float", Pose]
+Corners = tuple[Vector3, ...]
+LinkShape = tuple["Shape | float | Corners", Pose]
 
 _ROUND = frozenset({"cylinder", "sphere"})
 
@@ -31,7 +32,8 @@ class RobotLink:
         mass_kg: Its mass; 0 if the description has none.
         centre_m: Its centre of mass in its frame.
         inertia_kg_m2: Its inertia (3, 3) about the centre of mass, in the axes of its frame.
-        shapes: Its collision shapes with the transform of each to its frame; a number is the radius (m) of a sphere.
+        shapes: Its collision shapes with the transform of each to its frame; a number is the radius (m) of a sphere,
+            points are the corners of a convex shape.
     """
 
     name: str
@@ -53,7 +55,7 @@ def read_links(urdf: str) -> tuple[RobotLink, ...]:
         urdf: The description.
 
     Raises:
-        SimulationError: It has a collision shape that is no box, cylinder or sphere.
+        SimulationError: It has a collision shape that is no box, cylinder, sphere or convex shape.
     """
     root = ET.fromstring(urdf)  # noqa: S314 - entities and document types are refused on reading
     links = {link.get("name", ""): link for link in root.findall("link")}
@@ -108,10 +110,12 @@ def _with_matter(mount: RobotLink, link: ET.Element) -> RobotLink:
     )
 
 
-def _shape(collision: ET.Element) -> Shape | float:
+def _shape(collision: ET.Element) -> Shape | float | Corners:
     (form,) = _required(collision, "geometry")
     if form.tag == "box":
         return Box(size_m=_triple(form.get("size", "")))
+    if form.tag == "convex":
+        return vertices_of(form)
     if form.tag not in _ROUND:
         raise SimulationError(
             f"the robot has a collision shape <{form.tag}>, which the second engine is not given",

@@ -16,6 +16,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.scenes.robot import MOST_JOINTS
 from rgss.scenes.uncertainty.declaration import Correlation, Uncertainty
 from rgss.scenes.uncertainty.quantities import QUANTITIES
 
@@ -24,7 +25,7 @@ _SEEDS_KEPT = 4096
 
 
 @lru_cache(maxsize=_SEEDS_KEPT)
-def draws_of(uncertainty: Uncertainty, seed: int) -> Mapping[str, float]:
+def draws_of(uncertainty: Uncertainty, seed: int, *, joints: int = MOST_JOINTS) -> Mapping[str, float]:
     """The draws of a trial by name, in the order of the registry.
 
     A draw is rounded to nine significant digits: kernels of other processors differ in the last of sixteen, and a
@@ -33,23 +34,24 @@ def draws_of(uncertainty: Uncertainty, seed: int) -> Mapping[str, float]:
     Args:
         uncertainty: What is uncertain.
         seed: The trial's seed.
+        joints: Number of the arm's joints, each of which has draws of its own.
     """
     values = {one.quantity: one.distribution for one in uncertainty.values}
     shares = {
         name: uniform_of(seed, name)
         for quantity, entry in QUANTITIES.items()
         if quantity in values
-        for name in entry.draw_names
+        for name in entry.draw_names_for(joints)
     }
     for group in uncertainty.correlations:
         if {*group.quantities} <= values.keys():
-            shares.update(_correlated(group, shares))
+            shares.update(_correlated(group, shares, joints))
     return MappingProxyType(
         {
             name: float(f"{values[quantity].quantile(shares[name]):.{_DIGITS}g}")
             for quantity, entry in QUANTITIES.items()
             if quantity in values
-            for name in entry.draw_names
+            for name in entry.draw_names_for(joints)
         }
     )
 
@@ -81,11 +83,11 @@ def _generator(seed: int, name: str) -> np.random.Philox:
     return np.random.Philox(key=int.from_bytes(key, "big"))
 
 
-def _correlated(group: Correlation, shares: Mapping[str, float]) -> dict[str, float]:
+def _correlated(group: Correlation, shares: Mapping[str, float], joints: int) -> dict[str, float]:
     """The shares of a group by a Gaussian copula; each joint of quantities with several draws by itself."""
     from scipy.special import ndtr, ndtri
 
-    names = [QUANTITIES[quantity].draw_names for quantity in group.quantities]
+    names = [QUANTITIES[quantity].draw_names_for(joints) for quantity in group.quantities]
     factor = np.linalg.cholesky(np.array(group.matrix))
     found = {}
     for row in zip(*names, strict=True):

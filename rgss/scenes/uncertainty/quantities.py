@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
 
+from rgss.scenes.robot import MOST_JOINTS
+
 
 class Application(Enum):
     """Effect of a draw on the field of a trial's conditions."""
@@ -62,12 +64,19 @@ class UncertainQuantity:
             return (self.name,)
         return tuple(f"{self.name}.{index}" for index in range(1, self.count + 1))
 
+    def draw_names_for(self, joints: int) -> tuple[str, ...]:
+        """Names of its draws for an arm.
+
+        Args:
+            joints: Number of the arm's joints.
+        """
+        return self.draw_names[:joints] if self.count > 1 else self.draw_names
+
     def is_possible(self, value: float) -> bool:
         """True if a value may be drawn."""
         return value > self.least or (self.is_least_allowed and value == self.least)
 
 
-_JOINTS = 6
 _UNIT_ENDINGS: Mapping[str, str] = MappingProxyType(
     {"m": "_m", "rad": "_rad", "kg": "_kg", "N": "_n", "s": "_s", "1": "_1"}
 )
@@ -151,7 +160,7 @@ _ALL = (
         field="joint_offsets_rad",
         application=Application.ADD,
         enters=EntersAt.EXECUTION,
-        count=_JOINTS,
+        count=MOST_JOINTS,
     ),
     _of_execution(
         "gripper.finger.force", "1", "finger_force_n", "Force of the fingers over the design's.", _SCALE, zero=False

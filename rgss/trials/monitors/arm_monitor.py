@@ -27,7 +27,7 @@ class ToolKinematics(Protocol):
         """Greatest distance of a joint's axis from the tool."""
 
     def tool_motion(self, qs: ArrayLike, dqs: ArrayLike) -> tuple[Array, Array]:
-        """Positions (m) and velocities (m/s) of the tool, each (n, 3), for joint angles and speeds, each (n, 6)."""
+        """Positions (m) and velocities (m/s) of the tool, each (k, 3), for joint positions and speeds, each (k, n)."""
 
 
 class ArmMonitor:

@@ -31,7 +31,7 @@ class DirectMove:
         outcome: Solved, blocked by a collision, unreachable, or out of time.
         checks: Validity checks, those up to the first state that is not valid.
         time_s: Their time by the planning clock.
-        path_rad: Configurations (n, 6); None unless it is solved.
+        path_rad: Configurations (k, n); None unless it is solved.
         detail: What prevents the move, and where along it; empty if nothing does.
     """
 
@@ -61,8 +61,8 @@ def direct_move(
 
     Args:
         kind: Straight or joint.
-        start: Joint angles in rad at its start, shape (6,).
-        goal: Joint angles in rad at its end, where the next move begins, shape (6,).
+        start: Joint positions at its start, shape (n,).
+        goal: Joint positions at its end, where the next move begins, shape (n,).
         goal_pose: Transform of the tool-centre frame to the world at its end.
         inverse: Inverse kinematics of the arm.
         model: Bodies that can collide in it.
@@ -99,7 +99,7 @@ def _line(
     """Corners of a move as far as it can be followed, the share of it that this is, and what ends it there."""
     if kind is MoveKind.JOINT:
         return np.array([start, goal]), 1.0, ""
-    line = follow_line(inverse, start, goal_pose)
+    line = follow_line(inverse, start, goal_pose, goal_configuration=goal)
     corners = line.configurations_rad
     if line.broken is not None:
         return corners, line.fraction, f"{_NAMES[kind]} ends at {_percent(line.fraction)}: {_BREAKS[line.broken]}"
@@ -110,7 +110,7 @@ def _line(
 
 
 def _states(corners: Array, resolution_rad: float) -> Array:
-    """Every state of a path at a resolution, the start included, shape (n, 6)."""
+    """Every state of a path at a resolution, the start included, shape (k, n)."""
     parts = [segment_states(first, second, resolution_rad) for first, second in itertools.pairwise(corners)]
     states: Array = np.vstack([corners[:1], *parts])
     return states

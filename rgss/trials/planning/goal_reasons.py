@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.kinematics import CollisionModel, InverseKinematics, NearestPair
-from rgss.scenes import Pose
+from rgss.scenes import JointKind, Pose
 
 Array = NDArray[np.float64]
 
@@ -40,6 +40,7 @@ class GoalReason:
         limit_m: The arm's reach, or the clearance to be kept; NaN for other obstacles.
         joint: The joint that is out of its range; empty for other obstacles.
         angle_rad: How far it is out of it, or the tilt of what is carried; NaN for other obstacles.
+        is_slide: Whether that joint is prismatic, so that the distance says how far it is out of its range.
     """
 
     obstacle: Obstacle
@@ -49,6 +50,7 @@ class GoalReason:
     limit_m: float = math.nan
     joint: str = ""
     angle_rad: float = math.nan
+    is_slide: bool = False
 
     def __str__(self) -> str:
         best = f"in the best of {self.configurations} configurations" if self.configurations > 1 else "in the only one"
@@ -64,7 +66,8 @@ class GoalReason:
                 f"the arm, whose reach is {self.limit_m:.2f} m with the gripper stretched out"
             )
         if self.obstacle is Obstacle.JOINT_RANGE:
-            return f"joint range: {self.joint} would be {math.degrees(self.angle_rad):.1f}° outside its range at best"
+            beyond = _millimetres(self.distance_m) if self.is_slide else f"{math.degrees(self.angle_rad):.1f}°"
+            return f"joint range: {self.joint} would be {beyond} outside its range at best"
         if self.obstacle is Obstacle.COLLISION:
             return f"collision of {first} with {second}, {_millimetres(-self.distance_m)} deep, {best}"
         if self.obstacle is Obstacle.CLEARANCE:
@@ -113,7 +116,12 @@ def reason_against(
 def _unreached(inverse: InverseKinematics, pose: Pose) -> GoalReason:
     excesses = inverse.excess_of_ranges(pose)
     if excesses:
-        return GoalReason(obstacle=Obstacle.JOINT_RANGE, joint=excesses[0].joint, angle_rad=excesses[0].beyond_rad)
+        first = excesses[0]
+        if first.kind is JointKind.PRISMATIC:
+            return GoalReason(
+                obstacle=Obstacle.JOINT_RANGE, joint=first.joint, distance_m=first.beyond_rad, is_slide=True
+            )
+        return GoalReason(obstacle=Obstacle.JOINT_RANGE, joint=first.joint, angle_rad=first.beyond_rad)
     distance = math.dist(pose.position_m, inverse.arm.first_axis_m)
     reach = inverse.arm.reach_m
     obstacle = Obstacle.OUT_OF_REACH if distance > reach else Obstacle.ORIENTATION

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
-from rgss.kinematics import InverseKinematics, choose_branches, straight_line
+from rgss.kinematics import choose_branches, inverse_kinematics, straight_line
 from rgss.motion import (
     PlannerSettings,
     PlanningProblem,
@@ -63,7 +63,7 @@ def plan_task(
         past_failures: Whether the moves after one that finds no path are planned too, as planners are compared.
     """
     scene, models = cell.scene, cell.planning
-    stops, lift, reasons = _configurations(cell)
+    stops, lift, reasons = waypoint_configurations(cell)
     chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
     moves: dict[Phase, PlannedMove] = {}
     for phase, kind in zip(PLANNED_PHASES, settings.moves, strict=True):
@@ -111,16 +111,19 @@ def plan_of(spec: TrialSpec) -> TaskPlan:
 
 
 @lru_cache(maxsize=4)
-def _configurations(
+def waypoint_configurations(
     cell: Workcell,
 ) -> tuple[Mapping[Waypoint, Array], Array | None, Mapping[Waypoint, GoalReason]]:
     """One configuration for each waypoint: collision-free in every move that meets there, least travel.
 
     They are the same for every planner and seed, and so worked out once for a workcell. Beside them are
     the straight lift, and why waypoints that have no configuration have none.
+
+    Args:
+        cell: Scene, arm and collision models.
     """
     models = cell.planning
-    inverse = InverseKinematics(cell.arm)
+    inverse = inverse_kinematics(cell.arm)
     poses = waypoint_poses(cell.scene)
     candidates: dict[Waypoint, list[Array]] = {}
     for waypoint, pose in poses.items():
@@ -157,7 +160,7 @@ def unserved_waypoints(cell: Workcell, among: Iterable[Waypoint] = tuple(Waypoin
     Returns:
         The reason of each that has none, in the task's order.
     """
-    inverse, poses, wanted = InverseKinematics(cell.arm), waypoint_poses(cell.scene), set(among)
+    inverse, poses, wanted = inverse_kinematics(cell.arm), waypoint_poses(cell.scene), set(among)
     found = {}
     for waypoint in (one for one in poses if one in wanted):
         meeting = [cell.planning[phase] for phase, ends in _ENDS.items() if waypoint in ends]
@@ -212,7 +215,7 @@ def _direct(
         start,
         goal,
         waypoint_poses(cell.scene)[_ENDS[phase][1]],
-        inverse=InverseKinematics(cell.arm),
+        inverse=inverse_kinematics(cell.arm),
         model=cell.planning[phase],
         clock=settings.clock,
         resolution_rad=settings.resolution_rad,

@@ -21,7 +21,7 @@ class PlannedMove:
         simplification_checks: Validity checks of shortening the path.
         search_time_s: Time of the search by the planning clock; compared with a limit.
         time_s: Planning time t_sp by the planning clock: search and simplification.
-        path_rad: The path's configurations (n, 6); None if there is none.
+        path_rad: The path's configurations (k, n); None if there is none.
         path_length_m: Length of the tool's path; None if there is none.
         detail: The obstacle, if the problem itself is ill posed or the path is not valid.
         verification_checks: Those of `checks` that verified the path.
@@ -50,7 +50,7 @@ class TaskPlan:
 
     Attributes:
         moves: The planned moves; those after a problem that is ill posed are missing.
-        lift_rad: Configurations (n, 6) of the straight lift; None if there is none.
+        lift_rad: Configurations (k, n) of the straight lift; None if there is none.
         clock: The clock that the searches were counted by.
     """
 

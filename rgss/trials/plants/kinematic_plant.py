@@ -110,15 +110,15 @@ class KinematicPlant:
         return travel_m / self._gripper.finger_velocity_m_s
 
     def _deviation(self, positions_rad: Array) -> Array:
-        """Deviation (m, 6) of the joints from their targets at each step, until the end is reached.
+        """Deviation (m, n) of the joints from their targets at each step, until the end is reached.
 
         Exact for an acceleration that is constant over each step.
         """
         step, response = self._step_s, self._response
         omega, zeta = response.natural_frequency_rad_s, response.damping_ratio
         transition, drive = _oscillator(omega, zeta, step)
-        velocity = np.vstack([np.zeros((1, 6)), np.diff(positions_rad, axis=0) / step])
-        velocity = np.vstack([velocity, np.zeros((1, 6))])
+        velocity = np.vstack([np.zeros((1, positions_rad.shape[1])), np.diff(positions_rad, axis=0) / step])
+        velocity = np.vstack([velocity, np.zeros((1, positions_rad.shape[1]))])
         acceleration = np.diff(velocity, axis=0) / step
         settling = math.ceil(20.0 / (omega * zeta * step))
         last = len(positions_rad) - 1

@@ -58,7 +58,7 @@ def test_names_and_seeds_are_independent():
 
 
 def test_each_joint_is_drawn_by_itself():
-    draws = draws_of(standard("robot.joint_offset"), 1)
+    draws = draws_of(standard("robot.joint_offset"), 1, joints=6)
 
     assert list(draws) == [f"robot.joint_offset.{joint}" for joint in range(1, 7)]
     assert len(set(draws.values())) == 6

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rgss.evidence import Failure, Phase
-from rgss.kinematics import Arm, InverseKinematics
+from rgss.kinematics import Arm, inverse_kinematics
 from rgss.physics import Contacts, FingerContact, PhysicsSettings, World
 from rgss.scenes import FORCE_WINDOW_S, LANDING_LIMIT_M_S, Pose
 from rgss.trials.execution import Execution
@@ -141,7 +141,7 @@ class Sideways:
     def positions(self, times_s):
         times = np.asarray(times_s)
         found = np.array(self.timed.positions(np.maximum(0.0, times - self.sideways_s)))
-        inverse, nearest = InverseKinematics(self.arm), found[0]
+        inverse, nearest = inverse_kinematics(self.arm), found[0]
         for row in np.flatnonzero(times < self.sideways_s):
             way_m = self.way_m * math.sin(math.pi * times[row] / self.sideways_s) ** 2
             nearest = inverse.nearest(self.grasp @ Pose(position_m=(way_m, 0.0, 0.0)), nearest)
@@ -172,7 +172,7 @@ def run_with_return(request, spec_of):
         }
         with AstrayWorld(scene, spec.gripper, spec.settings.physics) as world:
             if opening_m is not None:
-                inverse, nearest = InverseKinematics(cell.arm), references[Phase.MOVE_TO_PLACE].positions_rad[-1]
+                inverse, nearest = inverse_kinematics(cell.arm), references[Phase.MOVE_TO_PLACE].positions_rad[-1]
                 for way in opening_m:
                     nearest = inverse.nearest(scene.place_pose @ Pose(position_m=(way, 0.0, 0.0)), nearest)
                     world.astray_rad.append(nearest.tolist())

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rgss.kinematics import Arm, InverseKinematics, straight_line
+from rgss.kinematics import Arm, inverse_kinematics, straight_line
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, load_gripper, load_scene
 from rgss.trials.payload_bench.bench import run_bench
@@ -33,7 +33,7 @@ def test_the_arm_lifts_what_the_rail_lifts_and_no_more(fingers):
         friction=0.7,
     )
     payload_kg = run_bench(bench_spec(scene, gripper, acceleration_m_s2=ACCELERATION, rated_kg=10.0)).payload_kg
-    inverse = InverseKinematics(Arm(scene.robot, gripper.geometry.grasp_centre))
+    inverse = inverse_kinematics(Arm(scene.robot, gripper.geometry.grasp_centre))
     step_s = PhysicsSettings().step_s
     times = np.arange(round(LIFT_S / step_s) + 1) * step_s
     path = [inverse.nearest(scene.grasp, scene.robot.home_rad)]

@@ -1,0 +1,98 @@
+"""``rgss robot``: what an arm is by its description, and what is wrong with that."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rgss.scenes import Joint
+    from rgss.studies.robot_project import RobotSummary
+
+HELP = "summarise an arm: joints, masses, reach, payload; and find what is wrong with its description"
+EXAMPLE = "rgss robot my_arm.urdf -o workspace.svg"
+MORE_EXAMPLES = (("rgss robot scenes/robots/my_arm.yaml", "an arm of a project, with the project's limits"),)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument("file", type=Path, metavar="FILE", help="a URDF, or a robot file of a project")
+    parser.add_argument("--flange", metavar="LINK", help="of a URDF: the link that carries the gripper")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="PICTURE", help="draw the workspace into this .png or .svg file"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Summarise; 1 if there are findings, 2 if the description cannot be used."""
+    from rgss.cli.main import CLEAN, FINDINGS
+    from rgss.cli.output import print_json
+    from rgss.engines import require_engines
+    from rgss.reports import draw_workspace
+    from rgss.studies.robot_project import robot_summary
+
+    require_engines("'rgss robot'", pictures=options.output is not None)
+    summary = robot_summary(options.file, flange=options.flange)
+    if options.output is not None:
+        draw_workspace(summary.positions_m, options.output, title=summary.robot.id)
+    if options.json:
+        print_json(_plain(summary))
+    else:
+        _show(summary)
+    return FINDINGS if summary.findings else CLEAN
+
+
+def _show(summary: RobotSummary) -> None:
+    from rgss.cli.output import print_table
+
+    robot = summary.robot
+    print(f"{robot.id}: {len(robot.joints)} joints to {robot.flange}, {sum(summary.masses_kg.values()):.4g} kg")
+    print()
+    rows = [(joint.name, joint.kind.value, *_limits(joint)) for joint in robot.joints]
+    print_table(["joint", "kind", "range", "speed", "effort"], rows)
+    print()
+    print(f"Reach: {summary.reach_m:.3f} m from the first axis to the flange.")
+    print(f"Payload by the joints' efforts, with the arm farthest out: {summary.payload_at_reach_kg:g} kg.")
+    if summary.convex_shapes:
+        print(f"Collision meshes: {summary.convex_shapes} convex shapes stand for them.")
+    if summary.left_out:
+        pairs = ", ".join(f"{first} and {second}" for first, second in summary.left_out)
+        print(f"Not checked, since they touch however the arm stands: {pairs}.")
+    for finding in summary.findings:
+        print(finding)
+
+
+def _limits(joint: Joint) -> tuple[str, str, str]:
+    from rgss.scenes import JointKind
+
+    if joint.kind is JointKind.PRISMATIC:
+        ends = f"{joint.lower_rad * 1e3:.0f} to {joint.upper_rad * 1e3:.0f} mm"
+        return ends, f"{joint.speed_rad_s:.3g} m/s", f"{joint.torque_n_m:.4g} N"
+    lower, upper, speed = (math.degrees(value) for value in (joint.lower_rad, joint.upper_rad, joint.speed_rad_s))
+    return f"{lower:.1f} to {upper:.1f} deg", f"{speed:.4g} deg/s", f"{joint.torque_n_m:.4g} N*m"
+
+
+def _plain(summary: RobotSummary) -> dict[str, Any]:
+    return {
+        "robot": summary.robot.id,
+        "flange": summary.robot.flange,
+        "joints": [
+            {
+                "name": joint.name,
+                "kind": joint.kind.value,
+                "range": [joint.lower_rad, joint.upper_rad],
+                "speed": joint.speed_rad_s,
+                "effort": joint.torque_n_m,
+            }
+            for joint in summary.robot.joints
+        ],
+        "masses_kg": summary.masses_kg,
+        "reach_m": summary.reach_m,
+        "payload_at_reach_kg": summary.payload_at_reach_kg,
+        "convex_shapes": summary.convex_shapes,
+        "left_out": [list(pair) for pair in summary.left_out],
+        "touching_at_home": [list(pair) for pair in summary.at_home],
+        "findings": [str(finding) for finding in summary.findings],
+    }

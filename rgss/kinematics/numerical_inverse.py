@@ -1,0 +1,231 @@
+"""Numerical inverse kinematics: damped least squares from many deterministic starts."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.kinematics.arm import Arm
+from rgss.kinematics.configurations import TOLERANCE, RangeExcess, excesses_of, sorted_distinct, whole_turns
+from rgss.kinematics.description import transform
+from rgss.kinematics.pose_residual import PoseResidual
+from rgss.kinematics.serial_chain import SerialChain
+from rgss.scenes import JointKind, Pose
+
+Vector = NDArray[np.float64]
+
+_STARTS = 128
+_ROUNDS = (1, 7, 24, 96, 384)
+_MOST_TRIED = 512
+_ITERATIONS = 60
+_CONVERGED = 1e-11
+_ERROR_DAMPING, _LEAST_DAMPING = 0.5, 1e-12
+_LARGEST_STEP = 1.0
+# Configurations nearer than this in every joint are one: an end of a descent, found twice.
+_SAME = 1e-5
+_REDUNDANT_SAME = 1e-2
+_DIGITS = 11
+_POSE_FREEDOMS = 6
+
+
+class NumericalInverse:
+    """Inverse kinematics of any serial arm by damped least squares from many starts.
+
+    The starts are the arm's home and the points of a Sobol sequence over the joints' ranges, so that the answer is a
+    function of arm and pose alone. All descents are made at once. An arm of six joints has isolated configurations, of
+    which all branches are kept that descents end in. An arm of more joints has a continuum: each descent gives one
+    member, and its positions are kept within the ranges on the way. An arm of fewer joints, which cannot turn its
+    tool freely, may turn it about its own axis where the whole pose is out of reach.
+
+    Source: T. Sugihara, "Solvability-Unconcerned Inverse Kinematics by the Levenberg-Marquardt Method", IEEE T-RO
+    27(5), 2011: the damping is proportional to the squared error.
+
+    Args:
+        arm: The arm with its tool.
+    """
+
+    def __init__(self, arm: Arm) -> None:
+        self.arm = arm
+        self._chain = SerialChain(arm)
+        self._joints = arm.robot.joints
+        self._lower, self._upper = arm.lower_rad, arm.upper_rad
+        self._home = np.array(arm.robot.home_rad)
+
+    @property
+    def is_redundant(self) -> bool:
+        """Whether the configurations of a pose form a continuum, of which a sample is found."""
+        return len(self._joints) > _POSE_FREEDOMS
+
+    def solve(self, tool_pose_world: Pose) -> tuple[Vector, ...]:
+        """Find configurations within the planning ranges that reach a pose.
+
+        Args:
+            tool_pose_world: Transform of the tool-centre frame to the world.
+
+        Returns:
+            Joint positions, each of shape (n,), in lexicographic order: of isolated configurations with all whole
+            turns that stay within the ranges. Empty when none is found.
+        """
+        for residual in self._residuals(tool_pose_world):
+            ends = self._reached(residual, self._starts(_STARTS))
+            found = ends if self.is_redundant else [q for end in ends for q in self._turned(end)]
+            if found:
+                return sorted_distinct(found)
+        return ()
+
+    def nearest(self, tool_pose_world: Pose, reference: Sequence[float] | Vector) -> Vector | None:
+        """Find a configuration within the planning ranges near another.
+
+        Args:
+            tool_pose_world: Transform of the tool-centre frame to the world.
+            reference: Joint positions, shape (n,).
+
+        Returns:
+            Joint positions, shape (n,): where the descent from the reference ends; should it end nowhere, of the ends
+            of the first starts that reach the pose the one with the smallest greatest joint difference; None when no
+            start reaches it.
+        """
+        near = np.asarray(reference, dtype=float)
+        residuals = self._residuals(tool_pose_world)
+        starts = np.vstack([near, self._starts(_MOST_TRIED - 1)])
+        for residual in residuals:
+            first = 0
+            for count in _ROUNDS:
+                found = [
+                    near + self._least_turn(q - near)
+                    for q in self._reached(residual, starts[first : first + count])
+                    if self.is_redundant or self._turned(q)
+                ]
+                found = [q for one in found for q in self._kept(one, near)]
+                if found:
+                    return min(sorted_distinct(found), key=lambda q: float(np.max(np.abs(q - near))))
+                first += count
+        return None
+
+    def excess_of_ranges(self, tool_pose_world: Pose) -> tuple[RangeExcess, ...]:
+        """For each configuration outside the ranges that reaches a pose, the joint that is farthest outside.
+
+        Args:
+            tool_pose_world: Transform of the tool-centre frame to the world.
+
+        Returns:
+            The least excess first; empty where the pose is out of reach.
+        """
+        for residual in self._residuals(tool_pose_world):
+            found = excesses_of(self._reached(residual, self._starts(_STARTS), limited=False), self._joints)
+            if found:
+                return found
+        return ()
+
+    def _residuals(self, pose: Pose) -> tuple[PoseResidual, ...]:
+        target = transform(pose)
+        whole = PoseResidual(position_m=target.translation, rotation=target.rotation)
+        if len(self._joints) >= _POSE_FREEDOMS:
+            return (whole,)
+        return whole, PoseResidual(position_m=target.translation, rotation=target.rotation, is_axis_alone=True)
+
+    def _starts(self, count: int) -> Vector:
+        """The home, then quasi-random configurations, shape (count, n)."""
+        turns = np.array([joint.kind is JointKind.REVOLUTE for joint in self._joints])
+        # Isolated configurations are turned back into the ranges afterwards.
+        free = turns & (not self.is_redundant)
+        lower, upper = np.where(free, -math.pi, self._lower), np.where(free, math.pi, self._upper)
+        shares = _sobol(len(self._joints), count - 1)
+        return np.vstack([self._home, lower + shares * (upper - lower)])
+
+    def _reached(self, residual: PoseResidual, starts: Vector, *, limited: bool = True) -> list[Vector]:
+        """The distinct configurations in which descents end that reach the pose."""
+        ends = np.round(self._descend(residual, starts, limited=limited and self.is_redundant), _DIGITS)
+        same = _REDUNDANT_SAME if self.is_redundant else _SAME
+        kept: list[Vector] = []
+        state = self._chain.state(ends)
+        for q, error in zip(ends, residual.deviation(state).tolist(), strict=True):
+            if error >= TOLERANCE:
+                continue
+            q[~self._chain.slides] = (
+                q[~self._chain.slides] if limited and self.is_redundant else _principal(q[~self._chain.slides])
+            )
+            if not any(np.max(np.abs(self._least_turn(q - other))) < same for other in kept):
+                kept.append(q)
+        return kept
+
+    def _descend(self, residual: PoseResidual, starts: Vector, *, limited: bool) -> Vector:
+        qs = np.clip(starts, self._lower, self._upper) if limited else starts.copy()
+        active = np.arange(len(qs))
+        unit = np.eye(qs.shape[1])
+        for _ in range(_ITERATIONS):
+            state = self._chain.state(qs[active])
+            errors, jacobians = residual.linearised(state)
+            squares = np.einsum("ki,ki->k", errors, errors)
+            going = squares > _CONVERGED**2
+            if not going.any():
+                break
+            active, errors, jacobians, squares = active[going], errors[going], jacobians[going], squares[going]
+            damping = (_ERROR_DAMPING * squares + _LEAST_DAMPING)[:, None, None] * unit
+            transposed = jacobians.transpose(0, 2, 1)
+            gradient = transposed @ errors[:, :, None]
+            normal = transposed @ jacobians + damping
+            steps = np.linalg.solve(normal, gradient)[:, :, 0]
+            if limited:
+                steps = self._within(qs[active], steps, normal, gradient)
+            largest = np.max(np.abs(steps), axis=1, keepdims=True)
+            qs[active] += steps * np.minimum(1.0, _LARGEST_STEP / np.maximum(largest, _LARGEST_STEP))
+            if limited:
+                qs[active] = np.clip(qs[active], self._lower, self._upper)
+        return qs
+
+    def _within(self, qs: Vector, steps: Vector, normal: Vector, gradient: Vector) -> Vector:
+        """Steps of which joints at their limits take no part that would leave them."""
+        outside = ((qs <= self._lower) & (steps < 0.0)) | ((qs >= self._upper) & (steps > 0.0))
+        rows = np.flatnonzero(outside.any(axis=1))
+        if not len(rows):
+            return steps
+        fixed = outside[rows]
+        free = ~fixed
+        system = normal[rows] * (free[:, :, None] & free[:, None, :]) + fixed[:, :, None] * np.eye(qs.shape[1])
+        steps[rows] = np.linalg.solve(system, gradient[rows] * free[:, :, None])[:, :, 0]
+        return steps
+
+    def _turned(self, q: Vector) -> list[Vector]:
+        """A configuration with every whole turn of its joints that stays within the ranges."""
+        choices = []
+        for joint, position in zip(self._joints, q.tolist(), strict=True):
+            if joint.kind is JointKind.REVOLUTE:
+                choices.append(whole_turns(position, joint.lower_rad, joint.upper_rad))
+            else:
+                choices.append([position] if joint.lower_rad - _SAME <= position <= joint.upper_rad + _SAME else [])
+        return [np.clip(choice, self._lower, self._upper) for choice in itertools.product(*choices)]
+
+    def _kept(self, q: Vector, near: Vector) -> list[Vector]:
+        """A configuration if it keeps the ranges, else the nearest of its whole turns that does."""
+        if np.all((q >= self._lower) & (q <= self._upper)):
+            return [q]
+        return sorted(self._turned(q), key=lambda one: float(np.max(np.abs(one - near))))[:1]
+
+    def _least_turn(self, difference: Vector) -> Vector:
+        """A difference of joint positions without whole turns; of a redundant arm as it is, for its ranges bound it."""
+        if self.is_redundant:
+            return difference
+        turn = 2 * math.pi
+        return np.where(self._chain.slides, difference, difference - turn * np.round(difference / turn))
+
+
+def _principal(angles: Vector) -> Vector:
+    turn = 2 * math.pi
+    found: Vector = angles - turn * np.round(angles / turn)
+    return found
+
+
+@lru_cache(maxsize=16)
+def _sobol(dimensions: int, count: int) -> Vector:
+    """Points of a Sobol sequence in the unit cube after its first, the corner, shape (count, dimensions)."""
+    from scipy.stats.qmc import Sobol
+
+    points: Vector = Sobol(dimensions, scramble=False).random_base2(math.ceil(math.log2(count + 1)))[1 : count + 1]
+    points.setflags(write=False)
+    return points

@@ -1,0 +1,120 @@
+"""Convex collision shapes of a robot, kept in its URDF as points, so that every engine has the same ones.
+
+A URDF has no convex shape but as a mesh in a file. The text that engines are given has ``<convex vertices="x y z …"/>``
+in the place of each mesh: a robot is one text, its digest covers the shapes, and no engine reads a user's file.
+"""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+from rgss.scenes.pose import Pose
+
+Point = tuple[float, float, float]
+
+CONVEX = "convex"
+_DECIMALS = 7
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ConvexPart:
+    """One convex collision shape of a link.
+
+    Attributes:
+        link: The link.
+        pose: Transform of the shape's frame to the link.
+        vertices_m: Its corners.
+    """
+
+    link: str
+    pose: Pose
+    vertices_m: tuple[Point, ...]
+
+
+def convex_element(vertices_m: tuple[Point, ...]) -> ET.Element:
+    """The element that stands for a convex shape.
+
+    Args:
+        vertices_m: Its corners.
+    """
+    numbers = (f"{value:.{_DECIMALS}f}" for point in vertices_m for value in point)
+    return ET.Element(CONVEX, {"vertices": " ".join(numbers)})
+
+
+def vertices_of(element: ET.Element) -> tuple[Point, ...]:
+    """The corners of a convex shape.
+
+    Args:
+        element: Its element.
+    """
+    numbers = [float(word) for word in element.get("vertices", "").split()]
+    return tuple(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=True))
+
+
+@lru_cache(maxsize=16)
+def convex_parts(urdf: str) -> tuple[str, tuple[ConvexPart, ...]]:
+    """Take the convex shapes out of a URDF.
+
+    Args:
+        urdf: A robot's text.
+
+    Returns:
+        The text without them, as it is where there are none, and the shapes in the text's order.
+    """
+    if f"<{CONVEX}" not in urdf:
+        return urdf, ()
+    root = ET.fromstring(urdf)  # noqa: S314 - entities and document types were refused on reading
+    parts = []
+    for link in root.findall("link"):
+        for tag in ("collision", "visual"):
+            for shape in link.findall(tag):
+                found = shape.find(f"geometry/{CONVEX}")
+                if found is None:
+                    continue
+                link.remove(shape)
+                if tag == "collision":
+                    parts.append(
+                        ConvexPart(link=link.get("name", ""), pose=origin_of(shape), vertices_m=vertices_of(found))
+                    )
+    return ET.tostring(root, encoding="unicode"), tuple(parts)
+
+
+def with_mesh_files(urdf: str, write: Callable[[int, tuple[Point, ...]], str]) -> str:
+    """A URDF in which each convex shape is a mesh in a file, for an engine that reads files alone.
+
+    Args:
+        urdf: A robot's text; returned as it is where it has no convex shapes.
+        write: Writes the points of a shape, given its number, and returns the file's name.
+    """
+    if f"<{CONVEX}" not in urdf:
+        return urdf
+    root = ET.fromstring(urdf)  # noqa: S314 - entities and document types were refused on reading
+    names: dict[str, str] = {}
+    for geometry in root.iter("geometry"):
+        found = geometry.find(CONVEX)
+        if found is None:
+            continue
+        text = found.get("vertices", "")
+        if text not in names:
+            names[text] = write(len(names), vertices_of(found))
+        geometry.remove(found)
+        ET.SubElement(geometry, "mesh", {"filename": names[text]})
+    return ET.tostring(root, encoding="unicode")
+
+
+def origin_of(element: ET.Element) -> Pose:
+    """The pose that an element's ``<origin>`` gives.
+
+    Args:
+        element: A joint or a shape.
+    """
+    origin = element.find("origin")
+    if origin is None:
+        return Pose()
+    (x, y, z), (roll, pitch, yaw) = (
+        [float(value) for value in origin.get(key, "0 0 0").split()] for key in ("xyz", "rpy")
+    )
+    return Pose.from_roll_pitch_yaw((x, y, z), (roll, pitch, yaw))

@@ -1,0 +1,158 @@
+"""Convex shapes of a mesh: its hull, the hulls of its parts, or the box about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import DefinitionError
+from rgss.scenes.document import CollisionShapes
+
+Vertices = tuple[tuple[float, float, float], ...]
+Array = NDArray[np.float64]
+
+HULL_TOLERANCE_M = 5e-4
+"""Distance of corners over the shape from which it gets more of them. The shape is then drawn out over the rest."""
+
+MOST_VERTICES = 160
+"""Most corners of a shape: contact and collision checks take time in proportion."""
+
+_SUFFIXES = frozenset({".stl", ".obj", ".dae", ".ply"})
+_CONCAVITY = 0.05
+_EXACT = 1e-9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshSummary:
+    """What a mesh is, before it becomes convex.
+
+    Attributes:
+        is_closed: Whether it encloses a volume.
+        bodies: How many bodies it consists of that have no corner in common.
+        hull_ratio: Volume of its hull over its own; 1 for a convex mesh, NaN for one that is not closed.
+        extent_m: Its extent along the axes of its frame.
+    """
+
+    is_closed: bool
+    bodies: int
+    hull_ratio: float
+    extent_m: tuple[float, float, float]
+
+
+def shapes_of_mesh(
+    path: Path, *, sha256: str, scale: tuple[float, float, float], how: CollisionShapes
+) -> tuple[Vertices, ...]:
+    """The convex shapes that stand for a mesh, each by its corners in m, rounded to a tenth of a micrometre.
+
+    Args:
+        path: The mesh's file.
+        sha256: Digest of its content, by which shapes are kept.
+        scale: Factors along its axes.
+        how: What the shapes are.
+
+    Raises:
+        DefinitionError: The file is no mesh, or has no volume.
+    """
+    return _shapes(path, sha256, scale, how)
+
+
+def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> MeshSummary:
+    """What a mesh is.
+
+    Args:
+        path: Its file.
+        scale: Factors along its axes.
+
+    Raises:
+        DefinitionError: The file is no mesh.
+    """
+    mesh = _read(path, scale)
+    closed = bool(mesh.is_watertight)
+    x, y, z = (float(value) for value in mesh.extents)
+    return MeshSummary(
+        is_closed=closed,
+        bodies=len(mesh.split(only_watertight=False)),
+        hull_ratio=float(mesh.convex_hull.volume / mesh.volume) if closed else float("nan"),
+        extent_m=(x, y, z),
+    )
+
+
+@lru_cache(maxsize=256)
+def _shapes(path: Path, _sha256: str, scale: tuple[float, float, float], how: CollisionShapes) -> tuple[Vertices, ...]:
+    mesh = _read(path, scale)
+    if how is CollisionShapes.BOXES:
+        edges = np.asarray(mesh.bounds, dtype=float).T.tolist()
+        return (tuple((x, y, z) for x in edges[0] for y in edges[1] for z in edges[2]),)
+    if how is CollisionShapes.DECOMPOSE:
+        parts = [part for body in mesh.split(only_watertight=False) for part in _convex_pieces(body)]
+        return tuple(_reduced_hull(part, path) for part in parts)
+    return (_reduced_hull(np.asarray(mesh.vertices, dtype=float), path),)
+
+
+def _read(path: Path, scale: tuple[float, float, float]) -> Any:
+    import trimesh
+
+    if path.suffix.lower() not in _SUFFIXES:
+        raise DefinitionError(f"{path.name} is no mesh that is read", hint="use STL, OBJ or PLY")
+    try:
+        mesh = trimesh.load_mesh(str(path), process=True)
+        if isinstance(mesh, trimesh.Scene):
+            mesh = mesh.to_mesh()
+    except ImportError:
+        raise DefinitionError(f"{path.name} needs a reader that is not installed", hint="use STL, OBJ or PLY") from None
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError, OSError) as error:
+        raise DefinitionError(f"{path.name} cannot be read as a mesh: {error}", hint="use STL, OBJ or PLY") from error
+    if len(mesh.vertices) < 4 or not np.all(np.isfinite(mesh.vertices)):
+        raise DefinitionError(f"{path.name} is no mesh with a volume", hint="use STL, OBJ or PLY")
+    # Corners that differ in normal or texture alone are one, or no mesh with sharp edges would be closed.
+    mesh.merge_vertices(merge_tex=True, merge_norm=True)
+    mesh.apply_scale(scale)
+    return mesh
+
+
+def _convex_pieces(body: Any) -> list[Array]:
+    if body.is_convex or not body.is_watertight:
+        return [np.asarray(body.vertices, dtype=float)]
+    try:
+        import coacd
+    except ImportError:
+        raise DefinitionError(
+            "collision: decompose needs the package coacd", hint="pip install coacd, or use 'hull'"
+        ) from None
+    coacd.set_log_level("error")
+    mesh = coacd.Mesh(np.asarray(body.vertices, dtype=float), np.asarray(body.faces, dtype=np.int32))
+    return [np.asarray(points, dtype=float) for points, _ in coacd.run_coacd(mesh, threshold=_CONCAVITY, seed=0)]
+
+
+def _reduced_hull(points: Array, path: Path) -> Vertices:
+    """Corners of a shape that holds all points: of their hull the farthest ones, drawn out over those left away."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        corners = points[np.sort(ConvexHull(points).vertices)]
+        corners = corners[np.lexsort(corners.T)]
+        chosen = _extremes(corners)
+        while True:
+            normals, offsets = np.split(ConvexHull(corners[chosen]).equations, [3], axis=1)
+            outside = np.max(corners @ normals.T + offsets.T, axis=1)
+            if len(chosen) >= min(MOST_VERTICES, len(corners)) or np.max(outside) <= HULL_TOLERANCE_M:
+                break
+            chosen = [*chosen, int(np.argmax(np.round(outside, 9)))]
+    except QhullError:
+        raise DefinitionError(f"{path.name} is flat and has no volume", hint="use a mesh with a thickness") from None
+    centre = np.mean(corners[chosen], axis=0)
+    depths = -(normals @ centre + offsets[:, 0])
+    growth = float(np.max((corners - centre) @ normals.T / depths))
+    kept = centre + (corners[chosen] - centre) * growth if growth > 1.0 + _EXACT else corners[chosen]
+    return tuple((float(x), float(y), float(z)) for x, y, z in np.unique(np.round(kept, 7), axis=0))
+
+
+def _extremes(corners: Array) -> list[int]:
+    """Indices of the corners that are farthest along the axes, the edges and the diagonals of a cube."""
+    grid = np.array([(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)], dtype=float)
+    return sorted({int(np.argmax(np.round(corners @ one, 9))) for one in grid[np.any(grid != 0, axis=1)]})

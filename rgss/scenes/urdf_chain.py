@@ -1,0 +1,296 @@
+"""The serial arm within a URDF: its chain of joints from the base to the flange, everything else made rigid."""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.scenes.document import RobotDocument
+from rgss.scenes.findings import Location
+from rgss.scenes.robot import JointKind
+
+Problem = tuple[str, Location, str]
+
+_KINDS: Mapping[str, JointKind] = {
+    "revolute": JointKind.REVOLUTE,
+    "continuous": JointKind.REVOLUTE,
+    "prismatic": JointKind.PRISMATIC,
+}
+_NO_MASS_KG, _NO_MOMENT_KG_M2 = 1e-6, 1e-9
+_MOMENTS = ("ixx", "iyy", "izz")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UrdfChain:
+    """The joints that lead from the base of a URDF to a link.
+
+    Attributes:
+        joints: All of them, fixed ones too, from the base on.
+        links: The links that they carry, in the same order.
+    """
+
+    joints: tuple[ET.Element, ...]
+    links: tuple[str, ...]
+
+    @property
+    def movable(self) -> tuple[ET.Element, ...]:
+        """The joints that are not fixed."""
+        return tuple(joint for joint in self.joints if joint.get("type") != "fixed")
+
+
+def chain_to(root: ET.Element, flange: str) -> UrdfChain:
+    """Find the chain of joints from the base to a link.
+
+    Args:
+        root: The URDF.
+        flange: The link's name.
+    """
+    above = {_end(joint, "child"): joint for joint in root.findall("joint")}
+    found: list[ET.Element] = []
+    links: list[str] = []
+    link = flange
+    while link in above and link not in links:
+        links.append(link)
+        found.append(above[link])
+        link = _end(above[link], "parent")
+    return UrdfChain(joints=tuple(reversed(found)), links=tuple(reversed(links)))
+
+
+def kind_of(joint: ET.Element) -> JointKind | None:
+    """The kind of a joint that can be an arm's; None for others, such as planar ones.
+
+    Args:
+        joint: The joint's element.
+    """
+    return _KINDS.get(joint.get("type", ""))
+
+
+def chain_problems(root: ET.Element, entry: RobotDocument) -> Iterable[Problem]:
+    """What prevents a URDF from being the arm of a robot file: message, place in the robot file, hint.
+
+    Args:
+        root: The URDF.
+        entry: The robot file's content.
+    """
+    links = {link.get("name", "") for link in root.findall("link")}
+    joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
+    chain = chain_to(root, entry.flange)
+    for index, name in enumerate(entry.without):
+        if name not in links:
+            yield f"has no link {name!r}", ("without", index), "name links of the URDF"
+        elif name in chain.links or name not in {_end(joint, "child") for joint in joints.values()}:
+            yield f"needs the link {name!r} to carry the flange", ("without", index), "leave out what is not of the arm"
+    for name in entry.frozen:
+        if name not in joints:
+            yield f"has no joint {name!r}", ("frozen", name), "name the joints as the URDF does"
+    moving = [joint for joint in chain.movable if joint.get("name", "") not in entry.frozen]
+    wanted = [joint.name for joint in entry.joints]
+    if entry.flange in links and all(name in joints for name in wanted) and len({*wanted}) == len(wanted):
+        found = [joint.get("name", "") for joint in moving]
+        if found != wanted:
+            yield (
+                f"has from its base to {entry.flange!r} the movable joints {', '.join(found) or 'none'}",
+                ("joints",),
+                "list exactly these in this order, or give a joint that stays where it is under 'frozen'",
+            )
+    for joint in moving:
+        name = joint.get("name", "")
+        if kind_of(joint) is None:
+            yield (
+                f"has the {joint.get('type')} joint {name!r} in the arm",
+                ("description",),
+                "an arm's joints are revolute, continuous or prismatic",
+            )
+        elif joint.find("mimic") is not None:
+            yield (
+                f"lets the joint {name!r} of the arm follow another",
+                ("description",),
+                "an arm's joints are driven one by one; give it under 'frozen', or describe an equal arm without it",
+            )
+
+
+def settle(root: ET.Element, entry: RobotDocument) -> bool:
+    """Reduce a URDF to the arm: one movable joint for each of the robot file, everything else rigid.
+
+    Links that the robot file does without go with all that they carry. Joints off the chain are fixed: at the position
+    that the file gives, where the joint that they follow puts them, or else as near to zero as their limits allow. A
+    continuous joint gets the file's range. A link that carries no load by itself may lack its inertia.
+
+    Args:
+        root: The URDF, which has no problems; it is changed.
+        entry: The robot file's content.
+
+    Returns:
+        Whether anything was changed.
+    """
+    changed = _remove(root, entry.without)
+    joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
+    ranges = {joint.name: tuple(end.value for end in joint.range) for joint in entry.joints}
+    frozen = {name: position.value for name, position in entry.frozen.items()}
+    for name, joint in joints.items():
+        if joint.get("type") == "fixed":
+            continue
+        if name not in ranges:
+            _fix(joint, _rest_position(joint, joints, frozen))
+            changed = True
+        elif joint.get("type") == "continuous":
+            joint.set("type", "revolute")
+            limit = joint.find("limit")
+            limit = ET.SubElement(joint, "limit", {"effort": "0", "velocity": "0"}) if limit is None else limit
+            lower, upper = ranges[name]
+            limit.attrib.update(lower=repr(lower), upper=repr(upper))
+            changed = True
+    return _complete_inertials(root) or changed
+
+
+def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
+    """Links that move and need a mass and an inertia, but have none; mere frames need none.
+
+    Args:
+        root: The URDF.
+    """
+    return tuple(
+        link.get("name", "")
+        for link in root.findall("link")
+        if link.get("name") not in _standing_links(root) and not _has_inertia(link) and not _is_frame(root, link)
+    )
+
+
+def _remove(root: ET.Element, names: Iterable[str]) -> bool:
+    gone = set(names)
+    joints = root.findall("joint")
+    while True:
+        more = {_end(joint, "child") for joint in joints if _end(joint, "parent") in gone} - gone
+        if not more:
+            break
+        gone |= more
+    for joint in joints:
+        if _end(joint, "child") in gone:
+            root.remove(joint)
+    for link in root.findall("link"):
+        if link.get("name") in gone:
+            root.remove(link)
+    return bool(gone)
+
+
+def _rest_position(joint: ET.Element, joints: Mapping[str, ET.Element], frozen: Mapping[str, float]) -> float:
+    name = joint.get("name", "")
+    if name in frozen:
+        return frozen[name]
+    mimic = joint.find("mimic")
+    driver = joints.get(mimic.get("joint", "")) if mimic is not None else None
+    if mimic is not None and driver is not None and driver is not joint:
+        followed = _rest_position(driver, {key: one for key, one in joints.items() if key != name}, frozen)
+        return float(mimic.get("multiplier", "1")) * followed + float(mimic.get("offset", "0"))
+    limit = joint.find("limit")
+    if limit is None or joint.get("type") == "continuous":
+        return 0.0
+    return min(max(0.0, float(limit.get("lower", "0"))), float(limit.get("upper", "0")))
+
+
+def _fix(joint: ET.Element, position: float) -> None:
+    kind, axis = kind_of(joint), joint.find("axis")
+    joint.set("type", "fixed")
+    if position == 0.0 or kind is None:
+        return
+    direction = np.array(_triple("1 0 0" if axis is None else axis.get("xyz", "1 0 0")))
+    direction = direction / np.linalg.norm(direction)
+    origin = joint.find("origin")
+    origin = ET.SubElement(joint, "origin") if origin is None else origin
+    at, turn = np.array(_triple(origin.get("xyz", "0 0 0"))), _rotation(_triple(origin.get("rpy", "0 0 0")))
+    if kind is JointKind.PRISMATIC:
+        at = at + turn @ direction * position
+    else:
+        turn = turn @ _about(direction, position)
+    origin.set("xyz", " ".join(repr(float(value)) for value in at))
+    origin.set("rpy", " ".join(repr(value) for value in _roll_pitch_yaw(turn)))
+
+
+def _complete_inertials(root: ET.Element) -> bool:
+    """Take the inertia off what stands, where it has no mass, and give one that counts for nothing to mere frames."""
+    changed = False
+    standing = _standing_links(root)
+    for link in root.findall("link"):
+        if _has_inertia(link):
+            continue
+        if link.get("name") not in {_end(joint, "child") for joint in root.findall("joint")}:
+            for inertial in link.findall("inertial"):
+                link.remove(inertial)
+                changed = True
+        elif link.get("name") in standing or _is_frame(root, link):
+            for inertial in link.findall("inertial"):
+                link.remove(inertial)
+            inertial = ET.SubElement(link, "inertial")
+            ET.SubElement(inertial, "mass", {"value": repr(_NO_MASS_KG)})
+            moments = {name: repr(_NO_MOMENT_KG_M2) if name in _MOMENTS else "0" for name in _MOMENTS}
+            ET.SubElement(inertial, "inertia", {**moments, "ixy": "0", "ixz": "0", "iyz": "0"})
+            changed = True
+    return changed
+
+
+def _standing_links(root: ET.Element) -> set[str]:
+    """The base and what is fixed to it."""
+    joints = root.findall("joint")
+    carried = {_end(joint, "child") for joint in joints}
+    standing = {link.get("name", "") for link in root.findall("link")} - carried
+    while True:
+        more = {
+            _end(joint, "child")
+            for joint in joints
+            if joint.get("type") == "fixed" and _end(joint, "parent") in standing
+        } - standing
+        if not more:
+            return standing
+        standing |= more
+
+
+def _is_frame(root: ET.Element, link: ET.Element) -> bool:
+    """Whether a link is a frame alone: without a collision shape, and fixed to what carries it."""
+    mounts = [joint for joint in root.findall("joint") if _end(joint, "child") == link.get("name")]
+    return link.find("collision") is None and all(joint.get("type") == "fixed" for joint in mounts)
+
+
+def _has_inertia(link: ET.Element) -> bool:
+    mass = link.find("inertial/mass")
+    return (
+        mass is not None
+        and mass.get("value", "").strip() not in ("", "0", "0.0")
+        and (link.find("inertial/inertia") is not None)
+    )
+
+
+def _end(joint: ET.Element, end: str) -> str:
+    found = joint.find(end)
+    return "" if found is None else found.get("link", "")
+
+
+def _triple(text: str) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in text.split())
+    return x, y, z
+
+
+def _rotation(rpy: tuple[float, float, float]) -> NDArray[np.float64]:
+    roll, pitch, yaw = rpy
+    x, y, z = np.eye(3)
+    found: NDArray[np.float64] = _about(z, yaw) @ _about(y, pitch) @ _about(x, roll)
+    return found
+
+
+def _about(axis: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    found: NDArray[np.float64] = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+    return found
+
+
+def _roll_pitch_yaw(turn: NDArray[np.float64]) -> tuple[float, float, float]:
+    pitch = math.atan2(-turn[2, 0], math.hypot(turn[0, 0], turn[1, 0]))
+    if math.hypot(turn[0, 0], turn[1, 0]) < 1e-9:
+        # Gimbal lock: roll and yaw turn about one axis.
+        return math.atan2(-turn[1, 2], turn[1, 1]), pitch, 0.0
+    return math.atan2(turn[2, 1], turn[2, 2]), pitch, math.atan2(turn[1, 0], turn[0, 0])

@@ -1,0 +1,161 @@
+"""The arm in a URDF: where it ends, which joints it has, and what hangs on its flange and is not of it."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rgss.errors import DefinitionError
+from rgss.scenes import MOST_JOINTS, JointKind, chain_to, kind_of
+
+_DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UrdfJoint:
+    """A joint of the arm as the URDF has it.
+
+    Attributes:
+        name: Its name.
+        kind: What its position is.
+        lower: Lower end of its range, in rad or m; a continuous joint's is half a turn below zero.
+        upper: Upper end.
+        speed: Greatest speed in rad/s or m/s; 0 where the URDF has none.
+        effort: Greatest torque in N·m, or force in N; 0 where the URDF has none.
+    """
+
+    name: str
+    kind: JointKind
+    lower: float
+    upper: float
+    speed: float
+    effort: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UrdfArm:
+    """The arm in a URDF.
+
+    Attributes:
+        name: The robot's name.
+        flange: The link that carries the gripper.
+        joints: The arm's joints, from the base to the flange.
+        hands: Links on the flange that lead to movable joints, such as a hand: the gripper takes their place.
+    """
+
+    name: str
+    flange: str
+    joints: tuple[UrdfJoint, ...]
+    hands: tuple[str, ...]
+
+
+def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
+    """Find the arm in a URDF: from the base along the only way that leads to movable joints.
+
+    Args:
+        root: The URDF.
+        flange: The link that carries the gripper; found where None.
+
+    Raises:
+        DefinitionError: There is no arm, or it is not clear where it ends.
+    """
+    links = [link.get("name", "") for link in root.findall("link")]
+    below: dict[str, list[ET.Element]] = {}
+    for joint in root.findall("joint"):
+        below.setdefault(_end(joint, "parent"), []).append(joint)
+    if flange is not None and flange not in links:
+        raise DefinitionError(f"the URDF has no link {flange}", hint=f"its links are {', '.join(links)}")
+    found = flange if flange is not None else _last_link(root, below)
+    chain = chain_to(root, found)
+    moving = chain.movable
+    if not 1 <= len(moving) <= MOST_JOINTS:
+        raise DefinitionError(
+            f"the arm has {len(moving)} movable joints from its base to {found}, and 1 to {MOST_JOINTS} are expected",
+            hint="name the link that carries the gripper with --flange",
+        )
+    for joint in moving:
+        if kind_of(joint) is None:
+            raise DefinitionError(
+                f"the joint {joint.get('name')} is {joint.get('type')}",
+                hint="an arm's joints are revolute, continuous or prismatic",
+            )
+    hands = [
+        _end(joint, "child")
+        for joint in below.get(found, ())
+        if joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below)
+    ]
+    return UrdfArm(
+        name=root.get("name", "") or "arm",
+        flange=found,
+        joints=tuple(_joint(joint) for joint in moving),
+        hands=tuple(hands),
+    )
+
+
+def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
+    carried = {_end(joint, "child") for joint in root.findall("joint")}
+    link = next(link.get("name", "") for link in root.findall("link") if link.get("name") not in carried)
+    rigid = [link]
+    moved = False
+    while True:
+        ways = [
+            joint
+            for joint in below.get(link, ())
+            if joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below)
+        ]
+        if len(ways) == 1:
+            link = _end(ways[0], "child")
+            moved = moved or ways[0].get("type") != "fixed"
+            rigid = [*rigid, link] if ways[0].get("type") == "fixed" else [link]
+            continue
+        if ways and not moved:
+            names = ", ".join(_end(joint, "child") for joint in ways)
+            raise DefinitionError(
+                f"the URDF divides at {link} into {names}, before any joint moves",
+                hint="name the link that carries the gripper with --flange",
+            )
+        break
+    if ways:
+        # A hand: the arm ends at the last frame before it, or where it is mounted.
+        shaped = {one.get("name", "") for one in root.findall("link") if one.find("collision") is not None}
+        return next((name for name in reversed(rigid) if name not in shaped), rigid[0])
+    while True:
+        frames = [_end(joint, "child") for joint in below.get(link, ()) if not _has_shape(root, _end(joint, "child"))]
+        if not frames:
+            return link
+        link = frames[0]
+
+
+def _leads_to_movable(link: str, below: Mapping[str, list[ET.Element]]) -> bool:
+    return any(
+        joint.get("type") != "fixed" or _leads_to_movable(_end(joint, "child"), below) for joint in below.get(link, ())
+    )
+
+
+def _has_shape(root: ET.Element, name: str) -> bool:
+    return any(
+        link.get("name") == name and (link.find("collision") is not None or link.find("visual") is not None)
+        for link in root.findall("link")
+    )
+
+
+def _joint(joint: ET.Element) -> UrdfJoint:
+    limit = joint.find("limit")
+    values = {} if limit is None else {key: float(value) for key, value in limit.attrib.items()}
+    kind = kind_of(joint) or JointKind.REVOLUTE
+    bounded = joint.get("type") != "continuous" and values.get("lower", 0.0) < values.get("upper", 0.0)
+    lower, upper = (values["lower"], values["upper"]) if bounded else _DEFAULT_RANGE
+    return UrdfJoint(
+        name=joint.get("name", ""),
+        kind=kind,
+        lower=lower,
+        upper=upper,
+        speed=values.get("velocity", 0.0),
+        effort=values.get("effort", 0.0),
+    )
+
+
+def _end(joint: ET.Element, end: str) -> str:
+    found = joint.find(end)
+    return "" if found is None else found.get("link", "")

@@ -1,0 +1,144 @@
+"""What is wrong or suspicious in an arm's description that can be used all the same."""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+
+import numpy as np
+
+from rgss.documents import read_document
+from rgss.errors import DefinitionError
+from rgss.findings import Finding, Severity
+from rgss.scenes import Robot, mesh_summary
+from rgss.studies.project import Project
+
+LARGEST_HULL_RATIO = 1.25
+"""Volume of a mesh's hull over its own from which the loss is reported."""
+
+_LARGEST_LENGTH_M, _LARGEST_MASS_KG = 10.0, 1000.0
+_NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
+
+
+def robot_findings(project: Project) -> tuple[Finding, ...]:
+    """What is suspicious in the description of a project's robot.
+
+    Args:
+        project: The project.
+    """
+    scene = PurePosixPath(project.study.scene)
+    robot = scene.parent / read_document(project.folder / scene, label=str(scene)).data["robot"]["description"]
+    urdf = robot.parent / read_document(project.folder / robot, label=str(robot)).data["description"]
+    return description_findings(project.scene.robot, project.folder / urdf, str(urdf))
+
+
+def description_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
+    """What is suspicious in a description that can be used: units, masses, inertias, limits, meshes.
+
+    Args:
+        robot: The arm.
+        urdf: Its URDF.
+        label: The URDF's name in messages.
+    """
+    text = urdf.read_text(encoding="utf-8-sig")
+    root = ET.fromstring(text)  # noqa: S314 - entities and document types were refused on reading
+    lines = text.splitlines()
+    found = []
+    used = {link.get("name", "") for link in ET.fromstring(robot.urdf).findall("link")}  # noqa: S314 - as above
+    for link in root.findall("link"):
+        if link.get("name") not in used:
+            root.remove(link)
+    for name, rule, message, hint in (*_lengths(root), *_matter(root), *_limits(root, robot), *_meshes(root, urdf)):
+        at = next((number for number, line in enumerate(lines, start=1) if f'"{name}"' in line), 1)
+        severity = Severity.INFO if rule in _NOTES else Severity.WARNING
+        found.append(Finding(file=label, line=at, column=1, rule=rule, severity=severity, message=message, hint=hint))
+    return tuple(dict.fromkeys(found))
+
+
+def _lengths(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
+    hint = "a URDF is in metres and radians"
+    for part in (*root.findall("link"), *root.findall("joint")):
+        name = part.get("name", "")
+        for element in part.iter():
+            for key in ("xyz", "size", "radius", "length"):
+                if element.tag == "axis" or key not in element.attrib:
+                    continue
+                largest = max((abs(float(word)) for word in element.get(key, "").split()), default=0.0)
+                if largest > _LARGEST_LENGTH_M:
+                    yield name, "robot.units", f"{name} has a length of {largest:g} m: are these millimetres?", hint
+
+
+def _matter(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
+    for link in root.findall("link"):
+        name = link.get("name", "")
+        mass, inertia = link.find("inertial/mass"), link.find("inertial/inertia")
+        value = float(mass.get("value", "0")) if mass is not None else 0.0
+        if value > _LARGEST_MASS_KG:
+            yield name, "robot.units", f"{name} weighs {value:g} kg: are these grams?", "a URDF is in kilograms"
+        if inertia is None or value == 0.0:
+            continue
+        xx, yy, zz, xy, xz, yz = (float(inertia.get(key, "0")) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
+        moments = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])).tolist()
+        if moments[0] < 0.0 or moments[0] + moments[1] < moments[2] * (1 - 1e-6):
+            yield (
+                name,
+                "robot.inertia",
+                f"{name} has moments of inertia that no body has",
+                "no principal moment is negative, or greater than the sum of the two others",
+            )
+
+
+def _limits(root: ET.Element, robot: Robot) -> Iterator[tuple[str, str, str, str]]:
+    names = {joint.name for joint in robot.joints}
+    for joint in root.findall("joint"):
+        name, limit = joint.get("name", ""), joint.find("limit")
+        if name not in names:
+            continue
+        for key, what in (("effort", "effort"), ("velocity", "velocity")):
+            if limit is None or float(limit.get(key, "0")) <= 0.0:
+                yield name, "robot.limit", f"joint {name} has no {what}", "the robot file's value is used alone"
+
+
+def _meshes(root: ET.Element, urdf: Path) -> Iterator[tuple[str, str, str, str]]:
+    for link in root.findall("link"):
+        for mesh in link.findall("collision/geometry/mesh"):
+            name = mesh.get("filename", "")
+            x, y, z = (float(word) for word in mesh.get("scale", "1 1 1").split())
+            path = mesh_path(name, urdf)
+            if path is None:
+                continue
+            try:
+                found = mesh_summary(path, scale=(x, y, z))
+            except DefinitionError as error:
+                yield name, "robot.mesh", error.message, error.hint
+                continue
+            if max(found.extent_m) > _LARGEST_LENGTH_M:
+                message = f"the mesh {name} is {max(found.extent_m):g} m long: is it in millimetres?"
+                yield name, "robot.units", message, 'write scale="0.001 0.001 0.001"'
+            if not found.is_closed:
+                yield name, "robot.open-mesh", f"the mesh {name} is not closed", "its hull is simulated all the same"
+            elif found.hull_ratio > LARGEST_HULL_RATIO and math.isfinite(found.hull_ratio):
+                yield (
+                    name,
+                    "robot.concave-mesh",
+                    f"the mesh {name} is concave: its hull has {found.hull_ratio:.2f} times its volume",
+                    "write 'collision: decompose' in the robot file if the arm comes near to itself or to the scene",
+                )
+
+
+def mesh_path(name: str, urdf: Path) -> Path | None:
+    """The file of a mesh that a checked URDF names; None where it is none.
+
+    Args:
+        name: The mesh's name in the URDF.
+        urdf: The URDF.
+    """
+    rest = name.removeprefix("package://")
+    package, _, below = rest.partition("/")
+    candidates = [urdf.parent / rest]
+    if rest != name:
+        for folder in urdf.resolve().parents:
+            candidates += [folder / package / below] + ([folder / below] if folder.name == package else [])
+    return next((path for path in candidates if path.is_file()), None)

@@ -1,0 +1,138 @@
+"""Fitting of a cell to an arm: a layout that it reaches, a home, and what it carries."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.errors import DefinitionError
+from rgss.kinematics import Arm, ArmDynamics, Load, inverse_kinematics
+from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
+from rgss.studies.robot_project.layout import Layout, layouts, scene_text
+from rgss.trials import Workcell, waypoint_configurations
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 2048
+_LEAST_REACH_M = 0.2
+_ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
+_CLEARANCE_M = 0.008
+_LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.1, 100.0
+
+
+def horizontal_reach_m(robot: Robot) -> float:
+    """Greatest distance of the flange from the first axis over sampled configurations.
+
+    Args:
+        robot: The arm.
+    """
+    arm = Arm(robot, Pose())
+    positions = arm.tool_position(sampled_configurations(robot)) - np.array(arm.first_axis_m)
+    return float(np.max(np.linalg.norm(positions, axis=1)))
+
+
+def payload_at_reach_kg(robot: Robot) -> float:
+    """Mass at the flange that the efforts of the joints hold with the arm farthest out; rounded down to 0.1 kg.
+
+    Args:
+        robot: The arm.
+    """
+    arm = Arm(robot, Pose())
+    samples = sampled_configurations(robot)
+    offsets = (arm.tool_position(samples) - np.array(arm.first_axis_m))[:, :2]
+    q = samples[int(np.argmax(np.linalg.norm(offsets, axis=1)))]
+    still = np.zeros(len(robot.joints))
+    kilogram = Load(mass_kg=1.0, moments_kg_m2=(0.0, 0.0, 0.0), pose=Pose())
+    own = ArmDynamics(robot, (), gravity_m_s2=9.81).torques(q, still, still)
+    more = ArmDynamics(robot, (kilogram,), gravity_m_s2=9.81).torques(q, still, still) - own
+    margins = [
+        (joint.torque_n_m - abs(float(mine))) / abs(float(each))
+        for joint, mine, each in zip(robot.joints, own, more, strict=True)
+        if abs(float(each)) > 1e-9
+    ]
+    held = math.floor(10 * min(margins, default=_MOST_PAYLOAD_KG)) / 10
+    return min(max(held, _LEAST_PAYLOAD_KG), _MOST_PAYLOAD_KG)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FittedCell:
+    """A cell that suits an arm.
+
+    Attributes:
+        layout: Where the tables are.
+        home: Joint positions above the object, in rad or m.
+        lower: Lower ends of ranges about the configurations at all waypoints.
+        upper: Their upper ends.
+    """
+
+    layout: Layout
+    home: tuple[float, ...]
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+
+
+def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]) -> FittedCell:
+    """The first layout in which the arm reaches every waypoint with every gripper, and a home for it.
+
+    Args:
+        folder: The project, with all files but the scene.
+        robot: The arm.
+        robot_file: Name of its file.
+        geometries: The grippers.
+
+    Raises:
+        DefinitionError: There is none.
+    """
+    path = folder / "scenes" / "kitchen.yaml"
+    reach_m = horizontal_reach_m(robot)
+    for layout in layouts(reach_m) if reach_m >= _LEAST_REACH_M else ():
+        path.write_text(scene_text(layout, robot=robot_file), encoding="utf-8")
+        scene = load_scene(path, project=folder)
+        if not all(_reaches_ends(scene, geometry) for geometry in geometries):
+            continue
+        stops = [_stops(scene, geometry) for geometry in geometries]
+        if all(len(one) == len(Waypoint) for one in stops):
+            lower, upper = _ranges(robot, np.array([q for one in stops for q in one.values()]))
+            home = stops[0][Waypoint.GRASP_DEPARTURE].tolist()
+            return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper)
+    raise DefinitionError(
+        f"no layout was found in which {robot.id} grasps a cup on a table with its tool pointing down",
+        hint="is --flange the link whose z axis points out of the arm? Does the arm turn its tool down at all?",
+    )
+
+
+def _stops(scene: Scene, geometry: GripperGeometry) -> Mapping[Waypoint, Array]:
+    """Valid configurations at the waypoints, with the least travel from one to the next."""
+    return waypoint_configurations(Workcell(scene, geometry, clearance_m=_CLEARANCE_M))[0]
+
+
+def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Ranges that hold configurations with some room, within the arm's own."""
+    room = np.array([_ROOM[joint.kind] for joint in robot.joints])
+    own = np.array([(joint.lower_rad, joint.upper_rad) for joint in robot.joints]).T
+    lower = np.maximum(np.round(np.min(configurations, axis=0) - room, 2), own[0])
+    upper = np.minimum(np.round(np.max(configurations, axis=0) + room, 2), own[1])
+    return tuple(lower.tolist()), tuple(upper.tolist())
+
+
+def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
+    inverse, poses = inverse_kinematics(Arm(scene.robot, geometry.grasp_centre)), waypoint_poses(scene)
+    ends = (Waypoint.GRASP, Waypoint.GRASP_DEPARTURE, Waypoint.PLACE)
+    return all(inverse.nearest(poses[waypoint], scene.robot.home_rad) is not None for waypoint in ends)
+
+
+def sampled_configurations(robot: Robot) -> Array:
+    """Joint positions drawn evenly from the ranges, the same at every call, shape (k, n).
+
+    Args:
+        robot: The arm.
+    """
+    lower, upper = (np.array([getattr(joint, end) for joint in robot.joints]) for end in ("lower_rad", "upper_rad"))
+    shares = np.random.default_rng(0).random((_SAMPLES, len(robot.joints)))
+    samples: Array = lower + shares * (upper - lower)
+    return samples

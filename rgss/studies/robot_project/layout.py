@@ -1,0 +1,139 @@
+"""The cell of a new project: two tables before the arm, as far away as its tool reaches pointing down."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+_PEDESTAL_HEIGHT_M = 0.6
+_SHARES_OF_REACH = (0.55, 0.6, 0.5, 0.65, 0.45, 0.7, 0.4, 0.35)
+_HEIGHT_SHARES = (0.0, 0.1, -0.1, 0.2, -0.2, -0.3)
+_AZIMUTH_RAD = math.radians(35.0)
+
+
+_SCENE = """\
+# Where the arm works: it carries a cup from one table to another, past a post between them. Everything is scaled by the
+# arm's reach. World frame: origin on the floor under the arm, z up. `foot` is the centre of a body's bottom face.
+scene: kitchen
+gravity: 9.81 m/s^2
+
+robot:
+  description: robots/{robot}
+  base: [0 m, 0 m, {pedestal:g} m]
+
+bodies: # a box has its size along x, y and z
+  - {{id: floor, box: [5 m, 5 m, 0.02 m], foot: [0 m, 0 m, -0.02 m], friction: 0.6, colour: "#6b625b"}}
+  - id: pedestal
+    cylinder: {{radius: {foot:.3f} m, height: {pedestal:g} m}}
+    foot: [0 m, 0 m, 0 m]
+    friction: 0.6
+    colour: "#4a4f57"
+  - id: counter
+    box: [{deep:.3f} m, {long:.3f} m, {table:g} m]
+    foot: [{x:.3f} m, {left:.3f} m, 0 m]
+    friction: 0.5
+    colour: "#b98a5a"
+  - id: tray
+    box: [{deep:.3f} m, {long:.3f} m, {table:g} m]
+    foot: [{x:.3f} m, {y:.3f} m, 0 m]
+    friction: 0.5
+    colour: "#a97c4f"
+  - id: post
+    cylinder: {{radius: {post:.3f} m, height: {post_top:.3f} m}}
+    foot: [{post_x:.3f} m, 0 m, 0 m]
+    friction: 0.5
+    colour: "#2f3338"
+
+workpiece: # an upright cylinder
+  id: cup
+  radius: 35 mm
+  height: 100 mm
+  mass: 0.25 kg
+  friction: 1.0 # the coefficient of a contact is the product of both bodies'; the designs give that of the finger
+  force_limit: 40 N # what it bears before it breaks
+  stands_on: counter
+  at: [{x:.3f} m, {left:.3f} m]
+  colour: "#d94f3d"
+
+place_region:
+  stands_on: tray
+  at: [{x:.3f} m, {y:.3f} m]
+  radius: 40 mm
+  largest_tilt: 5 deg
+
+task: # heights of the gripper over its waypoints, and how it is turned there
+  approach_height: {approach:.0f} mm
+  lift_height: {lift:.0f} mm
+  departure_height: {high:.0f} mm
+  place_approach_height: {high:.0f} mm
+  place_clearance: 3 mm
+  largest_carry_tilt: 45 deg
+  grasp_yaw: 0 deg
+  place_yaw: 0 deg
+
+assumptions:
+  - about: workpiece.force_limit
+    rationale: No source gives the force that breaks the cup; this is well above the closing impact of one finger.
+"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layout:
+    """Where the tables are.
+
+    Attributes:
+        reach_m: The arm's reach, by which everything is scaled.
+        distance_m: Horizontal distance of the object and its place from the base.
+        table_m: Height of the tables' tops over the floor.
+    """
+
+    reach_m: float
+    distance_m: float
+    table_m: float
+
+
+def layouts(reach_m: float) -> Iterator[Layout]:
+    """Layouts to try, the most common first.
+
+    Args:
+        reach_m: The arm's reach from its first axis.
+    """
+    for height in _HEIGHT_SHARES:
+        for share in _SHARES_OF_REACH:
+            table_m = max(0.1, _PEDESTAL_HEIGHT_M + height * reach_m)
+            yield Layout(reach_m=reach_m, distance_m=share * reach_m, table_m=round(table_m, 3))
+
+
+def scene_text(layout: Layout, *, robot: str) -> str:
+    """The text of a scene file.
+
+    Args:
+        layout: Where the tables are.
+        robot: Name of the robot file.
+    """
+    reach = layout.reach_m
+    x, y = layout.distance_m * math.cos(_AZIMUTH_RAD), layout.distance_m * math.sin(_AZIMUTH_RAD)
+    long, deep = 0.45 * reach, max(0.2, 0.3 * reach)
+    near = x - deep / 2
+    post = 0.05 * reach
+    high = min(0.24, 0.2 * reach)
+    approach = min(0.15, 0.12 * reach)
+    lift = min(0.06, 0.05 * reach)
+    return _SCENE.format(
+        robot=robot,
+        pedestal=_PEDESTAL_HEIGHT_M,
+        foot=min(0.14, near * 0.5),
+        deep=deep,
+        long=long,
+        table=layout.table_m,
+        x=x,
+        left=-y,
+        y=y,
+        post=post / 2,
+        post_top=layout.table_m + 0.2 * reach,
+        post_x=x + 0.12 * reach,
+        approach=approach * 1e3,
+        lift=lift * 1e3,
+        high=high * 1e3,
+    )

@@ -1,0 +1,90 @@
+"""The robot file of a new project, from the limits of a URDF; what the URDF lacks is a stated assumption."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from rgss.scenes import JointKind
+from rgss.studies.robot_project.arm_of_urdf import UrdfArm, UrdfJoint
+
+_ACCELERATION_TIME_S = 0.4
+_LARGEST_ACCELERATION = {JointKind.REVOLUTE: 5.0, JointKind.PRISMATIC: 3.0}
+_SPEED = {JointKind.REVOLUTE: 1.5, JointKind.PRISMATIC: 0.5}
+_EFFORT = {JointKind.REVOLUTE: 100.0, JointKind.PRISMATIC: 500.0}
+
+TOOL_ACCELERATION_M_S2 = 1.2
+
+
+def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], payload_kg: float) -> str:
+    """The text of a robot file.
+
+    Args:
+        arm: The arm.
+        id_: The robot's id.
+        urdf: The URDF's name beside the robot file.
+        home: Joint positions in rad or m, shape (n,).
+        payload_kg: The payload that is written down.
+    """
+    lines = [
+        "# Limits of the arm, from its URDF. What the URDF does not say is an assumption below: replace it by the",
+        "# manufacturer's figures. rgss robot says what the arm is, and what is wrong with its description.",
+        f"robot: {id_}",
+        f"description: {urdf}",
+        f"flange: {arm.flange}",
+        "joints:",
+        *(_joint_line(joint) for joint in arm.joints),
+        f"payload: {payload_kg:g} kg",
+        f"tool_acceleration: {TOOL_ACCELERATION_M_S2:g} m/s^2",
+        f"home: [{', '.join(_position(joint, value) for joint, value in zip(arm.joints, home, strict=True))}]",
+    ]
+    if arm.hands:
+        lines.append(f"without: [{', '.join(arm.hands)}]")
+    lines.append("assumptions:")
+    for about, rationale in _assumptions(arm):
+        lines += [f"  - about: {about}", f"    rationale: {rationale}"]
+    return "\n".join(lines) + "\n"
+
+
+def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
+    most = _LARGEST_ACCELERATION[JointKind.REVOLUTE]
+    found = [
+        (
+            "joints.acceleration",
+            f"A URDF has none; each joint reaches its speed in {_ACCELERATION_TIME_S:g} s, {most:g} rad/s^2 at most.",
+        ),
+        (
+            "joints.range",
+            "The part of the URDF's ranges about the task's configurations; planners search no turns beyond.",
+        ),
+        ("payload", "What the joints' efforts hold, with the arm as far out as it reaches, rounded down."),
+        ("tool_acceleration", "That of a common collaborative arm."),
+        ("home", "A configuration above the place where the object stands, away from everything."),
+    ]
+    slow = [joint.name for joint in arm.joints if joint.speed <= 0.0]
+    weak = [joint.name for joint in arm.joints if joint.effort <= 0.0]
+    if slow:
+        found.append(("joints.speed", f"The URDF has no speed of {', '.join(slow)}."))
+    if weak:
+        found.append(("joints.torque", f"The URDF has no effort of {', '.join(weak)}."))
+    if arm.hands:
+        found.append(("without", "The hand of the URDF is left out; the design's gripper takes its place."))
+    return found
+
+
+def _joint_line(joint: UrdfJoint) -> str:
+    slides = joint.kind is JointKind.PRISMATIC
+    speed = joint.speed if joint.speed > 0.0 else _SPEED[joint.kind]
+    effort = joint.effort if joint.effort > 0.0 else _EFFORT[joint.kind]
+    acceleration = min(speed / _ACCELERATION_TIME_S, _LARGEST_ACCELERATION[joint.kind])
+    position, force = ("m", "N") if slides else ("rad", "N*m")
+    return (
+        f"  - {{name: {joint.name}, range: [{joint.lower!r} {position}, {joint.upper!r} {position}], "
+        f"speed: {speed:g} {position}/s, acceleration: {acceleration:g} {position}/s^2, torque: {effort:g} {force}}}"
+    )
+
+
+def _position(joint: UrdfJoint, value: float) -> str:
+    if joint.kind is JointKind.PRISMATIC:
+        return f"{value * 1e3:.1f} mm"
+    return f"{math.degrees(value):.2f} deg"

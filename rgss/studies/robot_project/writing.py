@@ -1,0 +1,87 @@
+"""Writing of a new project round an arm."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from dataclasses import replace
+from pathlib import Path, PurePosixPath
+
+from rgss.errors import DefinitionError
+from rgss.scenes import load_gripper
+from rgss.studies.robot_project.draft import drafted_robot
+from rgss.studies.robot_project.fitting import fitted, payload_at_reach_kg
+from rgss.studies.robot_project.layout import scene_text
+from rgss.studies.robot_project.robot_text import robot_text
+from rgss.studies.scaffolding import scaffold_texts
+from rgss.studies.schema_headers import cannot_write
+
+
+def write_robot_project(urdf: Path, folder: Path, *, flange: str | None = None) -> tuple[str, ...]:
+    """Write a new project round the arm of a URDF into a folder, which is made if it is not there.
+
+    The URDF and the meshes that it names are copied. The robot file has the URDF's limits; the tables are scaled to
+    the arm's reach.
+
+    Args:
+        urdf: The URDF.
+        folder: The folder; nothing in it is overwritten.
+        flange: The link that carries the gripper; found where None.
+
+    Returns:
+        The names of the files that were written, relative to the folder.
+
+    Raises:
+        DefinitionError: The URDF has no arm that the task can be fitted to, or a file is there already.
+        DocumentError: The description is wrong.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        project = Path(scratch) / "project"
+        _write_files(project, urdf, flange)
+        names = tuple(sorted(path.relative_to(project).as_posix() for path in project.rglob("*") if path.is_file()))
+        try:
+            for name in names:
+                if (folder / name).exists() or (folder / name).is_symlink():
+                    raise DefinitionError(
+                        f"{folder / name} is there already, and nothing is overwritten", hint="name a new folder"
+                    )
+            for name in names:
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(project / name, folder / name)
+        except (OSError, ValueError) as error:
+            raise cannot_write(folder, error) from error
+    return names
+
+
+def _write_files(project: Path, urdf: Path, flange: str | None) -> None:
+    drafted = drafted_robot(urdf, project, flange=flange)
+    arm, robot, id_ = drafted.arm, drafted.robot, drafted.robot.id
+    texts = scaffold_texts()
+    (old,) = (PurePosixPath(name).stem for name in texts if re.fullmatch(r"scenes/robots/[^/]+\.yaml", name))
+    for name, content in texts.items():
+        if name.startswith("scenes/robots/") or name == "scenes/kitchen.yaml":
+            continue
+        path = project / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(_renamed(content, old, id_, arm.name), encoding="utf-8", newline="\n")
+    geometries = [load_gripper(path) for path in sorted((project / "scenes" / "grippers").glob("*.yaml"))]
+    cell = fitted(project, robot, drafted.file.name, geometries)
+    ranges = zip(arm.joints, cell.lower, cell.upper, strict=True)
+    narrowed = replace(arm, joints=tuple(replace(joint, lower=low, upper=high) for joint, low, high in ranges))
+    payload_kg = payload_at_reach_kg(robot)
+    text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, payload_kg=payload_kg)
+    drafted.file.write_text(text, encoding="utf-8")
+    (project / "scenes" / "kitchen.yaml").write_text(scene_text(cell.layout, robot=drafted.file.name), encoding="utf-8")
+
+
+def _renamed(text: str, old: str, id_: str, name: str) -> str:
+    """A file of the scaffold with the arm's name in the place of the scaffold's."""
+    text = text.replace(f"scenes/robots/{old}.yaml", f"scenes/robots/{id_}.yaml")
+    component = rf"id: {re.escape(old)}\n( *)role: manipulator\n *name: .*\n *manufacturer: .*\n"
+    return re.sub(component, lambda found: _component(found[1], id_, name), text)
+
+
+def _component(indent: str, id_: str, name: str) -> str:
+    lines = ("role: manipulator", f"name: {name}", "manufacturer: not stated")
+    return f"id: {id_}\n" + "".join(f"{indent}{line}\n" for line in lines)

@@ -1,0 +1,114 @@
+"""From a URDF to a decision: a project round an arm that nobody here modelled."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from rgss.cli.main import main
+from tests.robots.conftest import urdf_of
+
+
+def run(capsys, project, *arguments):
+    status = main([*arguments, "--project", str(project)])
+    return status, capsys.readouterr().out
+
+
+def test_a_project_of_an_arm_is_checked_swept_and_decided(projects, arm_name, capsys):
+    project = projects[arm_name]
+    study = project / "studies" / "pick_place.yaml"
+    study.write_text(
+        study.read_text(encoding="utf-8")
+        .replace("fidelity: contact", "fidelity: kinematic")
+        .replace("replicates: 2", "replicates: 1"),
+        encoding="utf-8",
+    )
+    status, text = run(capsys, project, "check")
+    # One of the arms has inertias that no body has.
+    assert status == (1 if "robot.inertia" in text else 0)
+    assert "error" not in text
+    status, _ = run(capsys, project, "sweep", "--jobs", "1")
+    assert status == 0
+    status, text = run(capsys, project, "trade", "--json")
+    decision = json.loads(text)
+    assert status in (0, 1)
+    assert decision["chosen"] is not None
+
+
+def test_the_object_is_carried_in_contact(projects, capsys):
+    status, text = run(capsys, projects["seven with a hand"], "run", "2", "--fidelity", "contact", "--json")
+    assert status == 0
+    assert json.loads(text)["success"] is True
+
+
+def test_init_names_what_was_written(tmp_path, capsys):
+    assert main(["init", "--robot", str(urdf_of("six")), str(tmp_path / "new"), "--json"]) == 0
+    files = json.loads(capsys.readouterr().out)["files"]
+    assert "scenes/robots/xarm6.urdf" in files
+    assert all((tmp_path / "new" / name).is_file() for name in files)
+    assert main(["init", "--robot", str(urdf_of("six")), str(tmp_path / "new")]) == 2
+    assert "is there already, and nothing is overwritten" in capsys.readouterr().err
+
+
+TWO_ARMS = (
+    '<robot name="two"><link name="body"/>'
+    + "".join(
+        f'<link name="{side}"/><joint name="{side}_joint" type="revolute"><parent link="body"/><child link="{side}"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+        for side in ("left", "right")
+    )
+    + "</robot>"
+)
+
+
+WITHOUT_ITS_MESH = (
+    '<robot name="r"><link name="base"/><link name="tip"><visual><geometry><mesh filename="no.stl"/></geometry>'
+    '</visual></link><joint name="j" type="revolute"><parent link="base"/><child link="tip"/></joint></robot>'
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "more", "message"),
+    [
+        (TWO_ARMS, [], "the URDF divides at body into left, right, before any joint moves"),
+        (TWO_ARMS, ["--flange", "hand"], "the URDF has no link hand"),
+        (TWO_ARMS, ["--flange", "body"], "the arm has 0 movable joints from its base to body"),
+        (TWO_ARMS.replace("revolute", "planar"), ["--flange", "left"], "the joint left_joint is planar"),
+        ("<robot", [], "is not XML"),
+        ("<model/>", [], "is no URDF: it has no robot with links"),
+        ("<!DOCTYPE robot><robot/>", [], "declares a document type"),
+        (WITHOUT_ITS_MESH, [], "the file no.stl of arm.urdf is not there"),
+    ],
+)
+def test_what_is_no_arm_is_said_in_one_line(tmp_path, capsys, text, more, message):
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(text, encoding="utf-8")
+    assert main(["init", "--robot", str(urdf), *more, str(tmp_path / "new")]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert "Traceback" not in error
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_urdf_that_is_not_there(tmp_path, capsys):
+    assert main(["init", "--robot", str(tmp_path / "no.urdf"), str(tmp_path / "new")]) == 2
+    assert "no.urdf cannot be read" in capsys.readouterr().err
+
+
+def test_a_flange_needs_a_urdf(tmp_path, capsys):
+    assert main(["init", "--flange", "tool0", str(tmp_path / "new")]) == 2
+    assert "--flange names a link of a URDF (give the URDF with --robot)" in " ".join(capsys.readouterr().err.split())
+
+
+def test_an_arm_that_cannot_turn_its_tool_down(tmp_path, capsys):
+    joint = '<joint name="j" type="revolute"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>'
+    urdf = tmp_path / "arm.urdf"
+    urdf.write_text(
+        '<robot name="r"><link name="base"/><link name="tip"><inertial><mass value="1"/><inertia ixx="1" iyy="1" '
+        f'izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>{joint}'
+        '<limit lower="-1" upper="1" effort="9" velocity="1"/></joint></robot>',
+        encoding="utf-8",
+    )
+    assert main(["init", "--robot", str(urdf), str(tmp_path / "new")]) == 2
+    assert "no layout was found in which r grasps a cup" in capsys.readouterr().err

@@ -1,0 +1,107 @@
+"""Convex shapes of meshes: hulls, boxes, parts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+
+from rgss.errors import DefinitionError
+from rgss.scenes.document import CollisionShapes
+from rgss.scenes.mesh_shapes import MOST_VERTICES, mesh_summary, shapes_of_mesh
+
+ONE = (1.0, 1.0, 1.0)
+
+
+def bracket():
+    """Two bars that meet at a right angle, 0.2 m long and 0.04 m thick."""
+    first = trimesh.creation.box((0.2, 0.04, 0.04))
+    second = trimesh.creation.box((0.04, 0.2, 0.04))
+    second.apply_translation((-0.08, 0.08, 0.0))
+    return trimesh.util.concatenate([first, second])
+
+
+@pytest.fixture
+def saved(tmp_path):
+    def save(mesh, name="part.stl"):
+        path = tmp_path / name
+        mesh.export(path)
+        return path
+
+    return save
+
+
+def shapes(path, how=CollisionShapes.HULL, scale=ONE):
+    return shapes_of_mesh(path, sha256=str(path), scale=scale, how=how)
+
+
+def test_a_box_keeps_its_corners(saved):
+    for name in ("box.stl", "box.obj", "box.ply"):
+        (corners,) = shapes(saved(trimesh.creation.box((0.2, 0.1, 0.06)), name))
+        assert len(corners) == 8
+        assert np.allclose(np.max(corners, axis=0), (0.1, 0.05, 0.03))
+
+
+def test_a_scale_is_kept_and_may_mirror(saved):
+    mesh = trimesh.creation.box((200, 100, 60))
+    mesh.apply_translation((100, 0, 0))
+    (corners,) = shapes(saved(mesh), scale=(-0.001, 0.001, 0.001))
+    assert np.allclose(np.min(corners, axis=0), (-0.2, -0.05, -0.03))
+
+
+def test_a_round_mesh_has_few_corners_and_is_held_by_its_shape(saved):
+    mesh = trimesh.creation.icosphere(subdivisions=4, radius=0.08)
+    (corners,) = shapes(saved(mesh))
+    assert len(corners) <= MOST_VERTICES < len(mesh.vertices)
+    hull = trimesh.convex.convex_hull(np.array(corners))
+    # The shape holds the mesh and is larger by no more than two chords' sagittae of 160 corners.
+    distances = trimesh.proximity.signed_distance(hull, mesh.vertices)
+    assert float(np.min(distances)) >= -2e-7
+    assert np.max(np.linalg.norm(corners, axis=1)) < 0.0835
+
+
+def test_the_box_about_a_mesh(saved):
+    (corners,) = shapes(saved(bracket()), CollisionShapes.BOXES)
+    assert len(corners) == 8
+    assert np.allclose(np.max(corners, axis=0), (0.1, 0.18, 0.02))
+
+
+def test_bodies_of_a_mesh_are_shapes_of_their_own(saved):
+    parts = shapes(saved(bracket()), CollisionShapes.DECOMPOSE)
+    assert sorted(len(part) for part in parts) == [8, 8]
+
+
+def test_a_concave_body_is_decomposed_the_same_way_again(saved):
+    ring = trimesh.creation.annulus(r_min=0.06, r_max=0.1, height=0.05, sections=24)
+    path = saved(ring)
+    parts = shapes(path, CollisionShapes.DECOMPOSE)
+    assert len(parts) > 2
+    volume = sum(trimesh.convex.convex_hull(np.array(part)).volume for part in parts)
+    assert volume == pytest.approx(ring.volume, rel=0.15)
+    assert shapes_of_mesh(path, sha256="again", scale=ONE, how=CollisionShapes.DECOMPOSE) == parts
+
+
+def test_what_a_mesh_is(saved):
+    found = mesh_summary(saved(trimesh.creation.box((0.2, 0.1, 0.06))))
+    assert (found.is_closed, found.bodies) == (True, 1)
+    assert found.hull_ratio == pytest.approx(1.0)
+    ring = mesh_summary(saved(trimesh.creation.annulus(r_min=0.06, r_max=0.1, height=0.05)))
+    assert ring.hull_ratio > 1.4
+    open_box = trimesh.creation.box((0.2, 0.1, 0.06))
+    open_box.update_faces(np.arange(len(open_box.faces)) > 1)
+    assert not mesh_summary(saved(open_box)).is_closed
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("part.step", b"ISO-10303-21;", "part.step is no mesh that is read"),
+        ("part.stl", b"solid", "part.stl"),
+        ("part.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n", "part.obj is flat and has no volume"),
+    ],
+)
+def test_what_is_no_solid_mesh_is_refused(tmp_path, name, content, message):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(DefinitionError) as caught:
+        shapes(tmp_path / name)
+    assert message in caught.value.message
