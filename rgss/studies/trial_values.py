@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from enum import Enum
 from typing import Any
 
 from rgss.designs import (
@@ -78,6 +79,8 @@ def _applied(spec: TrialSpec, quantity: SettableQuantity, value: ParameterValue)
         value = present + spec.gripper.geometry.fingers * value
     elif quantity.kind is ParameterKind.COUNT:
         value = int(value)
+    elif isinstance(present, Enum):
+        value = type(present)(value)
     return spec if present == value else _replaced(spec, path, value)
 
 
