@@ -12,7 +12,7 @@ from rgss.designs.settable_quantities import CATALOGUE_PREFIX, settable_quantity
 from rgss.designs.space import DesignSpace
 from rgss.documents import Document
 from rgss.errors import DefinitionError, QuantityError
-from rgss.findings import Finding
+from rgss.findings import Finding, shown
 from rgss.quantities import dimension
 
 _Location = tuple["str | int", ...]
@@ -147,6 +147,9 @@ def value_findings(
         value: The value in SI.
     """
     if isinstance(value, str):
+        if setting.choices and value not in setting.choices:
+            message = f"{name} must be {' or '.join(setting.choices)}, got {shown(value)}"
+            yield document.finding("design.choice", message, place, hint=near_hint(value, setting.choices, "names"))
         return
     if setting.positive and value <= 0:
         yield document.finding("design.not-positive", f"{name} must be greater than zero", place)
@@ -154,6 +157,9 @@ def value_findings(
         rule = "design.too-slow" if setting.positive else "design.negative"
         message = f"{name} must be at least {setting.least}"
         yield document.finding(rule, message, place, hint=setting.least_reason)
+    elif setting.greatest and value > read_magnitude(setting.greatest, setting.unit):
+        message = f"{name} must be at most {setting.greatest}, got {value:g}"
+        yield document.finding("design.too-great", message, place, hint=setting.greatest_reason)
 
 
 def _catalogue_findings(

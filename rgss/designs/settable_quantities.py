@@ -16,7 +16,13 @@ from pydantic_core import PydanticCustomError
 
 from rgss.designs.findings import near_hint
 from rgss.designs.parameters import ParameterKind
-from rgss.designs.settable import PLANNER_PREFIX, PLANNER_QUANTITIES, Application, SettableQuantity
+from rgss.designs.settable import (
+    MOTION_QUANTITIES,
+    PLANNER_PREFIX,
+    PLANNER_QUANTITIES,
+    Application,
+    SettableQuantity,
+)
 from rgss.findings import shown
 
 CATALOGUE_PREFIX = "catalogue."
@@ -138,6 +144,7 @@ _QUANTITIES = (
         required=False,
         positive=False,
     ),
+    *MOTION_QUANTITIES,
 )
 
 SETTABLE_QUANTITIES: Mapping[str, SettableQuantity] = MappingProxyType({one.name: one for one in _QUANTITIES})

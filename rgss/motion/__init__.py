@@ -11,4 +11,5 @@ from rgss.motion.planning import plan
 from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory
+from rgss.motion.trapezoid import time_move_by_trapezoids, trapezoidal_trajectory
 from rgss.motion.validity import StateCost, StateValidity, ToolKinematics

@@ -115,8 +115,7 @@ def blend(
     Raises:
         MotionError: The resolution is not positive.
     """
-    if not resolution_rad > 0.0:
-        raise MotionError(f"a path cannot be checked every {resolution_rad:g} rad", hint="give a distance above zero")
+    _require_resolution(resolution_rad)
     corners = _distinct(path.points_rad)
     steps = np.diff(corners, axis=0)
     lengths = np.linalg.norm(steps, axis=1)
@@ -140,6 +139,32 @@ def blend(
     return BlendedPath(
         path=smooth, is_valid=valid, blended=max(len(corners) - 2, 0) - stops, stops=stops, checks=counted.checks
     )
+
+
+def unblended(path: JointPath, validity: StateValidity, *, resolution_rad: float) -> BlendedPath:
+    """Keep the corners of a path: a motion along it comes to rest at each of them.
+
+    Args:
+        path: A valid polyline.
+        validity: Tells valid states from invalid ones.
+        resolution_rad: Greatest distance between two checked states.
+
+    Raises:
+        MotionError: The resolution is not positive.
+    """
+    _require_resolution(resolution_rad)
+    corners = _distinct(path.points_rad)
+    steps = np.diff(corners, axis=0)
+    lengths, reaches = np.linalg.norm(steps, axis=1), np.zeros(len(corners))
+    smooth = _assemble(corners, steps / lengths[:, None], lengths, reaches)
+    counted = _Counter(validity)
+    valid = counted.are_valid(_straight_states(corners, lengths, reaches, resolution_rad))
+    return BlendedPath(path=smooth, is_valid=valid, blended=0, stops=max(len(corners) - 2, 0), checks=counted.checks)
+
+
+def _require_resolution(resolution_rad: float) -> None:
+    if not resolution_rad > 0.0:
+        raise MotionError(f"a path cannot be checked every {resolution_rad:g} rad", hint="give a distance above zero")
 
 
 class _Counter:

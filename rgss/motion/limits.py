@@ -36,3 +36,20 @@ class MotionLimits:
         values = (*self.speed_rad_s, *self.acceleration_rad_s2, self.tool_speed_m_s, self.tool_acceleration_m_s2)
         if not all(value > 0.0 for value in values):
             raise MotionError(f"a motion cannot keep a limit of {min(values):g}", hint="let every limit be above zero")
+
+
+def require_joints(limits: MotionLimits, joints: int) -> None:
+    """Check that limits are for the joints of a path.
+
+    Args:
+        limits: The limits.
+        joints: Number of joints of the path.
+
+    Raises:
+        MotionError: They are for another number of joints.
+    """
+    if len(limits.speed_rad_s) != joints:
+        raise MotionError(
+            f"the path has {joints} joints, but there are limits for {len(limits.speed_rad_s)}",
+            hint="give limits for every joint",
+        )

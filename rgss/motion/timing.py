@@ -9,20 +9,17 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.errors import MotionError
 from rgss.motion.blending import BlendedPath, SmoothPath, blend
 from rgss.motion.derivatives import PathDerivatives, path_derivatives
-from rgss.motion.limits import MotionLimits
+from rgss.motion.limits import MotionLimits, require_joints
 from rgss.motion.parametrization import RateConstraints, fastest_rates
 from rgss.motion.paths import JointPath
+from rgss.motion.runs import Run, joined, run_grid
 from rgss.motion.trajectory import Trajectory
 from rgss.motion.validity import StateValidity, ToolKinematics
 
 Vector = NDArray[np.float64]
 
-_CELL_RAD = 0.04
-_TURN_OF_CELL = 0.12
-_FEWEST_CELLS = 24
 _POINTS_OF_CELL = 4
 _REFINEMENTS = 2
 _TOLERATED_EXCESS = 1.02
@@ -113,12 +110,7 @@ def fastest_trajectory(path: SmoothPath, tool: ToolKinematics, limits: MotionLim
     Raises:
         MotionError: The limits are not for the joints of the path.
     """
-    joints = path.coefficients.shape[2]
-    if len(limits.speed_rad_s) != joints:
-        raise MotionError(
-            f"the path has {joints} joints, but there are limits for {len(limits.speed_rad_s)}",
-            hint="give limits for every joint",
-        )
+    require_joints(limits, path.coefficients.shape[2])
     runs = []
     for first, last in zip(path.stops, path.stops[1:], strict=False):
         if path.breaks[last] > path.breaks[first]:
@@ -126,22 +118,12 @@ def fastest_trajectory(path: SmoothPath, tool: ToolKinematics, limits: MotionLim
             if run is None:
                 return None
             runs.append(run)
-    return _joined(path, runs)
+    return joined(path, runs)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Run:
-    """A motion between two stops."""
-
-    parameters: Vector
-    rates: Vector
-    tool_speed_m_s: float
-    tool_acceleration_m_s2: float
-
-
-def _timed_run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, limits: MotionLimits) -> _Run | None:
+def _timed_run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, limits: MotionLimits) -> Run | None:
     for refinement in range(_REFINEMENTS + 1):
-        grid = _grid(path, first, last, 2**refinement)
+        grid = run_grid(path, first, last, 2**refinement)
         fine = np.append(
             (grid[:-1, None] + np.diff(grid)[:, None] * np.arange(_POINTS_OF_CELL) / _POINTS_OF_CELL).ravel(), grid[-1]
         )
@@ -153,27 +135,13 @@ def _timed_run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, li
         excess, speed, acceleration = _verify(grid, rates, derivatives, limits)
         if excess <= _TOLERATED_EXCESS or refinement == _REFINEMENTS:
             slowdown = max(excess, 1.0)
-            return _Run(
+            return Run(
                 parameters=grid,
                 rates=rates / slowdown,
                 tool_speed_m_s=speed / slowdown,
                 tool_acceleration_m_s2=acceleration / slowdown**2,
             )
     return None
-
-
-def _grid(path: SmoothPath, first: int, last: int, refinement: int) -> Vector:
-    """Grid points between two stops: at the ends of all pieces, and denser where the path turns."""
-    breaks = path.breaks[first : last + 1]
-    starts, ends = path(breaks[:-1], 1), path(breaks[1:] - 1e-12 * np.diff(breaks), 1)
-    turns = np.linalg.norm(ends - starts, axis=1)
-    smallest = min(_CELL_RAD, (breaks[-1] - breaks[0]) / _FEWEST_CELLS)
-    counts = np.maximum(np.ceil(np.diff(breaks) / smallest), np.ceil(turns / _TURN_OF_CELL)).astype(int) * refinement
-    parts = [
-        np.linspace(start, end, count, endpoint=False)
-        for start, end, count in zip(breaks[:-1], breaks[1:], counts, strict=True)
-    ]
-    return np.append(np.concatenate(parts), breaks[-1])
 
 
 def _largest_squares(at: PathDerivatives, limits: MotionLimits) -> Vector:
@@ -242,30 +210,3 @@ def _verify(grid: Vector, rates: Vector, fine: PathDerivatives, limits: MotionLi
         math.sqrt(tool_acceleration / limits.tool_acceleration_m_s2),
     )
     return excess, tool_speed, tool_acceleration
-
-
-def _joined(path: SmoothPath, runs: list[_Run]) -> Trajectory:
-    if not runs:
-        still = np.zeros(2)
-        return Trajectory(
-            path=path,
-            parameters=still,
-            rates=still,
-            times_s=still,
-            peak_tool_speed_m_s=0.0,
-            peak_tool_acceleration_m_s2=0.0,
-        )
-    parameters = np.concatenate([run.parameters for run in runs])
-    rates = np.concatenate([run.rates for run in runs])
-    steps = []
-    for run in runs:
-        # Constant acceleration over a cell: its mean rate is the mean of the rates at its ends.
-        steps.extend([0.0, *(2 * np.diff(run.parameters) / (run.rates[:-1] + run.rates[1:]))])
-    return Trajectory(
-        path=path,
-        parameters=parameters,
-        rates=rates,
-        times_s=np.cumsum(steps),
-        peak_tool_speed_m_s=max(run.tool_speed_m_s for run in runs),
-        peak_tool_acceleration_m_s2=max(run.tool_acceleration_m_s2 for run in runs),
-    )

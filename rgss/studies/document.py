@@ -17,6 +17,7 @@ from rgss.documents import (
 from rgss.findings import shown
 from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
 from rgss.studies.assumptions_section import StudyAssumptionEntry
+from rgss.studies.motion import ControlEntry, TimingEntry
 from rgss.studies.planning import PlanningEntry
 from rgss.studies.regression_section import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
@@ -100,6 +101,8 @@ class StudyDocument(DocumentModel):
     until_decided: UntilDecidedEntry | None = None
     planning: PlanningEntry
     moves: MovesEntry = MovesEntry()
+    timing: TimingEntry = TimingEntry()
+    control: ControlEntry = ControlEntry()
     physics: PhysicsEntry
     nominal: bool = False
     uncertainty: dict[QuantityName, DistributionEntry] = Field(default_factory=dict)

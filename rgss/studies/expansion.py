@@ -60,6 +60,9 @@ def trial_settings(project: Project) -> TrialSettings:
             moves=planning.moves,
         ),
         physics=study.physics or PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),
+        timing=study.motion.timing,
+        controller=study.motion.controller,
+        control=study.motion.thresholds,
     )
 
 

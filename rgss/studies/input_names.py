@@ -48,6 +48,10 @@ def _inputs_of(spec: TrialSpec) -> NamedInputs:
     text = hashlib.sha256(robot.urdf.encode("utf-8", "surrogatepass")).hexdigest()[:_SHORT]
     inputs = _without_colours(to_plain(replace(spec, scene=replace(spec.scene, robot=replace(robot, urdf=text)))))
     del inputs["variant"], inputs["seed"]
+    for name in ("timing", "controller"):
+        settings = getattr(spec.settings, name)
+        if settings == type(settings)():  # as in `digests_of`, the default is no input
+            del inputs["settings"][name]
     values = {**inputs, CODE: code_of_trials()}
     return NamedInputs(digest=inputs_digest(values), values=values)
 

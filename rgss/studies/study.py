@@ -24,6 +24,7 @@ from rgss.scenes.uncertainty import (
 )
 from rgss.studies.assumptions_section import StudyAssumption, read_assumptions
 from rgss.studies.document import StudyDocument
+from rgss.studies.motion import MotionChoice, read_motion
 from rgss.studies.planning import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression_section import RegressionGuard, read_regression
@@ -78,6 +79,7 @@ class StudyDefinition:
         is_nominal: Whether neither is applied, nor the scene's uncertainty.
         assumptions: Assumptions that are questioned, with what they could be taken as instead.
         physics: Other physics settings than rate and iterations of the file, for a confirmation; None as the file says.
+        motion: How moves are timed and joints controlled.
     """
 
     id: str
@@ -102,6 +104,7 @@ class StudyDefinition:
     is_nominal: bool = False
     physics: PhysicsSettings | None = None
     assumptions: tuple[StudyAssumption, ...] = ()
+    motion: MotionChoice = field(default_factory=MotionChoice)
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -148,6 +151,7 @@ def read_study(
     elif "contact" in entry.fidelity:
         findings.extend(_coarse_contact(entry, document))
     planning = read_planning(entry.planning, document, findings)
+    motion = read_motion(entry.timing, entry.control, document, findings, rate_hz=entry.physics.rate)
     screening = read_screening(entry, document, findings)
     regression = read_regression(entry.regression, document, findings)
     until_decided = read_until_decided(entry.until_decided, document, findings, replicates=entry.replicates)
@@ -172,6 +176,7 @@ def read_study(
         planning=replace(
             planning, moves=tuple(MoveKind(getattr(entry.moves, phase.value)) for phase in PLANNED_PHASES)
         ),
+        motion=motion,
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
         values=value_anchors(trade_off, places.quantity_of),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from enum import Enum
 from typing import Any
 
 from rgss.designs import (
@@ -74,6 +75,9 @@ def _applied(spec: TrialSpec, quantity: SettableQuantity, value: ParameterValue)
                 hint="let the catalogue match the design with a component of another geometry",
             )
         return spec
+    if isinstance(present, Enum):
+        chosen: TrialSpec = _replaced(spec, path, type(present)(value))
+        return chosen
     if quantity.application is Application.ADD_FOR_EACH_FINGER:
         value = present + spec.gripper.geometry.fingers * value
     elif quantity.kind is ParameterKind.COUNT:
@@ -94,6 +98,6 @@ def field_of(spec: TrialSpec, path: str) -> Any:
     return found
 
 
-def _replaced(owner: Any, path: list[str], value: ParameterValue) -> Any:
+def _replaced(owner: Any, path: list[str], value: ParameterValue | Enum) -> Any:
     name, *rest = path
     return replace(owner, **{name: _replaced(getattr(owner, name), rest, value) if rest else value})

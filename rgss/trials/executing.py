@@ -56,7 +56,15 @@ def execute(
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
             believed = conditions.scene.workpiece
             plant = DynamicPlant(
-                machine, cell.arm, scene, gripper, physics, control, believed=believed, checkpoint=checkpoint
+                machine,
+                cell.arm,
+                scene,
+                gripper,
+                physics,
+                control,
+                controller=spec.settings.controller,
+                believed=believed,
+                checkpoint=checkpoint,
             )
             return _with_quality(run_program(plant, references), timing)
     # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.

@@ -8,7 +8,8 @@ from rgss.evidence import PLANNED_PHASES, Phase
 from rgss.motion import ClockKind, OnUnverified, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.trials.move_kinds import MoveKind
-from rgss.trials.plants import ControlSettings
+from rgss.trials.plants import ControlSettings, JointController
+from rgss.trials.timing_settings import TimingSettings
 
 _NO_BUDGET = 2**31 - 1
 
@@ -64,8 +65,18 @@ class PlanningSettings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrialSettings:
-    """Planning, physics and control of a trial."""
+    """Planning, timing, physics and control of a trial.
+
+    Attributes:
+        planning: How moves are planned.
+        physics: How physics is stepped.
+        control: Thresholds of the task program.
+        timing: How moves are timed.
+        controller: Control of the joints, which the dynamic fidelity simulates.
+    """
 
     planning: PlanningSettings
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
     control: ControlSettings = field(default_factory=ControlSettings)
+    timing: TimingSettings = field(default_factory=TimingSettings)
+    controller: JointController = field(default_factory=JointController)

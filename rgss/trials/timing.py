@@ -5,13 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from rgss.evidence import Failure, Phase
-from rgss.motion import JointPath, MotionLimits, TimingOutcome, Trajectory, time_move
+from rgss.evidence import PLANNED_PHASES, Failure, Phase
+from rgss.motion import (
+    JointPath,
+    MotionLimits,
+    TimedMove,
+    TimingOutcome,
+    Trajectory,
+    time_move,
+    time_move_by_trapezoids,
+)
 from rgss.trials.conditions import conditions_of
+from rgss.trials.move_kinds import MoveKind
 from rgss.trials.path_quality import PathQuality, path_quality
 from rgss.trials.planning import TaskPlan
 from rgss.trials.reference import Array
 from rgss.trials.settings import PlanningSettings
+from rgss.trials.timing_settings import TimingProfile, TimingSettings
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell, cell_of
 
@@ -25,6 +35,8 @@ _FAILURES = {
         "no motion along the path keeps the limits of joints and tool",
     ),
 }
+
+_TIME_OPTIMAL = TimingSettings()
 
 LONGEST_MOVE_S = 600.0
 """A move that would take longer is not run: its targets, one for each physics step, would fill the memory."""
@@ -45,19 +57,25 @@ class TaskTiming:
     qualities: Mapping[Phase, PathQuality]
 
 
-def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings: PlanningSettings) -> TaskTiming:
+def time_task(
+    cell: Workcell,
+    plan: TaskPlan,
+    *,
+    tool_speed_m_s: float,
+    settings: PlanningSettings,
+    timing: TimingSettings = _TIME_OPTIMAL,
+) -> TaskTiming:
     """Time every move of a plan; the trajectory that runs is itself checked for collisions.
 
     Args:
         cell: Scene, arm and collision models.
         plan: The paths.
         tool_speed_m_s: Greatest speed of the tool.
-        settings: Resolution of the check.
+        settings: Resolution of the check, and the kinds of the moves.
+        timing: The velocity profile, and the shares of the joints' limits that it uses.
     """
-    joints = cell.scene.robot.joints
-    limits = MotionLimits(
-        speed_rad_s=tuple(joint.speed_rad_s for joint in joints),
-        acceleration_rad_s2=tuple(joint.acceleration_rad_s2 for joint in joints),
+    limits = timing.limits(
+        cell.scene.robot.joints,
         tool_speed_m_s=tool_speed_m_s,
         tool_acceleration_m_s2=cell.scene.robot.tool_acceleration_m_s2,
     )
@@ -70,9 +88,7 @@ def time_task(cell: Workcell, plan: TaskPlan, *, tool_speed_m_s: float, settings
                 "the arm cannot follow the straight line of the lift without collision",
             )
             continue
-        result = time_move(
-            JointPath(path), cell.running[phase], cell.arm, limits, resolution_rad=settings.verified_every_rad
-        )
+        result = _timed(cell, phase, JointPath(path), limits, settings, timing.profile)
         if result.trajectory is None:
             failures[phase] = _FAILURES[result.outcome]
         elif result.trajectory.duration_s > LONGEST_MOVE_S:
@@ -93,7 +109,24 @@ def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:
         plan: Its plan.
     """
     speed_m_s = conditions_of(spec).tool_speed_m_s
-    return time_task(cell_of(spec), plan, tool_speed_m_s=speed_m_s, settings=spec.settings.planning)
+    settings = spec.settings
+    return time_task(cell_of(spec), plan, tool_speed_m_s=speed_m_s, settings=settings.planning, timing=settings.timing)
+
+
+def _timed(
+    cell: Workcell,
+    phase: Phase,
+    path: JointPath,
+    limits: MotionLimits,
+    settings: PlanningSettings,
+    profile: TimingProfile,
+) -> TimedMove:
+    validity, resolution_rad = cell.running[phase], settings.verified_every_rad
+    if profile is TimingProfile.TIME_OPTIMAL:
+        return time_move(path, validity, cell.arm, limits, resolution_rad=resolution_rad)
+    kinds = dict(zip(PLANNED_PHASES, settings.moves, strict=True))
+    is_curve = kinds.get(phase, MoveKind.STRAIGHT) is MoveKind.STRAIGHT
+    return time_move_by_trapezoids(path, validity, cell.arm, limits, resolution_rad=resolution_rad, is_curve=is_curve)
 
 
 def _too_slow(trajectory: Trajectory, limits: MotionLimits) -> str:

@@ -95,9 +95,17 @@ def test_actuators_whose_mass_is_in_no_trial(small):
     assert finding.rule == "design.uncounted-mass"
 
 
-def test_twelve_parameters_in_any_order(small):
+def test_twenty_parameters_in_any_order(small):
     names = [name for name in reversed(SETTABLE_QUANTITIES) if name != "gripper.actuator.mass"]
-    values = {"planning.planner": "STRIDE", "gripper.fingers": 2, "planning.simplification_checks": 700}
+    values = {
+        "planning.planner": "STRIDE",
+        "gripper.fingers": 2,
+        "planning.simplification_checks": 700,
+        "timing.profile": "trapezoid",
+        "timing.peak_speed": 0.9,
+        "timing.peak_acceleration": 0.8,
+        "control.mode": "velocity",
+    }
     lines, constants = [], []
     for number, name in enumerate(names):
         quantity = SETTABLE_QUANTITIES[name]
@@ -105,7 +113,7 @@ def test_twelve_parameters_in_any_order(small):
         kind = f"unit: '{quantity.unit}'" if quantity.kind is ParameterKind.QUANTITY else f"kind: {quantity.kind.value}"
         lines.append(f"  - {{id: {of}, name: {of}, symbol: x, {kind}, sets: {name}, description: X.}}")
         constants.append(f"  {of}: {values.get(name, f'0.{number + 1} {quantity.unit}'.removesuffix(' 1'))}")
-    assert len(lines) == 12
+    assert len(lines) == 20
     project = _space(small, "\n".join(["parameters:", *lines, "constants:", *constants, ""]))
 
     (spec,) = trial_specs(project, seeds=[1])
@@ -149,7 +157,9 @@ def test_every_quantity_is_applied_to_a_field_of_a_trial(shipped):
     assert with_values(spec, values) == spec
     for quantity in SETTABLE_QUANTITIES.values():
         if quantity.application is Application.REPLACE:
-            other = "STRIDE" if quantity.kind is ParameterKind.NAME else values[quantity.name] + 1
+            names = quantity.choices[:1] if values[quantity.name] not in quantity.choices[:1] else quantity.choices[1:]
+            is_name = quantity.kind is ParameterKind.NAME
+            other = (*names, "STRIDE")[0] if is_name else values[quantity.name] + 1
             changed = with_values(spec, {**values, quantity.name: other})
             assert changed != spec
             assert field_of(changed, quantity.field) == other

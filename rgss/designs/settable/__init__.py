@@ -1,4 +1,5 @@
 """Quantities of a trial that a design can set: their type, and the parameters of planners."""
 
+from rgss.designs.settable.motion_quantities import MOTION_QUANTITIES
 from rgss.designs.settable.planner_quantities import PLANNER_PREFIX, PLANNER_QUANTITIES
 from rgss.designs.settable.quantity import Application, SettableQuantity

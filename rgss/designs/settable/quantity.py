@@ -33,6 +33,9 @@ class SettableQuantity:
         positive: Whether it must be greater than zero.
         least: The least value that is accepted, with its unit; empty for none.
         least_reason: Why a smaller value is refused.
+        greatest: The greatest value that is accepted, with its unit; empty for none.
+        greatest_reason: Why a greater value is refused.
+        choices: The names that are accepted; empty where something else knows them.
     """
 
     name: str
@@ -46,3 +49,6 @@ class SettableQuantity:
     positive: bool = True
     least: str = ""
     least_reason: str = ""
+    greatest: str = ""
+    greatest_reason: str = ""
+    choices: tuple[str, ...] = ()

@@ -14,12 +14,15 @@ from functools import lru_cache
 from typing import Any
 
 from rgss.documents import digest
+from rgss.evidence import Fidelity
 from rgss.motion import Objective
 from rgss.scenes import Robot, Scene, Shape
 from rgss.trials.code import ENTRIES, versions_of
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.payload_bench import BenchSpec, bench_of
 from rgss.trials.pieces.plain_values import to_plain
+from rgss.trials.plants import JointController
+from rgss.trials.timing_settings import TimingSettings
 from rgss.trials.trial_spec import TrialSpec
 
 # Trials of a study share most of their inputs, whose digest is computed once.
@@ -34,9 +37,9 @@ class TrialDigests:
 
     Attributes:
         plan: Geometry of the scene, gripper's shape, planner, seed, planning settings.
-        timing: The plan and the tool speed.
+        timing: The plan, the tool speed and the profile.
         execution: The timing, the gripper, masses and frictions of the scene, physics and control
-            settings, fidelity.
+            settings, fidelity, and the controller of the joints where the fidelity simulates it.
         bench: The gripper, the object, the acceleration and the physics settings; empty where the
             trial's fidelity knows no bench.
         trial: The execution, the bench, the planning limit and the draws; the variant's number is no input.
@@ -73,7 +76,13 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         _digest_of(spec.settings.planning),
         used["plan"],
     )
-    timing = _joined(plan, conditions.tool_speed_m_s, _rates_digest(spec.scene.robot), used["timing"])
+    timing = _joined(
+        plan,
+        conditions.tool_speed_m_s,
+        _rates_digest(spec.scene.robot),
+        *_stated(spec.settings.timing),
+        used["timing"],
+    )
     execution = _joined(
         timing,
         _digest_of(conditions.true_gripper),
@@ -81,6 +90,7 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         _truth_digest(conditions),
         _digest_of(spec.settings.physics),
         _digest_of(spec.settings.control),
+        *(_stated(spec.settings.controller) if spec.fidelity is Fidelity.DYNAMIC else ()),
         spec.fidelity.value,
         used["execution"],
     )
@@ -129,6 +139,11 @@ def _potential_digest(spec: TrialSpec) -> float:
     """Gravity where the planner keeps the work against it low; nothing else of planning depends on it."""
     needs_gravity = spec.planned_by.objective is Objective.MECHANICAL_WORK
     return spec.scene.gravity_m_s2 if needs_gravity else 0.0
+
+
+def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:
+    """Digest of settings that differ from the default, which is no input: it is what pieces had without them."""
+    return () if settings == type(settings)() else (_digest_of(settings),)
 
 
 @lru_cache(maxsize=_KEPT)

@@ -8,6 +8,12 @@ if TYPE_CHECKING:
     from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics
     from rgss.trials.plants.control import ControlSettings
     from rgss.trials.plants.dynamic_plant import DynamicPlant
+    from rgss.trials.plants.joint_controller import (
+        ControlMode,
+        JointController,
+        JointGains,
+        least_stable_rate_hz,
+    )
     from rgss.trials.plants.kinematic_plant import KinematicPlant
     from rgss.trials.plants.plant import Plant
 else:

@@ -19,31 +19,12 @@ from rgss.scenes import Gripper, Scene, Workpiece
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
+from rgss.trials.plants.joint_controller import JointController, control_law
 from rgss.trials.reference import Array, Reference
-
-_SETTLING_S = 0.5
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ComputedTorque:
-    """Gains of the computed-torque controller, the same for every joint.
-
-    The commanded acceleration is q̈_target + 2 ζ ω ė + ω² e, with e the deviation to be removed;
-    inverse dynamics turns it into torques.
-
-    Attributes:
-        natural_frequency_rad_s: ω.
-        damping_ratio: ζ.
-        reached_rad: Deviation of any joint below which the end of a move counts as reached.
-    """
-
-    natural_frequency_rad_s: float = 40.0
-    damping_ratio: float = 1.0
-    reached_rad: float = 1.0e-3
 
 
 class DynamicPlant:
-    """The arm under computed-torque control; a Boolean hand."""
+    """The arm under the control of its joints; a Boolean hand."""
 
     def __init__(
         self,
@@ -54,7 +35,7 @@ class DynamicPlant:
         settings: PhysicsSettings,
         control: ControlSettings,
         *,
-        controller: ComputedTorque | None = None,
+        controller: JointController | None = None,
         believed: Workpiece | None = None,
         checkpoint: Callable[[], None] | None = None,
     ) -> None:
@@ -67,7 +48,7 @@ class DynamicPlant:
             gripper: The hand.
             settings: Step length.
             control: Thresholds of the task program.
-            controller: Gains.
+            controller: Mode and gains; computed torque by default.
             believed: The object as the controller's model has it; that of the scene by default.
             checkpoint: Called before each step; it may wait, or end the task by raising.
         """
@@ -77,7 +58,8 @@ class DynamicPlant:
         self._gripper = gripper
         self._step_s = settings.step_s
         self._control = control
-        self._controller = controller or ComputedTorque()
+        self._controller = controller or JointController()
+        self._law = control_law(self._controller, scene.robot.joints)
         self._checkpoint = checkpoint
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
@@ -94,7 +76,7 @@ class DynamicPlant:
         self._machine.reset(configuration_rad, 0.0)
 
     def move(self, phase: Phase, reference: Reference) -> PhaseResult:
-        """Follow the targets under computed torque until the end is reached."""
+        """Follow the targets until the end is reached."""
         log = self._log()
         target = reference.positions_rad
         # The engine adds an acceleration to the speed of the step before, and that speed to the position.
@@ -154,10 +136,8 @@ class DynamicPlant:
         """One step of the controller; returns where the joints are after it."""
         if self._checkpoint is not None:
             self._checkpoint()
-        omega, zeta = self._controller.natural_frequency_rad_s, self._controller.damping_ratio
         q, dq = (np.array(values) for values in self._machine.state())
-        wanted = acceleration + 2 * zeta * omega * (speed - dq) + omega**2 * (target - q)
-        torques = self._model.torques(q, dq, wanted)
+        torques = self._model.torques(q, dq, self._law(target, speed, acceleration, q, dq))
         log.steps += 1
         self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
         reached_rad, speeds_rad_s = (np.array(values) for values in self._machine.state())
@@ -166,7 +146,7 @@ class DynamicPlant:
 
     def _settle(self, log: _Log) -> bool:
         still = np.zeros(len(self._at_rad))
-        for _ in range(math.ceil(_SETTLING_S / self._step_s)):
+        for _ in range(math.ceil(self._controller.settling_limit_s / self._step_s)):
             q = np.array(self._machine.state()[0])
             if np.max(np.abs(q - self._at_rad)) <= self._controller.reached_rad:
                 return True

@@ -16,8 +16,11 @@ from rgss.motion import ClockKind, Objective, PlanningClock
 from rgss.scenes import Pose
 from rgss.scenes.robot import RobotFile
 from rgss.studies.expansion import trial_specs
+from rgss.trials import JointController, JointGains, TimingProfile, TimingSettings
 from rgss.trials.code.piece_versions import ENGINES, ENTRIES, versions
+from rgss.trials.pieces import input_digests
 from rgss.trials.pieces.input_digests import digests_of
+from rgss.trials.plants import ControlMode
 from rgss.trials.plants.control import ControlSettings
 
 PLANNED = {"plan", "timing", "execution", "trial"}
@@ -129,6 +132,49 @@ def test_every_threshold_is_an_input_of_the_execution(spec_of, name):
     spec = spec_of()
 
     assert changed(spec, with_settings(spec, "control", **{name: getattr(spec.settings.control, name) * 1.5})) == LAST
+
+
+MOTION = [
+    ("timing", {"profile": TimingProfile.TRAPEZOID}, LATER),
+    ("timing", {"peak_speed": 0.5}, LATER),
+    ("timing", {"peak_acceleration": 0.5}, LATER),
+    ("timing", {"joint_speeds_rad_s": (("elbow_joint", 1.0),)}, LATER),
+    ("timing", {"joint_accelerations_rad_s2": (("elbow_joint", 1.0),)}, LATER),
+    ("controller", {"mode": ControlMode.VELOCITY}, LAST),
+    ("controller", {"natural_frequency_rad_s": 30.0}, LAST),
+    ("controller", {"damping_ratio": 0.7}, LAST),
+    ("controller", {"position_gain_1_s": 1.0}, LAST),
+    ("controller", {"velocity_gain_1_s": 1.0}, LAST),
+    ("controller", {"joints": (JointGains(joint="elbow_joint", damping_ratio=0.7),)}, LAST),
+    ("controller", {"reached_rad": 0.01}, LAST),
+    ("controller", {"settling_limit_s": 1.0}, LAST),
+]
+
+
+@pytest.mark.parametrize(("part", "changes", "expected"), MOTION)
+def test_timing_and_controller_are_inputs_where_they_are_used(spec_of, part, changes, expected):
+    for fidelity in Fidelity:
+        spec = replace(spec_of(), fidelity=fidelity)
+        is_used = part == "timing" or fidelity is Fidelity.DYNAMIC
+        assert changed(spec, with_settings(spec, part, **changes)) == (expected if is_used else set())
+
+
+def test_every_setting_of_timing_and_controller_is_tried():
+    tried = {(part, name) for part, changes, _ in MOTION for name in changes}
+    kinds = {"timing": TimingSettings, "controller": JointController}
+    assert tried == {(part, field.name) for part, kind in kinds.items() for field in dataclasses.fields(kind)}
+
+
+def test_default_timing_and_controller_add_no_input(spec_of, monkeypatch):
+    """The digests of trials without these settings are those of before there were any."""
+    joined = []
+    monkeypatch.setattr(input_digests, "_joined", lambda *inputs: joined.append(inputs) or str(len(joined)))
+    spec = replace(spec_of(), fidelity=Fidelity.DYNAMIC)
+    digests_of(spec, VERSIONS)
+    assert [len(inputs) for inputs in joined] == [7, 4, 8]
+    joined.clear()
+    digests_of(with_settings(with_settings(spec, "timing", peak_speed=0.5), "controller", damping_ratio=0.5), VERSIONS)
+    assert [len(inputs) for inputs in joined] == [7, 5, 9]
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,8 @@ from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.trials.executing import execute
 from rgss.trials.planning import plan_task
-from rgss.trials.plants.dynamic_plant import ComputedTorque, DynamicPlant
+from rgss.trials.plants.dynamic_plant import DynamicPlant
+from rgss.trials.plants.joint_controller import JointController
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference, reference_of
 from rgss.trials.timing import time_task
@@ -227,7 +228,7 @@ def test_an_end_that_is_not_reached_is_a_failure_after_half_a_second(planned):
     at = np.array(planned.spec.scene.robot.home_rad)
     jump = replace(still(at, planned.cell, 1), positions_rad=np.array([at, at + 0.05]))
     with machine_of(planned) as machine:
-        plant = plant_of(planned, machine, controller=ComputedTorque(natural_frequency_rad_s=1.0))
+        plant = plant_of(planned, machine, controller=JointController(natural_frequency_rad_s=1.0))
         plant.start(at)
         result = plant.move(Phase.LIFT, jump)
     assert result.failure is Failure.TRACKING_ERROR

@@ -1,0 +1,16 @@
+"""The sections ``timing`` and ``control`` of a study: velocity profile, control mode, gains and thresholds."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.studies.motion.section import (
+        ControlEntry,
+        MotionChoice,
+        TimingEntry,
+        joint_name_findings,
+        read_motion,
+    )
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -1,0 +1,148 @@
+"""Control of the joints: modes, gains, and the acceleration that is commanded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.scenes import Joint
+
+Array = NDArray[np.float64]
+
+
+class ControlMode(str, Enum):
+    """Mode of the control of the joints."""
+
+    POSITION = "position"
+    VELOCITY = "velocity"
+    COMPUTED_TORQUE = "computed_torque"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointGains:
+    """Gains of one joint; None where it has those of all joints.
+
+    Attributes:
+        joint: Its name.
+        natural_frequency_rad_s: ω.
+        damping_ratio: ζ.
+        position_gain_1_s: k.
+        velocity_gain_1_s: g.
+    """
+
+    joint: str
+    natural_frequency_rad_s: float | None = None
+    damping_ratio: float | None = None
+    position_gain_1_s: float | None = None
+    velocity_gain_1_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointController:
+    """Controller of the joints.
+
+    With the target q_d and the error e = q_d - q, the commanded acceleration is
+
+        computed torque:  q̈_d + 2 ζ ω ė + ω² e
+        position:               2 ζ ω ė + ω² e
+        velocity:         g (q̇_c - q̇)  with the commanded velocity  q̇_c = q̇_d + k e
+
+    and inverse dynamics turns it into torques. ω² and 2 ζ ω are the gains k_p and k_d of a servo. The commanded
+    velocity is clipped to the speeds of the joints. Sources: J. J. Craig, "Introduction to Robotics", 3rd ed., 2005,
+    section 10.4 (computed torque, ζ = 1 for critical damping).
+
+    Attributes:
+        mode: The mode.
+        natural_frequency_rad_s: ω.
+        damping_ratio: ζ.
+        position_gain_1_s: k, of the velocity mode.
+        velocity_gain_1_s: g, of the velocity mode.
+        joints: Gains of single joints, in place of those.
+        reached_rad: Error of any joint up to which the end of a move counts as reached.
+        settling_limit_s: Longest wait for that after a move.
+    """
+
+    mode: ControlMode = ControlMode.COMPUTED_TORQUE
+    natural_frequency_rad_s: float = 40.0
+    damping_ratio: float = 1.0
+    position_gain_1_s: float = 20.0
+    velocity_gain_1_s: float = 80.0
+    joints: tuple[JointGains, ...] = ()
+    reached_rad: float = 1.0e-3
+    settling_limit_s: float = 0.5
+
+
+ControlLaw = Callable[[Array, Array, Array, Array, Array], Array]
+"""Commanded acceleration of target position, velocity and acceleration, and of present position and velocity."""
+
+
+def control_law(controller: JointController, joints: Sequence[Joint]) -> ControlLaw:
+    """The law of a controller for the joints of an arm.
+
+    Args:
+        controller: Mode and gains.
+        joints: The arm's joints, in order.
+    """
+    names = [joint.name for joint in joints]
+    if controller.mode is ControlMode.VELOCITY:
+        return _velocity_law(
+            _gains(controller, names, "velocity_gain_1_s"),
+            _gains(controller, names, "position_gain_1_s"),
+            np.array([joint.speed_rad_s for joint in joints]),
+        )
+    stiffness, damping = servo_gains(controller, names)
+    feeds_forward = controller.mode is ControlMode.COMPUTED_TORQUE
+
+    def servo(target: Array, speed: Array, acceleration: Array, q: Array, dq: Array) -> Array:
+        ahead = acceleration if feeds_forward else np.zeros_like(acceleration)
+        wanted: Array = ahead + damping * (speed - dq) + stiffness * (target - q)
+        return wanted
+
+    return servo
+
+
+def servo_gains(controller: JointController, joints: Sequence[str]) -> tuple[Array, Array]:
+    """Gains k_p in 1/s² and k_d in 1/s of the error's equation ë + k_d ė + k_p e = …, of each joint.
+
+    Args:
+        controller: Mode and gains.
+        joints: Names of the joints.
+    """
+    if controller.mode is ControlMode.VELOCITY:
+        gain = _gains(controller, joints, "velocity_gain_1_s")
+        return gain * _gains(controller, joints, "position_gain_1_s"), gain
+    omega, zeta = (_gains(controller, joints, name) for name in ("natural_frequency_rad_s", "damping_ratio"))
+    return omega**2, 2 * zeta * omega
+
+
+def least_stable_rate_hz(controller: JointController, joints: Sequence[str]) -> float:
+    """The rate above which the error decays, where the command is held over a step.
+
+    With k_p and k_d of `servo_gains`, a step h gives z² - (2 - k_d h - k_p h²) z + 1 - k_d h, as the speed of a step
+    is added to the position; its roots are within the unit circle if 2 k_d h + k_p h² < 4 (Jury's criterion).
+
+    Args:
+        controller: Mode and gains.
+        joints: Names of the joints.
+    """
+    stiffness, damping = servo_gains(controller, joints)
+    return float(np.max((damping + np.sqrt(damping**2 + 4.0 * stiffness)) / 4.0))
+
+
+def _velocity_law(gain: Array, position_gain: Array, fastest: Array) -> ControlLaw:
+    def velocity(target: Array, speed: Array, _acceleration: Array, q: Array, dq: Array) -> Array:
+        commanded = np.clip(speed + position_gain * (target - q), -fastest, fastest)
+        wanted: Array = gain * (commanded - dq)
+        return wanted
+
+    return velocity
+
+
+def _gains(controller: JointController, joints: Sequence[str], name: str) -> Array:
+    own = {gains.joint: getattr(gains, name) for gains in controller.joints}
+    common = getattr(controller, name)
+    return np.array([common if (value := own.get(joint)) is None else value for joint in joints], dtype=float)
