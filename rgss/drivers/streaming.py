@@ -13,6 +13,10 @@ from rgss.drivers.task import TaskCursor, TimedTask, rate_candidates
 from rgss.errors import DefinitionError, DriverError
 
 
+_ROUNDING_MS = 1e-6
+"""Differences of clock readings are rounded; a period on the limit is allowed."""
+
+
 class StreamOutcome(str, Enum):
     """How a stream ended; in every case the robot was stopped."""
 
@@ -208,11 +212,11 @@ class _Stream:
         if estimate.stamp != self._stamp:
             self._stamp, self._stamped_s = estimate.stamp, now_s
         late_ms, silent_ms = 1e3 * (now_s - due_s), 1e3 * (now_s - self._stamped_s)
-        if late_ms > 1e3 * settings.late_s:
+        if late_ms > 1e3 * settings.late_s + _ROUNDING_MS:
             detail = f"a period began {late_ms:.0f} ms late, at most {1e3 * settings.late_s:.0f} ms are allowed"
             return StreamOutcome.LATE, detail
         allowed_ms = 1e3 * settings.heartbeat_timeout_s
-        if silent_ms > allowed_ms:
+        if silent_ms > allowed_ms + _ROUNDING_MS:
             detail = f"the controller has not reported for {silent_ms:.0f} ms, at most {allowed_ms:.0f} ms are allowed"
             return StreamOutcome.HEARTBEAT_LOST, detail
         if estimate.fault:

@@ -60,7 +60,9 @@ def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
         guard = Guard(limits, cell.arm, period_s=1.0 / driver.rate_hz)
         result = stream(driver, task, guard, clock, settings, is_interrupted=is_interrupted)
     if options.recording is not None:
-        write_output(options.recording, recording_csv(result.samples, limits.names))
+        recorded = f"variant {spec.variant} by rgss run --driver {driver.name}, {result.outcome.value}"
+        robot = cell.scene.robot.id
+        write_output(options.recording, recording_csv(result.samples, limits.names, robot=robot, recorded=recorded))
     if options.json:
         print_json({**shown, **_result_as_json(result)})
     else:
