@@ -5,9 +5,10 @@ from __future__ import annotations
 import contextlib
 import importlib
 import sys
+from collections.abc import Iterator
 from types import ModuleType
 
-from rgss.errors import DefinitionError
+from rgss.errors import DefinitionError, DriverError, RgssError
 
 
 def import_sdk(module: str, *, distribution: str, extra: str) -> ModuleType:
@@ -29,3 +30,22 @@ def import_sdk(module: str, *, distribution: str, extra: str) -> ModuleType:
         raise DefinitionError(
             f"the driver {extra} needs {distribution}, which is not installed", hint=f"pip install 'rgss[{extra}]'"
         ) from error
+
+
+@contextlib.contextmanager
+def sdk_errors(message: str, *, hint: str = "") -> Iterator[None]:
+    """Turn what an SDK raises, which may be a bare ``Exception``, into an error of the driver.
+
+    Args:
+        message: What could not be done.
+        hint: How to mend it.
+
+    Raises:
+        DriverError: The SDK raised.
+    """
+    try:
+        yield
+    except RgssError:
+        raise
+    except Exception as error:
+        raise DriverError(f"{message}: {' '.join(str(error).split())}", hint=hint) from error

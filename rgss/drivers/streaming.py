@@ -12,7 +12,6 @@ from rgss.drivers.stream_clock import StreamClock
 from rgss.drivers.task import TaskCursor, TimedTask, rate_candidates
 from rgss.errors import DefinitionError, DriverError
 
-
 _ROUNDING_MS = 1e-6
 """Differences of clock readings are rounded; a period on the limit is allowed."""
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.drivers.driver import Estimate, GripperState, SetPoint
-from rgss.drivers.sdk_modules import import_sdk
-from rgss.errors import DriverError, RgssError
+from rgss.drivers.sdk_modules import import_sdk, sdk_errors
+from rgss.errors import DriverError
 
 _RUNNING_MODE = 7
 _MOVING_SAFETY_MODES = (1, 2)
@@ -99,40 +99,37 @@ class UrDriver:
         self._control = self._open("RTDE control", self._open_control, self._address, self.rate_hz)
         self._io = self._open("RTDE input and output", self._open_io, self._address)
         # The controller stops the program by itself if no set point arrives any more.
-        self._accepted("setWatchdog", self._control.setWatchdog(_WATCHDOG_HZ))
+        self._call(self._control, "setWatchdog", _WATCHDOG_HZ)
 
     def read(self) -> Estimate:
         """The last package of the controller; the stamp is its time."""
         receive = self._opened(self._receive)
-        return Estimate(
-            positions_rad=tuple(receive.getActualQ()),
-            velocities_rad_s=tuple(receive.getActualQd()),
-            gripper=self._gripper or GripperState.NEUTRAL,
-            stamp=receive.getTimestamp(),
-            fault=self._fault(),
-        )
+        with sdk_errors("the UR controller does not report its joints"):
+            return Estimate(
+                positions_rad=tuple(receive.getActualQ()),
+                velocities_rad_s=tuple(receive.getActualQd()),
+                gripper=self._gripper or GripperState.NEUTRAL,
+                stamp=receive.getTimestamp(),
+                fault=self._fault(),
+            )
 
     def send(self, point: SetPoint) -> None:
         """One call of ``servoJ``; the output is set where the gripper changes."""
-        control, settings = self._opened(self._control), self._settings
+        settings = self._settings
         if point.gripper is not self._gripper:
             is_closed = point.gripper is GripperState.CLOSED
-            self._accepted("setStandardDigitalOut", self._io.setStandardDigitalOut(settings.gripper_output, is_closed))
+            self._call(self._io, "setStandardDigitalOut", settings.gripper_output, is_closed)
             self._gripper = point.gripper
-        positions = list(point.positions_rad)
         # Speed and acceleration are not used by servoJ.
-        accepted = control.servoJ(
-            positions, _UNUSED, _UNUSED, 1.0 / settings.rate_hz, settings.lookahead_s, settings.gain
-        )
-        self._accepted("servoJ", accepted)
+        servo = (_UNUSED, _UNUSED, 1.0 / settings.rate_hz, settings.lookahead_s, settings.gain)
+        self._call(self._control, "servoJ", list(point.positions_rad), *servo)
 
     def stop(self) -> None:
         """Decelerate from servoJ and end the program on the robot; the output keeps its state."""
-        control = self._opened(self._control)
         try:
-            self._accepted("servoStop", control.servoStop(_STOP_RAD_S2))
+            self._call(self._control, "servoStop", _STOP_RAD_S2)
         finally:
-            control.stopScript()
+            self._call(self._control, "stopScript")
 
     def disconnect(self) -> None:
         """Close the connections that are open."""
@@ -152,24 +149,20 @@ class UrDriver:
         return ""
 
     def _open(self, what: str, opener: Callable[..., Any], *arguments: Any) -> Any:
-        try:
+        with sdk_errors(f"no {what} interface at {self._address}", hint="check the address and remote control"):
             return opener(*arguments)
-        except RgssError:
-            raise
-        except Exception as error:
-            # The SDK raises bare exceptions where it cannot connect.
-            raise DriverError(
-                f"no {what} interface at {self._address}: {error}", hint="check the address and remote control"
-            ) from error
 
     def _opened(self, interface: Any) -> Any:
         if interface is None:
             raise DriverError("the UR controller is not connected", hint="call connect first")
         return interface
 
-    def _accepted(self, call: str, answer: bool) -> None:  # noqa: FBT001 - what the SDK answers
-        if not answer:
-            raise DriverError(f"the UR controller refused {call}", hint="see the log on the teach pendant")
+    def _call(self, interface: Any, name: str, *arguments: Any) -> None:
+        with sdk_errors(f"the UR controller did not take {name}"):
+            accepted = getattr(self._opened(interface), name)(*arguments)
+        # Calls without an answer return None.
+        if accepted is False:
+            raise DriverError(f"the UR controller refused {name}", hint="see the log on the teach pendant")
 
 
 def _open_receive(address: str, rate_hz: float) -> Any:

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from typing import Any
 
 from rgss.drivers.driver import Estimate, GripperState, SetPoint
-from rgss.drivers.sdk_modules import import_sdk
-from rgss.errors import DriverError, RgssError
+from rgss.drivers.sdk_modules import import_sdk, sdk_errors
+from rgss.errors import DriverError
 
 _SERVO_MODE = 1
 _MOTION_STATE = 0
@@ -54,15 +54,8 @@ class XarmDriver:
             DefinitionError: The SDK is not installed.
             DriverError: There is no connection, an error is pending, or the arm has another number of joints.
         """
-        try:
+        with sdk_errors(f"no xArm controller answers at {self._address}", hint="check its address and network"):
             self._api = self._open_api(self._address)
-        except RgssError:
-            raise
-        except Exception as error:
-            # The SDK raises bare exceptions where it cannot connect.
-            raise DriverError(
-                f"no xArm controller answers at {self._address}: {error}", hint="check the address and the network"
-            ) from error
         api = self._api
         if not api.connected:
             raise DriverError(
@@ -84,7 +77,8 @@ class XarmDriver:
     def read(self) -> Estimate:
         """Joint states of the controller; the stamp counts its replies."""
         api = self._opened()
-        code, states = api.get_joint_states(is_radian=True, num=2)
+        with sdk_errors("the xArm controller does not report its joints"):
+            code, states = api.get_joint_states(is_radian=True, num=2)
         if code == _OK:
             self._replies += 1
             positions, velocities = (tuple(float(value) for value in row[: self._joints]) for row in states[:2])
@@ -130,7 +124,9 @@ class XarmDriver:
         return self._api
 
     def _call(self, name: str, *arguments: Any, **options: Any) -> None:
-        code = getattr(self._opened(), name)(*arguments, **options)
+        method = getattr(self._opened(), name)
+        with sdk_errors(f"the xArm controller did not take {name}"):
+            code = method(*arguments, **options)
         if code != _OK:
             raise DriverError(
                 f"the xArm controller refused {name} with code {code}", hint="see the SDK's list of codes"

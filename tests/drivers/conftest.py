@@ -91,14 +91,14 @@ class Robot:
 
 def limits(joints=3, **changed):
     """Limits of any number of joints."""
-    values = dict(
-        names=tuple(f"j{n}" for n in range(joints)),
-        lower_rad=(-1.0,) * joints,
-        upper_rad=(1.0,) * joints,
-        speed_rad_s=(1.0,) * joints,
-        acceleration_rad_s2=(4.0,) * joints,
-        tool_speed_m_s=10.0,
-    )
+    values = {
+        "names": tuple(f"j{n}" for n in range(joints)),
+        "lower_rad": (-1.0,) * joints,
+        "upper_rad": (1.0,) * joints,
+        "speed_rad_s": (1.0,) * joints,
+        "acceleration_rad_s2": (4.0,) * joints,
+        "tool_speed_m_s": 10.0,
+    }
     return RobotLimits(**{**values, **changed})
 
 

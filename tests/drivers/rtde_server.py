@@ -24,7 +24,14 @@ DATA = ord("U")
 
 VECTORS = ("target_q", "target_qd", "target_qdd", "target_current", "target_moment", "actual_q", "actual_qd")
 VECTORS += ("actual_current", "joint_control_output", "actual_TCP_pose", "actual_TCP_speed", "actual_TCP_force")
-VECTORS += ("target_TCP_pose", "target_TCP_speed", "joint_temperatures", "actual_joint_voltage", "ft_raw_wrench", "payload_inertia")
+VECTORS += (
+    "target_TCP_pose",
+    "target_TCP_speed",
+    "joint_temperatures",
+    "actual_joint_voltage",
+    "ft_raw_wrench",
+    "payload_inertia",
+)
 INT_VECTORS = ("joint_mode",)
 DOUBLES = ("timestamp", "actual_execution_time", "speed_scaling", "target_speed_fraction", "actual_momentum")
 DOUBLES += ("actual_main_voltage", "actual_robot_voltage", "actual_robot_current", "standard_analog_input0")
@@ -146,15 +153,20 @@ def _package(kind, payload):
     return struct.pack(">HB", 3 + len(payload), kind) + payload
 
 
+def _say(line):
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
 def main(address):
     """Serve until the input ends."""
     with RtdeServer(address, {}) as server:
-        print("listening", flush=True)
+        _say("listening")
         for line in sys.stdin:
             changed = {name: tuple(v) if isinstance(v, list) else v for name, v in json.loads(line).items()}
             server.values.update(changed)
-            print("changed", flush=True)
-    print(json.dumps({"requests": server.requests, "unknown": server.unknown, "recipe": server.recipe}))
+            _say("changed")
+    _say(json.dumps({"requests": server.requests, "unknown": server.unknown}))
 
 
 if __name__ == "__main__":

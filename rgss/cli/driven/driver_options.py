@@ -56,6 +56,7 @@ def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
         raise DefinitionError("a rehearsal measures nothing to record", hint="--recording needs --go")
     if options.gripper_output is not None and (options.driver != "ur" or not 0 <= options.gripper_output <= 7):
         raise DefinitionError("--gripper-output must be from 0 to 7 and is for --driver ur")
+    speed_of(options)
 
 
 def speed_of(options: argparse.Namespace) -> float:
