@@ -52,7 +52,6 @@ def test_a_real_robot_is_only_rehearsed(rgss, untouched, driver):
 
 @pytest.mark.engine
 def test_a_robot_that_does_not_answer_is_one_line(rgss, untouched):
-    pytest.importorskip("rtde_receive")
     told = rgss("run", 65, "--nominal", "--driver", "ur", "--go", "--address", "127.0.0.1", "--project", untouched)
     assert told.status == 3
     assert told.errors.splitlines()[-1].startswith("rgss: no RTDE receive interface at 127.0.0.1: ")
