@@ -67,6 +67,10 @@ class MotionError(RgssError):
     """A motion cannot be planned or timed because its problem is ill posed."""
 
 
+class DriverError(RgssError):
+    """A robot cannot be connected, or its controller refused a command."""
+
+
 class EvidenceError(RgssError):
     """The evidence store is missing, damaged, or lacks what a decision needs."""
 

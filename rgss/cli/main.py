@@ -15,7 +15,7 @@ from types import ModuleType
 
 from rgss.cli.command_parser import BAD_INPUT, CommandParser
 from rgss.cli.safe_output import safe_output
-from rgss.errors import DocumentError, MotionError, RgssError, SimulationError, StorageError
+from rgss.errors import DocumentError, DriverError, MotionError, RgssError, SimulationError, StorageError
 from rgss.findings import printable
 
 VERBS = (
@@ -74,7 +74,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         for finding in error.findings:
             _complain(str(finding))
         return BAD_INPUT
-    except (SimulationError, MotionError, StorageError) as error:
+    except (SimulationError, MotionError, DriverError, StorageError) as error:
         _complain(f"rgss: {error}")
         return RUN_FAILED
     except RgssError as error:

@@ -5,20 +5,21 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.trials.conditions import DrawnValue, drawn_values
+    from rgss.trials.conditions import DrawnValue, conditions_of, drawn_values
     from rgss.trials.filming import Film
     from rgss.trials.impact import ClosingImpact, closing_impact
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
     from rgss.trials.move_kinds import MoveKind
-    from rgss.trials.planning import Obstacle, PlannedMove, TaskPlan, searches_of, waypoint_configurations
+    from rgss.trials.planning import Obstacle, PlannedMove, TaskPlan, plan_of, searches_of, waypoint_configurations
     from rgss.trials.plants import ControlMode, ControlSettings, JointController, JointGains, least_stable_rate_hz
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.second_engine import mujoco_settings
     from rgss.trials.settings import PlanningSettings, TrialSettings
+    from rgss.trials.timing import TaskTiming, timing_of
     from rgss.trials.timing_settings import TimingProfile, TimingSettings
     from rgss.trials.tracing import run_traced_trial
     from rgss.trials.trial_spec import TrialSpec
-    from rgss.trials.workcell import Workcell
+    from rgss.trials.workcell import Workcell, cell_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

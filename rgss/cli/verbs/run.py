@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from rgss.cli.driven import add_driver
 from rgss.cli.options import add_fidelity, add_nominal, chosen_project
 from rgss.cli.pictures import add_pictures, made_pictures, ordered_pictures, traced_trial
 
@@ -18,6 +19,7 @@ MORE_EXAMPLES = (
     ("rgss run 2 --gif trial.gif", "and film it"),
     ("rgss run 2 --fidelity kinematic", "motion alone, quickly"),
     ("rgss run 2 --nominal", "with everything as the files say"),
+    ("rgss run 2 --nominal --driver ur --address 192.168.0.10", "what would be sent to a robot; --go sends it"),
 )
 
 
@@ -29,11 +31,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_nominal(parser)
     parser.add_argument("--seed", type=int, metavar="N", help="the trial's seed (default: the study's first)")
     add_pictures(parser)
+    add_driver(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the trial; 1 if it does not succeed."""
     from rgss.cli.drawn import drawn_as_json
+    from rgss.cli.driven import check_driver, run_driven
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
     from rgss.engines import require_engines
@@ -46,12 +50,15 @@ def run(options: argparse.Namespace) -> int:
 
     require_engines("'rgss run'")
     order = ordered_pictures(options)
+    check_driver(options, has_pictures=order is not None)
     project = chosen_project(options)
     seed = project.study.seed if options.seed is None else options.seed
     if not 0 <= seed < 2**31:
         raise DefinitionError(f"seed {seed} is out of range", hint="give a seed from 0 to 2147483647")
     variant = project.designs.variant(options.variant)
     (spec,) = trial_specs(project, variants=[variant], seeds=[seed])
+    if options.driver is not None:
+        return run_driven(options, spec)
     record, trace = (compute(run_trial, spec), None) if order is None else traced_trial(spec)
     digest = record_digest(record)
     drawn = drawn_values(spec)

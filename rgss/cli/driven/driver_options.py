@@ -1,0 +1,78 @@
+"""Options of a run on a driver."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from rgss.errors import DefinitionError, QuantityError
+
+DRIVERS = ("simulated", "xarm", "ur")
+_ONLY_WITH_DRIVER = ("address", "speed", "go", "recording", "gripper_output")
+
+
+def add_driver(parser: argparse.ArgumentParser) -> None:
+    """Add the driver and what only it needs."""
+    group = parser.add_argument_group("run the planned motion on a robot (docs/hardware.md)")
+    group.add_argument("--driver", choices=DRIVERS, help="the robot; a real one is only rehearsed without --go")
+    group.add_argument("--address", metavar="HOST", help="name or IP address of a real robot's controller")
+    group.add_argument("--speed", metavar="SHARE", help="share of the planned speed (default: 10 %%)")
+    group.add_argument("--go", action="store_true", default=None, help="move the real robot")
+    group.add_argument("--recording", type=Path, metavar="FILE", help="write measured against commanded motion as CSV")
+    group.add_argument(
+        "--gripper-output",
+        type=int,
+        metavar="N",
+        help="standard digital output that closes a UR's gripper (default: 0)",
+    )
+
+
+def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
+    """Refuse options that do not belong together.
+
+    Args:
+        options: The options of the verb.
+        has_pictures: True if films or plots are ordered.
+
+    Raises:
+        DefinitionError: They do not.
+    """
+    if options.driver is None:
+        for name in _ONLY_WITH_DRIVER:
+            if getattr(options, name) is not None:
+                raise DefinitionError(f"--{name.replace('_', '-')} needs --driver", hint=f"one of {', '.join(DRIVERS)}")
+        return
+    if has_pictures:
+        raise DefinitionError(
+            "a run on a driver draws no pictures", hint="leave --driver away, or the options of pictures"
+        )
+    if options.driver == "simulated":
+        for name in ("address", "go"):
+            if getattr(options, name) is not None:
+                raise DefinitionError(f"--{name} is for a real robot", hint="leave it away with --driver simulated")
+    elif options.go and not options.address:
+        raise DefinitionError(f"--driver {options.driver} --go needs --address", hint="give the controller's address")
+    if options.recording is not None and options.driver != "simulated" and not options.go:
+        raise DefinitionError("a rehearsal measures nothing to record", hint="--recording needs --go")
+    if options.gripper_output is not None and (options.driver != "ur" or not 0 <= options.gripper_output <= 7):
+        raise DefinitionError("--gripper-output must be from 0 to 7 and is for --driver ur")
+    speed_of(options)
+
+
+def speed_of(options: argparse.Namespace) -> float:
+    """The share of the planned speed, from 0 to 1.
+
+    Raises:
+        DefinitionError: It is not a share above 0 % and at most 100 %.
+    """
+    from rgss.quantities import parse_quantity
+
+    if options.speed is None:
+        return 0.1
+    try:
+        share = parse_quantity(options.speed, "1")
+    except QuantityError as error:
+        raise DefinitionError(f"--speed: {error.message}", hint='write "10 %"') from error
+    if not 0.0 < share <= 1.0:
+        raise DefinitionError(f"--speed must be above 0 % and at most 100 %, got {options.speed}")
+    return share

@@ -1,0 +1,175 @@
+"""A trial's motion on a driver, rehearsed first."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from rgss.errors import DriverError
+
+if TYPE_CHECKING:
+    from rgss.drivers import Driver, Rehearsal, RobotLimits, StreamClock, StreamResult, TimedTask
+    from rgss.trials import TrialSpec
+
+
+def run_driven(options: argparse.Namespace, spec: TrialSpec) -> int:
+    """Rehearse the task of a trial and, if that is meant, run it.
+
+    Args:
+        options: The options of the verb.
+        spec: The trial.
+
+    Returns:
+        0 if what was meant is complete, 130 if it was interrupted, 3 if it ended otherwise.
+
+    Raises:
+        DriverError: The task was refused, or the robot cannot be connected.
+        MotionError: A move was not planned or timed.
+    """
+    from rgss.cli.driven.driver_options import speed_of
+    from rgss.cli.driven.timed_task import timed_task
+    from rgss.cli.main import CLEAN, INTERRUPTED, RUN_FAILED
+    from rgss.cli.output import print_json
+    from rgss.documents import write_output
+    from rgss.drivers import Guard, StreamOutcome, StreamSettings, limits_of, recording_csv, rehearse, stream
+    from rgss.trials import cell_of, conditions_of, plan_of, timing_of
+
+    settings = StreamSettings(speed=speed_of(options))
+    cell = cell_of(spec)
+    plan = plan_of(spec)
+    task = timed_task(spec, plan, timing_of(spec, plan))
+    limits = limits_of(cell.scene.robot.joints, tool_speed_m_s=conditions_of(spec).tool_speed_m_s)
+    driver, clock = _driver(options, spec, task, limits)
+    rehearsal = rehearse(task, limits, cell.arm, settings, rate_hz=driver.rate_hz)
+    shown = {"driver": driver.name, "speed": settings.speed, **_rehearsal_as_json(rehearsal, limits)}
+    if not options.json:
+        _show_rehearsal(rehearsal, limits, driver.name, settings.speed)
+    if rehearsal.refusal:
+        raise DriverError(f"the task was refused, nothing was sent: {rehearsal.refusal}")
+    if driver.name != "simulated" and not options.go:
+        if options.json:
+            print_json({**shown, "outcome": None})
+        else:
+            print("A rehearsal: nothing was sent. Bring the robot to the start, clear its space, then add --go.")
+        return CLEAN
+    with _interrupt_flag() as is_interrupted:
+        guard = Guard(limits, cell.arm, period_s=1.0 / driver.rate_hz)
+        result = stream(driver, task, guard, clock, settings, is_interrupted=is_interrupted)
+    if options.recording is not None:
+        recorded = f"variant {spec.variant} by rgss run --driver {driver.name}, {result.outcome.value}"
+        robot = cell.scene.robot.id
+        write_output(options.recording, recording_csv(result.samples, limits.names, robot=robot, recorded=recorded))
+    if options.json:
+        print_json({**shown, **_result_as_json(result)})
+    else:
+        _show_result(result)
+    if result.outcome is StreamOutcome.COMPLETED:
+        return CLEAN
+    return INTERRUPTED if result.outcome is StreamOutcome.INTERRUPTED else RUN_FAILED
+
+
+def _driver(
+    options: argparse.Namespace, spec: TrialSpec, task: TimedTask, limits: RobotLimits
+) -> tuple[Driver, StreamClock]:
+    """The driver that the options name, not connected, and the clock that it runs on."""
+    from rgss.drivers import MonotonicClock, SimulatedDriver, UrDriver, UrSettings, XarmDriver
+    from rgss.trials import conditions_of
+
+    if options.driver == "simulated":
+        conditions = conditions_of(spec)
+        simulated = SimulatedDriver(
+            conditions.true_scene, conditions.true_gripper, spec.settings.physics, start_rad=task.start_rad
+        )
+        return simulated, simulated
+    address = options.address or ""
+    if options.driver == "xarm":
+        return XarmDriver(address, joints=len(limits.names)), MonotonicClock()
+    return UrDriver(address, settings=UrSettings(gripper_output=options.gripper_output or 0)), MonotonicClock()
+
+
+@contextmanager
+def _interrupt_flag() -> Iterator[Callable[[], bool]]:
+    """Turn Ctrl-C and termination into a flag, so that the robot is brought to rest before the program ends."""
+    received: list[int] = []
+    previous = {
+        number: signal.signal(number, lambda number, _frame: received.append(number))
+        for number in (signal.SIGINT, signal.SIGTERM)
+    }
+    try:
+        yield lambda: bool(received)
+    finally:
+        for number, handler in previous.items():
+            signal.signal(number, handler)
+
+
+def _rehearsal_as_json(rehearsal: Rehearsal, limits: RobotLimits) -> dict[str, Any]:
+    return {
+        "start_rad": dict(zip(limits.names, rehearsal.start_rad, strict=True)),
+        "duration_s": rehearsal.duration_s,
+        "segments": [
+            {
+                "phase": segment.name,
+                "gripper": segment.gripper.value,
+                "duration_s": segment.duration_s,
+                "set_points": segment.set_points,
+                "peak_speed": segment.peak_speed,
+                "peak_acceleration": segment.peak_acceleration,
+                "peak_tool_speed_m_s": segment.peak_tool_speed_m_s,
+            }
+            for segment in rehearsal.segments
+        ],
+    }
+
+
+def _show_rehearsal(rehearsal: Rehearsal, limits: RobotLimits, driver: str, speed: float) -> None:
+    from rgss.cli.output import number, print_table
+
+    print(f"Driver {driver} at {100 * speed:g} % of the planned speed, {number(rehearsal.duration_s)} s")
+    start = ", ".join(
+        f"{name} {math.degrees(value):.2f}" for name, value in zip(limits.names, rehearsal.start_rad, strict=True)
+    )
+    print(f"start [deg]: {start}")
+    rows = [
+        [
+            segment.name,
+            segment.gripper.value,
+            number(segment.duration_s),
+            str(segment.set_points),
+            number(100 * segment.peak_speed, 3),
+            number(100 * segment.peak_acceleration, 3),
+            number(segment.peak_tool_speed_m_s, 3),
+        ]
+        for segment in rehearsal.segments
+    ]
+    titles = ["phase", "gripper", "time [s]", "set points", "speed [% of limit]", "acceleration [%]", "tool [m/s]"]
+    print_table(titles, rows, right=(2, 3, 4, 5, 6))
+
+
+def _largest_error_rad(result: StreamResult) -> float:
+    return max(
+        (
+            abs(measured - commanded)
+            for sample in result.samples
+            for measured, commanded in zip(sample.measured.positions_rad, sample.commanded.positions_rad, strict=False)
+        ),
+        default=0.0,
+    )
+
+
+def _result_as_json(result: StreamResult) -> dict[str, Any]:
+    return {
+        "outcome": result.outcome.value,
+        "detail": result.detail,
+        "sent": result.sent,
+        "largest_error_rad": _largest_error_rad(result),
+    }
+
+
+def _show_result(result: StreamResult) -> None:
+    error = f"largest following error {math.degrees(_largest_error_rad(result)):.3g} deg"
+    detail = f": {result.detail}" if result.detail else ""
+    print(f"{result.outcome.value}{detail} ({result.sent} set points sent, {error})")

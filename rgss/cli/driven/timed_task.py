@@ -1,0 +1,52 @@
+"""The timed task of a trial as a driver runs it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rgss.drivers import GripperState, Segment, TimedTask
+from rgss.errors import MotionError
+from rgss.evidence import Phase
+
+if TYPE_CHECKING:
+    from rgss.trials import TaskPlan, TaskTiming, TrialSpec
+
+
+def timed_task(spec: TrialSpec, plan: TaskPlan, timing: TaskTiming) -> TimedTask:
+    """The moves of a trial, with waits in which the gripper closes and opens.
+
+    Args:
+        spec: The trial.
+        plan: Its plan.
+        timing: Its timed moves.
+
+    Raises:
+        MotionError: A move was not planned or timed.
+    """
+    control, gripper = spec.settings.control, spec.gripper
+    travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+    state, segments = GripperState.OPEN, []
+    for phase in Phase:
+        if phase is Phase.GRASP:
+            state = GripperState.CLOSED
+            segments.append(Segment(name=phase.value, gripper=state, wait_s=travel_s + control.firm_grasp_s))
+        elif phase is Phase.PLACE:
+            state = GripperState.OPEN
+            segments.append(Segment(name=phase.value, gripper=state, wait_s=travel_s + control.settled_s))
+        elif phase in timing.trajectories:
+            segments.append(Segment(name=phase.value, gripper=state, motion=timing.trajectories[phase]))
+        else:
+            raise MotionError(
+                f"the move {phase.value} cannot be sent to a robot: {_reason(phase, plan, timing)}",
+                hint="'rgss run' without --driver shows the trial",
+            )
+    return TimedTask(segments=tuple(segments))
+
+
+def _reason(phase: Phase, plan: TaskPlan, timing: TaskTiming) -> str:
+    if phase in timing.failures:
+        return timing.failures[phase][1]
+    move = plan.moves.get(phase)
+    if move is None:
+        return "a move before it has no path"
+    return f"its planning ended with {move.outcome.value}" + (f" ({move.detail})" if move.detail else "")

@@ -1,0 +1,52 @@
+"""Recording of a stream as CSV: three lines of comment, a header with units, and one line for each period."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from itertools import groupby
+
+import numpy as np
+
+from rgss.drivers.streaming import Sample
+
+_LABELS = ("time [s]", "pose", "joint", "signal")
+_QUANTITIES = (
+    "commanded position [rad]",
+    "commanded velocity [rad/s]",
+    "measured position [rad]",
+    "measured velocity [rad/s]",
+)
+_SIGNAL = "planned motion"
+
+
+def recording_csv(samples: Sequence[Sample], joints: Sequence[str], *, robot: str, recorded: str) -> bytes:
+    """Measured against commanded motion as CSV in UTF-8, which `rgss identify` reads.
+
+    The column ``pose`` has the phase, ``joint`` the joint that moves most in it.
+
+    Args:
+        samples: The samples of a stream.
+        joints: Names of the joints from base to flange.
+        robot: Name of the robot.
+        recorded: How it was recorded, in one line.
+    """
+    text = io.StringIO()
+    text.write(f"# robot: {robot}\n# recorded: {recorded}\n# control: position\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*_LABELS, *(f"{joint} {quantity}" for joint in joints for quantity in _QUANTITIES)])
+    for phase, group in groupby(samples, key=lambda sample: sample.phase):
+        part = list(group)
+        travel = np.ptp(np.array([sample.commanded.positions_rad for sample in part]), axis=0)
+        labels = (phase, joints[int(np.argmax(travel))], _SIGNAL)
+        for sample in part:
+            wanted, got = sample.commanded, sample.measured
+            # A robot that reports another number of joints is a fault; its last sample is left out.
+            if len(got.positions_rad) != len(joints) or len(got.velocities_rad_s) != len(joints):
+                continue
+            columns = zip(
+                wanted.positions_rad, wanted.velocities_rad_s, got.positions_rad, got.velocities_rad_s, strict=True
+            )
+            writer.writerow([f"{sample.time_s:.9g}", *labels, *(f"{value:.9g}" for row in columns for value in row)])
+    return text.getvalue().encode()

@@ -1,0 +1,51 @@
+"""Import of a vendor's SDK, an optional part of an installation."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import sys
+from collections.abc import Iterator
+from types import ModuleType
+
+from rgss.errors import DefinitionError, DriverError, RgssError
+
+
+def import_sdk(module: str, *, distribution: str, extra: str) -> ModuleType:
+    """A module of a vendor's SDK.
+
+    Args:
+        module: Name of the module.
+        distribution: The distribution that brings it.
+        extra: The extra of rgss that installs it.
+
+    Raises:
+        DefinitionError: It is not installed.
+    """
+    try:
+        # Some SDKs print their version when they are imported, which is no part of our output.
+        with contextlib.redirect_stdout(sys.stderr):
+            return importlib.import_module(module)
+    except ImportError as error:
+        raise DefinitionError(
+            f"the driver {extra} needs {distribution}, which is not installed", hint=f"pip install 'rgss[{extra}]'"
+        ) from error
+
+
+@contextlib.contextmanager
+def sdk_errors(message: str, *, hint: str = "") -> Iterator[None]:
+    """Turn what an SDK raises, which may be a bare ``Exception``, into an error of the driver.
+
+    Args:
+        message: What could not be done.
+        hint: How to mend it.
+
+    Raises:
+        DriverError: The SDK raised.
+    """
+    try:
+        yield
+    except RgssError:
+        raise
+    except Exception as error:
+        raise DriverError(f"{message}: {' '.join(str(error).split())}", hint=hint) from error

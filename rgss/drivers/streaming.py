@@ -1,0 +1,233 @@
+"""Fixed-rate stream of set points: slow start, heartbeat, and a stop in every case that is not as planned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.drivers.driver import Driver, Estimate, GripperState, SetPoint
+from rgss.drivers.limits import Guard
+from rgss.drivers.stream_clock import StreamClock
+from rgss.drivers.task import TaskCursor, TimedTask, rate_candidates
+from rgss.errors import DefinitionError, DriverError
+
+_ROUNDING_MS = 1e-6
+"""Differences of clock readings are rounded; a period on the limit is allowed."""
+
+
+class StreamOutcome(str, Enum):
+    """How a stream ended; in every case the robot was stopped."""
+
+    COMPLETED = "completed"
+    REFUSED = "refused"
+    HEARTBEAT_LOST = "heartbeat_lost"
+    FOLLOWING_ERROR = "following_error"
+    FAULT = "fault"
+    LATE = "late"
+    INTERRUPTED = "interrupted"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StreamSettings:
+    """Settings of a stream.
+
+    Attributes:
+        speed: Share of the planned speed, above 0 and at most 1.
+        ramp_s: Time in which that share is reached, and in which an interrupted motion comes to rest on its path.
+        heartbeat_timeout_s: Longest time without a new report of the controller.
+        late_s: Longest time by which a period may begin late.
+        following_error_rad: Greatest distance of any measured joint from its set point.
+
+    Raises:
+        DefinitionError: A value is out of range.
+    """
+
+    speed: float = 0.1
+    ramp_s: float = 0.5
+    heartbeat_timeout_s: float = 0.1
+    late_s: float = 0.05
+    following_error_rad: float = 0.1
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.speed <= 1.0:
+            raise DefinitionError(
+                f"the speed of a driver must be above 0 % and at most 100 %, got {100 * self.speed:g} %"
+            )
+        if not min(self.ramp_s, self.heartbeat_timeout_s, self.late_s, self.following_error_rad) > 0.0:
+            raise DefinitionError("times and the following error of a stream must be positive")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sample:
+    """One period of a stream.
+
+    Attributes:
+        time_s: Time of the measurement, from the first one.
+        phase: Name of the segment.
+        measured: What the controller reports.
+        commanded: The set point in force at that time, sent in the period before.
+    """
+
+    time_s: float
+    phase: str
+    measured: Estimate
+    commanded: SetPoint
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StreamResult:
+    """Result of a stream.
+
+    Attributes:
+        outcome: How it ended.
+        detail: Why, in one line; empty if it was completed.
+        sent: Number of set points that were sent.
+        samples: One for each period.
+    """
+
+    outcome: StreamOutcome
+    detail: str
+    sent: int
+    samples: tuple[Sample, ...]
+
+
+def stream(
+    driver: Driver,
+    task: TimedTask,
+    guard: Guard,
+    clock: StreamClock,
+    settings: StreamSettings,
+    *,
+    is_interrupted: Callable[[], bool] = lambda: False,
+) -> StreamResult:
+    """Run a task on a driver; it is stopped and disconnected afterwards, whatever happens.
+
+    Args:
+        driver: The robot, not connected.
+        task: The task.
+        guard: Fresh limits with the period of the driver's rate.
+        clock: Time.
+        settings: Speed and tolerances.
+        is_interrupted: Read once in each period; if true, the motion comes to rest on its path.
+
+    Raises:
+        DriverError: The robot cannot be connected; nothing has moved.
+    """
+    try:
+        driver.connect()
+        run = _Stream(driver, task, guard, clock, settings, is_interrupted)
+        try:
+            outcome, detail = run.run()
+        except DriverError as error:
+            outcome, detail = StreamOutcome.FAULT, str(error)
+        except BaseException:
+            driver.stop()
+            raise
+        try:
+            driver.stop()
+        except DriverError as error:
+            outcome = StreamOutcome.FAULT if outcome is StreamOutcome.COMPLETED else outcome
+            detail = "; ".join(filter(None, (detail, f"the stop was not confirmed: {error}")))
+        return StreamResult(outcome=outcome, detail=detail, sent=run.sent, samples=tuple(run.samples))
+    finally:
+        driver.disconnect()
+
+
+class _Stream:
+    """State of one stream."""
+
+    def __init__(
+        self,
+        driver: Driver,
+        task: TimedTask,
+        guard: Guard,
+        clock: StreamClock,
+        settings: StreamSettings,
+        is_interrupted: Callable[[], bool],
+    ) -> None:
+        self._driver, self._task, self._guard = driver, task, guard
+        self._clock, self._settings, self._is_interrupted = clock, settings, is_interrupted
+        self._period_s = 1.0 / driver.rate_hz
+        self._cursor = TaskCursor(task, self._period_s)
+        self._stamp, self._stamped_s = 0.0, 0.0
+        self.sent = 0
+        self.samples: list[Sample] = []
+
+    def run(self) -> tuple[StreamOutcome, str]:
+        """The periods until the task is complete or something is not as planned."""
+        begun_s = due_s = self._clock.now_s()
+        estimate = self._driver.read()
+        self._stamp, self._stamped_s = estimate.stamp, begun_s
+        reason = estimate.fault or self._guard.begin(estimate.positions_rad, self._task.start_rad)
+        if reason:
+            return (StreamOutcome.FAULT if estimate.fault else StreamOutcome.REFUSED), reason
+        still = (0.0,) * len(self._task.start_rad)
+        point = SetPoint(positions_rad=self._task.start_rad, velocities_rad_s=still, gripper=self._first_gripper())
+        phase, is_braking = self._cursor.segment.name, False
+        while True:
+            now_s = self._clock.now_s()
+            self.samples.append(Sample(time_s=now_s - begun_s, phase=phase, measured=estimate, commanded=point))
+            failure = self._failure(estimate, point, now_s=now_s, due_s=due_s)
+            if failure is not None:
+                return failure
+            if self._cursor.is_finished:
+                return StreamOutcome.COMPLETED, ""
+            is_braking = is_braking or self._is_interrupted()
+            if is_braking and (self._cursor.segment.motion is None or self._cursor.rate <= 0.0):
+                return StreamOutcome.INTERRUPTED, f"interrupted in {self._cursor.segment.name}"
+            phase = self._cursor.segment.name
+            chosen = self._next_point(0.0 if is_braking else self._settings.speed)
+            if isinstance(chosen, str):
+                return StreamOutcome.REFUSED, chosen
+            point = chosen
+            self._driver.send(point)
+            self.sent += 1
+            due_s += self._period_s
+            self._clock.wait_until(due_s)
+            estimate = self._driver.read()
+
+    def _first_gripper(self) -> GripperState:
+        return self._cursor.segment.gripper
+
+    def _next_point(self, target: float) -> SetPoint | str:
+        """The next set point at the rate nearest to the target that the guard admits; otherwise its reason."""
+        step = self._settings.speed * self._period_s / self._settings.ramp_s
+        reason = ""
+        for rate in rate_candidates(self._cursor.rate, target, step):
+            positions = self._cursor.candidate(rate)
+            reason = self._guard.check(positions)
+            if not reason:
+                gripper = self._cursor.segment.gripper
+                self._cursor.advance(rate)
+                velocities = self._guard.admit(positions)
+                return SetPoint(positions_rad=positions, velocities_rad_s=velocities, gripper=gripper)
+        return reason
+
+    def _failure(
+        self, estimate: Estimate, point: SetPoint, *, now_s: float, due_s: float
+    ) -> tuple[StreamOutcome, str] | None:
+        settings = self._settings
+        if estimate.stamp != self._stamp:
+            self._stamp, self._stamped_s = estimate.stamp, now_s
+        late_ms, silent_ms = 1e3 * (now_s - due_s), 1e3 * (now_s - self._stamped_s)
+        if late_ms > 1e3 * settings.late_s + _ROUNDING_MS:
+            detail = f"a period began {late_ms:.0f} ms late, at most {1e3 * settings.late_s:.0f} ms are allowed"
+            return StreamOutcome.LATE, detail
+        allowed_ms = 1e3 * settings.heartbeat_timeout_s
+        if silent_ms > allowed_ms + _ROUNDING_MS:
+            detail = f"the controller has not reported for {silent_ms:.0f} ms, at most {allowed_ms:.0f} ms are allowed"
+            return StreamOutcome.HEARTBEAT_LOST, detail
+        if estimate.fault:
+            return StreamOutcome.FAULT, estimate.fault
+        if len(estimate.positions_rad) != len(point.positions_rad):
+            return StreamOutcome.FAULT, f"the robot reports {len(estimate.positions_rad)} joints"
+        for index, (measured, wanted) in enumerate(
+            zip(estimate.positions_rad, point.positions_rad, strict=True), start=1
+        ):
+            # Not a number is a following error too.
+            if not abs(measured - wanted) <= settings.following_error_rad:
+                allowed = f"at most {settings.following_error_rad:g} rad are allowed"
+                detail = f"joint {index} is {abs(measured - wanted):.3g} rad from its set point, {allowed}"
+                return StreamOutcome.FOLLOWING_ERROR, detail
+        return None

@@ -1,0 +1,138 @@
+"""Driver of UFACTORY arms such as the Lite6, through xArm-Python-SDK, in its servo motion mode.
+
+Calls and codes are those of xArm-Python-SDK 1.18. No robot was available: the driver was run against doubles only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rgss.drivers.driver import Estimate, GripperState, SetPoint
+from rgss.drivers.sdk_modules import import_sdk, sdk_errors
+from rgss.errors import DriverError
+
+_SERVO_MODE = 1
+_MOTION_STATE = 0
+_STOP_STATE = 4
+_OK = 0
+
+
+class XarmDriver:
+    """An arm of UFACTORY at an address, moved by set points of its joints."""
+
+    name = "xarm"
+
+    def __init__(
+        self,
+        address: str,
+        *,
+        joints: int,
+        rate_hz: float = 100.0,
+        open_api: Callable[[str], Any] | None = None,
+    ) -> None:
+        """Take the address; nothing is opened.
+
+        Args:
+            address: Name or IP address of the controller.
+            joints: Number of joints of the task's robot.
+            rate_hz: Rate of the set points; the SDK recommends 100 to 250 Hz.
+            open_api: Opens the SDK's ``XArmAPI``; that of the installed SDK by default.
+        """
+        self.rate_hz = rate_hz
+        self._address, self._joints = address, joints
+        self._open_api = open_api or _open_api
+        self._api: Any = None
+        self._gripper: GripperState | None = None
+        self._last: Estimate | None = None
+        self._replies = 0
+
+    def connect(self) -> None:
+        """Connect, and enter servo motion mode if the controller reports no error.
+
+        Raises:
+            DefinitionError: The SDK is not installed.
+            DriverError: There is no connection, an error is pending, or the arm has another number of joints.
+        """
+        with sdk_errors(f"no xArm controller answers at {self._address}", hint="check its address and network"):
+            self._api = self._open_api(self._address)
+        api = self._api
+        if not api.connected:
+            raise DriverError(
+                f"no xArm controller answers at {self._address}", hint="check the address and the network"
+            )
+        if api.axis != self._joints:
+            raise DriverError(
+                f"the arm at {self._address} has {api.axis} joints, the task moves {self._joints}",
+                hint="run a study whose robot file describes this arm",
+            )
+        if api.error_code != 0:
+            raise DriverError(
+                f"the controller reports error {api.error_code}", hint="find its cause and clear it on the arm first"
+            )
+        self._call("motion_enable", enable=True)
+        self._call("set_mode", _SERVO_MODE)
+        self._call("set_state", _MOTION_STATE)
+
+    def read(self) -> Estimate:
+        """Joint states of the controller; the stamp counts its replies."""
+        api = self._opened()
+        with sdk_errors("the xArm controller does not report its joints"):
+            code, states = api.get_joint_states(is_radian=True, num=2)
+        if code == _OK:
+            self._replies += 1
+            positions, velocities = (tuple(float(value) for value in row[: self._joints]) for row in states[:2])
+            fault = f"the controller reports error {api.error_code}" if api.error_code else ""
+            self._last = Estimate(
+                positions_rad=positions,
+                velocities_rad_s=velocities,
+                gripper=self._gripper or GripperState.NEUTRAL,
+                stamp=float(self._replies),
+                fault=fault,
+            )
+        if self._last is None:
+            raise DriverError(f"the controller does not report its joints (get_joint_states: code {code})")
+        return self._last
+
+    def send(self, point: SetPoint) -> None:
+        """One call of ``set_servo_angle_j``; the gripper is called where its state changes."""
+        self._opened()
+        if point.gripper is not self._gripper:
+            calls = {
+                GripperState.OPEN: "open_lite6_gripper",
+                GripperState.CLOSED: "close_lite6_gripper",
+                GripperState.NEUTRAL: "stop_lite6_gripper",
+            }
+            # At once: in the motion queue it would wait behind set points that never end.
+            self._call(calls[point.gripper], sync=False)
+            self._gripper = point.gripper
+        self._call("set_servo_angle_j", list(point.positions_rad), is_radian=True)
+
+    def stop(self) -> None:
+        """The controller's own stop; the gripper keeps its state."""
+        self._call("set_state", _STOP_STATE)
+
+    def disconnect(self) -> None:
+        """Close the connection."""
+        if self._api is not None:
+            self._api.disconnect()
+            self._api = None
+
+    def _opened(self) -> Any:
+        if self._api is None:
+            raise DriverError("the xArm controller is not connected", hint="call connect first")
+        return self._api
+
+    def _call(self, name: str, *arguments: Any, **options: Any) -> None:
+        method = getattr(self._opened(), name)
+        with sdk_errors(f"the xArm controller did not take {name}"):
+            code = method(*arguments, **options)
+        if code != _OK:
+            raise DriverError(
+                f"the xArm controller refused {name} with code {code}", hint="see the SDK's list of codes"
+            )
+
+
+def _open_api(address: str) -> Any:
+    sdk = import_sdk("xarm.wrapper", distribution="xArm-Python-SDK", extra="xarm")
+    return sdk.XArmAPI(address, is_radian=True)

@@ -1,0 +1,102 @@
+"""``rgss run --driver``: rehearsal, simulated robot, and what does not belong together."""
+
+from __future__ import annotations
+
+import csv
+import math
+import os
+import signal
+
+import pytest
+
+from rgss.cli.driven import timed_task
+from rgss.cli.driven.running import _interrupt_flag
+from rgss.errors import MotionError
+from rgss.studies import load_project, trial_specs
+from rgss.trials import plan_of, timing_of
+
+PHASES = 8
+
+
+@pytest.mark.engine
+def test_the_simulated_robot_follows_the_planned_task(rgss, untouched, tmp_path):
+    file = tmp_path / "recording.csv"
+    arguments = ("run", 65, "--nominal", "--driver", "simulated", "--speed", "100 %", "--json")
+    told = rgss(*arguments, "--recording", file, "--project", untouched)
+    assert (told.status, told.errors) == (0, "")
+    document = told.document
+    assert (document["outcome"], document["speed"], len(document["segments"])) == ("completed", 1.0, PHASES)
+    assert max(segment["peak_speed"] for segment in document["segments"]) <= 1.01
+    assert max(segment["peak_acceleration"] for segment in document["segments"]) <= 1.01
+    # The plant lags behind its set points, a little.
+    assert 0.0 < document["largest_error_rad"] < math.radians(0.5)
+    first = file.read_bytes()
+    rows = list(csv.reader(first.decode().splitlines()[3:]))
+    assert len(rows) == document["sent"] + 2
+    rgss(*arguments, "--recording", file, "--project", untouched)
+    assert file.read_bytes() == first
+
+
+@pytest.mark.engine
+@pytest.mark.parametrize("driver", ["ur", "xarm"])
+def test_a_real_robot_is_only_rehearsed(rgss, untouched, driver):
+    told = rgss("run", 65, "--nominal", "--driver", driver, "--project", untouched)
+    assert (told.status, told.errors) == (0, "")
+    assert f"Driver {driver} at 10 % of the planned speed" in told.output
+    assert "start [deg]: shoulder_pan_joint" in told.output
+    assert "A rehearsal: nothing was sent." in told.output
+    as_json = rgss("run", 65, "--nominal", "--driver", driver, "--json", "--project", untouched).document
+    assert as_json["outcome"] is None
+    assert len(as_json["start_rad"]) == 6
+
+
+@pytest.mark.engine
+def test_a_robot_that_does_not_answer_is_one_line(rgss, untouched):
+    told = rgss("run", 65, "--nominal", "--driver", "ur", "--go", "--address", "127.0.0.1", "--project", untouched)
+    assert told.status == 3
+    assert told.errors.splitlines()[-1].startswith("rgss: no RTDE receive interface at 127.0.0.1: ")
+
+
+@pytest.mark.engine
+def test_a_move_without_a_path_cannot_be_sent(untouched):
+    project = load_project(untouched).nominal()
+    (spec,) = trial_specs(project, variants=[project.designs.variant(65)], seeds=[1])
+    plan = plan_of(spec)
+    timing = timing_of(spec, plan)
+    first = next(iter(timing.trajectories))
+    timing = type(timing)(trajectories={}, failures={}, qualities={})
+    with pytest.raises(MotionError, match=f"the move {first.value} cannot be sent to a robot: its planning ended with"):
+        timed_task(spec, plan, timing)
+
+
+@pytest.mark.parametrize(
+    ("words", "error"),
+    [
+        (("--go",), "--go needs --driver (one of simulated, xarm, ur)"),
+        (("--speed", "10 %"), "--speed needs --driver"),
+        (("--gripper-output", "1"), "--gripper-output needs --driver"),
+        (("--driver", "ur", "--gif", "a.gif"), "a run on a driver draws no pictures"),
+        (("--driver", "simulated", "--go"), "--go is for a real robot"),
+        (("--driver", "simulated", "--address", "x"), "--address is for a real robot"),
+        (("--driver", "xarm", "--go"), "--driver xarm --go needs --address"),
+        (("--driver", "ur", "--recording", "a.csv"), "a rehearsal measures nothing to record"),
+        (("--driver", "xarm", "--gripper-output", "1"), "--gripper-output must be from 0 to 7 and is for --driver ur"),
+        (("--driver", "ur", "--gripper-output", "8"), "--gripper-output must be from 0 to 7"),
+        (("--driver", "ur", "--speed", "fast"), "--speed: 'fast' is not a quantity"),
+        (("--driver", "ur", "--speed", "0 %"), "--speed must be above 0 % and at most 100 %, got 0 %"),
+        (("--driver", "ur", "--speed", "101 %"), "--speed must be above 0 % and at most 100 %, got 101 %"),
+    ],
+)
+def test_options_that_do_not_belong_together(rgss, untouched, words, error):
+    told = rgss("run", 65, *words, "--project", untouched)
+    assert (told.status, told.output) == (2, "")
+    assert told.errors.startswith(f"rgss: {error}")
+
+
+def test_ctrl_c_is_a_flag_while_a_robot_moves():
+    before = signal.getsignal(signal.SIGINT)
+    with _interrupt_flag() as is_interrupted:
+        assert not is_interrupted()
+        os.kill(os.getpid(), signal.SIGINT)
+        assert is_interrupted()
+    assert signal.getsignal(signal.SIGINT) is before
