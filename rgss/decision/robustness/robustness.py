@@ -131,7 +131,7 @@ def analyse_robustness(
     weighting: WeightRobustness | None = None
     assumed: _Assumed = (), None
     reason = _no_weights(problem, chosen)
-    posterior = None
+    draws = 0
     if chosen is not None and not reason:
         posterior = _posterior(project, problem, table, generator)
         posed = _Posed(
@@ -143,6 +143,9 @@ def analyse_robustness(
             replicates=np.array([len(entry.records) for entry in measured]),
         )
         weighting = _weighting(posed, chosen, posterior, generator, parts)
+        draws = 0 if posterior is None else posterior.outcomes.shape[0]
+        # The draws are the largest arrays of the analysis, and nothing below reads them.
+        del posterior
         assumed = _assumed(Remeasuring.of(project, measured, table), problem, chosen, parts, refused)
     else:
         refused.update(dict.fromkeys(("weights", "assumptions", "costs"), reason))
@@ -160,7 +163,7 @@ def analyse_robustness(
         reversals=parts.compute(Part.REVERSALS, lambda: _reversals(problem, table, feasible), ()),
         stretched=parts.compute(Part.STRETCHED, lambda: _stretched(problem, table, feasible, weights), ()),
         effects=parts.compute(Part.EFFECTS, lambda: study_effects(project, alike, resamples), _NO_EFFECTS),
-        draws=0 if posterior is None else posterior.outcomes.shape[0],
+        draws=draws,
         resamples=0 if resamples is None else len(resamples.probabilities),
         all_resamples=resamples is not None and resamples.exact,
         refused=refused,

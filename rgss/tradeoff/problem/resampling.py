@@ -47,9 +47,16 @@ class Resamples:
         known = np.isfinite(replicates)
         weight = self.counts.astype(np.float64)
         total = np.tensordot(weight, np.where(known, replicates, 0.0), axes=([1], [-1]))
-        number = np.tensordot(weight, known.astype(np.float64), axes=([1], [-1]))
-        means = np.divide(total, number, out=np.full_like(total, np.nan), where=number > 0.0)
-        return np.asarray(means, dtype=np.float64)
+        if known.all():
+            # As large as the means themselves, the numbers of known replicates would all be the same.
+            total /= weight.sum(axis=1).reshape(-1, *(1,) * (total.ndim - 1))
+            return np.asarray(total, dtype=np.float64)
+        # Whole numbers below 2^24 have no rounding in single precision.
+        number = np.tensordot(weight.astype(np.float32), known.astype(np.float32), axes=([1], [-1]))
+        some = number > 0.0
+        np.divide(total, number, out=total, where=some)
+        total[~some] = np.nan
+        return np.asarray(total, dtype=np.float64)
 
     def ordered_means(self, replicates: NDArray[np.float64], some: slice) -> NDArray[np.float64]:
         """The mean of the known replicates in some of the resamples, summed in the replicates' order.

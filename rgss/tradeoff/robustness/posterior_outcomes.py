@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
@@ -27,6 +28,8 @@ DRAWS = 1_000
 FEWEST_DRAWS = 64
 
 _MOST_VALUES = 8_000_000
+_VALUES_AT_ONCE = 1_000_000
+"""Values of alternatives, 8 MB, that are made of another study's draws at a time."""
 _ENDS = ("low", "high")
 _STUDIES = 40
 """Emulated repetitions of a study."""
@@ -103,24 +106,82 @@ class PosteriorOutcomes:
         count = len(self.table)
         inner = max(FEWEST_DRAWS, min(_DRAWS_OF_A_STUDY, _MOST_VALUES // max(1, self.outcomes.shape[1])))
         draws = self.outcomes.shape[0]
-        # An alternative that has a draw has all, and one without stays unknown.
-        centres = {measure: rows.mean(axis=0) for measure, rows in self.drawn.items()}
+        moving = self._moving()
         firsts = np.empty((_STUDIES, count))
         for study in range(_STUDIES):
             other = int(generator.integers(draws))
             inside = generator.integers(0, draws, size=inner)
-            moved = {
-                measure: _kept_in_range(rows[inside] + rows[other] - centres[measure], rows)
-                for measure, rows in self.drawn.items()
-            }
-            picks = np.zeros((inner, 0), dtype=np.intp)
-            values, feasible = _evaluated(self.preferences, self.table, moved, picks)
             chosen = sample_weights(weights, inner, generator).weights
-            totals = np.where(feasible, np.einsum("bnm,bm->bn", np.nan_to_num(values), chosen), -np.inf)
-            best = totals.max(axis=1, keepdims=True)
-            firsts[study] = (feasible & (totals >= best - TIE_TOLERANCE)).mean(axis=0)
+            firsts[study] = self._times_best(moving, other, inside, chosen) / inner
         variance = firsts.var(axis=0, ddof=1) - (firsts * (1.0 - firsts)).mean(axis=0) / inner
         return np.asarray(np.sqrt(np.maximum(variance, 0.0)), dtype=np.float64)
+
+    def _moving(self) -> dict[str, _MovingDraws]:
+        """The draws of the measures that are valued or demanded, as another study moves them."""
+        used = {*self.preferences.weighting.deciding_measures}
+        used.update(one.measure for one in self.preferences.conditions if isinstance(one, Threshold))
+        return {measure: _MovingDraws.of(rows) for measure, rows in self.drawn.items() if measure in used}
+
+    def _times_best(
+        self, moving: Mapping[str, _MovingDraws], other: int, inside: NDArray[np.intp], weights: Array
+    ) -> NDArray[np.int64]:
+        """The number of draws of another study in which each alternative is best, shape (n,).
+
+        Values of a block of draws at a time are in memory, not those of the study.
+
+        Args:
+            moving: The draws.
+            other: The draw that the other study would estimate.
+            inside: The draws that its own are made of, shape (k,).
+            weights: The weights in each of them, shape (k, m).
+        """
+        found = np.zeros(len(self.table), dtype=np.int64)
+        at_once = max(1, _VALUES_AT_ONCE // max(1, len(self.table) * weights.shape[1]))
+        for start in range(0, len(inside), at_once):
+            some = slice(start, start + at_once)
+            moved = {measure: draws.at(inside[some], other) for measure, draws in moving.items()}
+            picks = np.zeros((len(inside[some]), 0), dtype=np.intp)
+            values, feasible = _evaluated(self.preferences, self.table, moved, picks)
+            totals = np.einsum("bnm,bm->bn", np.nan_to_num(values, copy=False), weights[some])
+            totals[~feasible] = -np.inf
+            best = totals.max(axis=1, keepdims=True)
+            found += (feasible & (totals >= best - TIE_TOLERANCE)).sum(axis=0)
+        return found
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _MovingDraws:
+    """Draws of a measure that are moved by what another study would estimate.
+
+    Attributes:
+        rows: The draws, shape (b, n); NaN where unknown.
+        centres: Their means, shape (n,).
+        least: The least draw of any alternative; NaN where none is known.
+        greatest: The greatest one.
+    """
+
+    rows: Array
+    centres: Array
+    least: float
+    greatest: float
+
+    @staticmethod
+    def of(rows: Array) -> _MovingDraws:
+        """The draws of a measure."""
+        return _MovingDraws(
+            rows=rows,
+            # An alternative that has a draw has all, and one without stays unknown.
+            centres=rows.mean(axis=0),
+            least=float(np.fmin.reduce(rows, axis=None, initial=np.nan)),
+            greatest=float(np.fmax.reduce(rows, axis=None, initial=np.nan)),
+        )
+
+    def at(self, some: NDArray[np.intp], other: int) -> Array:
+        """Some draws of a study that estimates one of them, shape (k, n), within the range of all draws."""
+        moved = self.rows[some]
+        moved += self.rows[other]
+        moved -= self.centres
+        return moved if math.isnan(self.least) else np.clip(moved, self.least, self.greatest, out=moved)
 
 
 def _drawn(
@@ -160,13 +221,14 @@ def _evaluated(
     """Single values, shape (b, n, m), and which alternatives can be chosen, shape (b, n)."""
     draws, count = len(picks), len(table)
     feasible = np.ones((draws, count), dtype=np.bool_)
-    columns = []
-    for measure in preferences.weighting.deciding_measures:
+    measures = preferences.weighting.deciding_measures
+    values = np.empty((draws, count, len(measures)))
+    for place, measure in enumerate(measures):
         quantities = drawn.get(measure)
         quantities = np.tile(table.column(measure), (draws, 1)) if quantities is None else quantities
         known = ~np.isnan(quantities)
         flat = preferences.value_function(measure).values_at(np.where(known, quantities, 0.0).ravel())
-        columns.append(np.where(known, flat.reshape(draws, count), np.nan))
+        values[:, :, place] = np.where(known, flat.reshape(draws, count), np.nan)
         feasible &= known
     for condition in preferences.conditions:
         if isinstance(condition, Threshold):
@@ -176,7 +238,7 @@ def _evaluated(
         else:
             statistic = _drawn_statistics(preferences, table, picks, condition)
             feasible &= keeps(condition.sense, statistic, condition.limit)
-    return np.stack(columns, axis=2), feasible
+    return values, feasible
 
 
 def _drawn_statistics(
@@ -195,8 +257,3 @@ def _drawn_statistics(
         )
         found[draw] = condition_column(risk, one)
     return found
-
-
-def _kept_in_range(moved: Array, rows: Array) -> Array:
-    """Moved draws, none of them beyond the least and the greatest draw of any alternative."""
-    return np.clip(moved, np.nanmin(rows), np.nanmax(rows)) if np.isfinite(rows).any() else moved
