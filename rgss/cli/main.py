@@ -32,6 +32,7 @@ VERBS = (
     "weigh",
     "confirm",
     "regress",
+    "identify",
     "trace",
     "report",
     "export",
