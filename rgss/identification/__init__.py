@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from rgss.identification.fitting import FitStatus, FittedParameter, ServoFit, fit_joint
     from rgss.identification.recording import Control, JointSeries, Recording, Segment
     from rgss.identification.recording_file import read_recording, write_recording
-    from rgss.identification.responses import Response, responses
+    from rgss.identification.response_measures import Response, responses
     from rgss.identification.servo import JointServo, ServoMotion, servo_motion
-    from rgss.identification.simulated_recording import simulated_recording
+    from rgss.identification.simulated_arm import simulated_recording
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -93,7 +93,7 @@ def _identify(options: argparse.Namespace) -> int:
             announce(f"calibration written to {options.calibration}", options.calibration)
     if options.plots is not None:
         from rgss.engines import require_engines
-        from rgss.reports.response_plots import write_response_plot
+        from rgss.reports import write_response_plot
 
         require_engines("'rgss identify --plots'", pictures=True)
         options.plots.mkdir(parents=True, exist_ok=True)
