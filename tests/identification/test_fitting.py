@@ -50,7 +50,7 @@ def test_intervals_contain_the_true_values_nineteen_times_in_twenty():
     # Nor are they wide for safety: the deviation of 16 estimates is from 0.55 to 1.5 times the true one, 999 times in
     # 1000 (chi-squared with 15 degrees of freedom).
     for name, width in widths.items():
-        assert 1 / 1.5 < np.mean(width) / (1.96 * np.std(errors[name], ddof=1)) < 1 / 0.5, name
+        assert 1 / 1.5 < np.mean(width) / (1.96 * np.std(errors[name], ddof=1)) < 1 / 0.55, name
 
 
 def test_velocity_control_says_nothing_of_the_position_gain():
