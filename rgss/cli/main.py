@@ -33,6 +33,7 @@ VERBS = (
     "weigh",
     "confirm",
     "regress",
+    "identify",
     "trace",
     "report",
     "export",

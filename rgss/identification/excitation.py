@@ -1,0 +1,191 @@
+"""Excitation as data: step and sine speeds of each joint, one joint at a time, at several poses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from rgss.documents import (
+    Document,
+    DocumentModel,
+    Hertz,
+    Identifier,
+    Radians,
+    RadiansPerSecond,
+    Seconds,
+    load_document,
+)
+from rgss.errors import DocumentError
+from rgss.findings import Finding
+from rgss.identification.recording import Control
+from rgss.scenes import Robot
+
+Array = NDArray[np.float64]
+Speeds = Annotated[tuple[RadiansPerSecond, ...], Field(min_length=1)]
+_LEAST_PER_CYCLE = 20
+_MOST_RATE_HZ = 10_000.0
+
+
+class StepsEntry(DocumentModel):
+    """Steps of the speed: each speed forwards, then backwards, each for `hold`."""
+
+    speeds: Speeds
+    hold: Seconds
+
+
+class SinesEntry(DocumentModel):
+    """Sine speeds: each amplitude at each frequency, for a number of cycles."""
+
+    amplitudes: Speeds
+    frequencies: Annotated[tuple[Hertz, ...], Field(min_length=1)]
+    cycles: Annotated[int, Field(ge=1, le=100)] = 2
+
+
+class NoiseEntry(DocumentModel):
+    """Standard deviations of the simulated measurements."""
+
+    position: Radians = 0.0
+    velocity: RadiansPerSecond = 0.0
+    seed: Annotated[int, Field(ge=0, lt=2**31)] = 0
+
+
+class ExcitationDocument(DocumentModel):
+    """An excitation file."""
+
+    excitation: Identifier
+    control: Control = Control.VELOCITY
+    rate: Hertz
+    rest: Seconds
+    steps: StepsEntry | None = None
+    sines: SinesEntry | None = None
+    poses: Annotated[dict[Identifier, tuple[Radians, ...]], Field(min_length=1)]
+    joints: tuple[Identifier, ...] | None = None
+    noise: NoiseEntry = NoiseEntry()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Signal:
+    """A commanded course of one joint.
+
+    Attributes:
+        name: Its name.
+        velocities_rad_s: Commanded speed of each sample, shape (times,).
+        positions_rad: Commanded position relative to the pose, shape (times,).
+    """
+
+    name: str
+    velocities_rad_s: Array
+    positions_rad: Array
+
+
+def load_excitation(path: Path, robot: Robot) -> ExcitationDocument:
+    """Read an excitation file and check it against a robot.
+
+    Args:
+        path: The file.
+        robot: The robot that is to be excited.
+
+    Raises:
+        DocumentError: The file is wrong, or exceeds the robot's limits; with every problem in it.
+    """
+    loaded = load_document(path, ExcitationDocument)
+    findings = [*_number_findings(loaded.value, loaded.document)]
+    if not findings:
+        findings = [*_robot_findings(loaded.value, loaded.document, robot)]
+    if findings:
+        raise DocumentError(sorted(findings))
+    return loaded.value
+
+
+def signals(excitation: ExcitationDocument) -> Iterator[Signal]:
+    """The signals of an excitation; each begins and ends with the time of rest."""
+    if excitation.steps is not None:
+        held = math.ceil(excitation.steps.hold * excitation.rate - 1e-9)
+        for speed in excitation.steps.speeds:
+            course = np.concatenate([np.full(held, speed), np.full(held, -speed)])
+            yield _signal(excitation, f"step {speed:.6g} rad/s", course)
+    if excitation.sines is not None:
+        for amplitude in excitation.sines.amplitudes:
+            for frequency in excitation.sines.frequencies:
+                count = math.ceil(excitation.sines.cycles / frequency * excitation.rate - 1e-9)
+                course = amplitude * np.sin(2 * np.pi * frequency * np.arange(count) / excitation.rate)
+                yield _signal(excitation, f"sine {amplitude:.6g} rad/s {frequency:.6g} Hz", course)
+
+
+def chosen_joints(excitation: ExcitationDocument, robot: Robot) -> tuple[str, ...]:
+    """Names of the joints that are excited."""
+    return excitation.joints or tuple(joint.name for joint in robot.joints)
+
+
+def _signal(excitation: ExcitationDocument, name: str, course: Array) -> Signal:
+    rest = np.zeros(math.ceil(excitation.rest * excitation.rate - 1e-9))
+    velocities = np.concatenate([rest, course, rest])
+    positions = np.concatenate([[0.0], np.cumsum(velocities[:-1])]) / excitation.rate
+    return Signal(name=name, velocities_rad_s=velocities, positions_rad=positions)
+
+
+def _number_findings(entry: ExcitationDocument, document: Document) -> Iterator[Finding]:
+    numbers: list[tuple[tuple[str | int, ...], float]] = [(("rate",), entry.rate), (("rest",), entry.rest)]
+    if entry.steps is not None:
+        numbers += [(("steps", "speeds", index), speed) for index, speed in enumerate(entry.steps.speeds)]
+        numbers.append((("steps", "hold"), entry.steps.hold))
+    if entry.sines is not None:
+        numbers += [(("sines", "amplitudes", index), each) for index, each in enumerate(entry.sines.amplitudes)]
+        numbers += [(("sines", "frequencies", index), each) for index, each in enumerate(entry.sines.frequencies)]
+    for place, value in numbers:
+        if value <= 0.0:
+            yield document.finding(
+                "excitation.range",
+                f"{place[-2] if len(place) > 2 else place[-1]} must be positive, got {value:g}",
+                place,
+            )
+    if entry.rate > _MOST_RATE_HZ:
+        yield document.finding("excitation.range", f"rate must be at most {_MOST_RATE_HZ:g} Hz", ("rate",))
+    if entry.steps is None and entry.sines is None:
+        yield document.finding("excitation.range", "the excitation has neither steps nor sines", ("excitation",))
+    for index, each in enumerate(entry.sines.frequencies if entry.sines is not None else ()):
+        if each * _LEAST_PER_CYCLE > entry.rate:
+            problem = f"a sine of {each:g} Hz has fewer than {_LEAST_PER_CYCLE} samples a cycle"
+            yield document.finding("excitation.range", problem, ("sines", "frequencies", index))
+    for key in ("position", "velocity"):
+        if getattr(entry.noise, key) < 0.0:
+            yield document.finding("excitation.range", f"{key} must not be negative", ("noise", key))
+
+
+def _robot_findings(entry: ExcitationDocument, document: Document, robot: Robot) -> Iterator[Finding]:
+    names = [joint.name for joint in robot.joints]
+    for index, name in enumerate(entry.joints or ()):
+        if name not in names:
+            hint = f"the robot has {', '.join(names)}"
+            yield document.finding("excitation.joint", f"unknown joint {name!r}", ("joints", index), hint=hint)
+    for pose, configuration in entry.poses.items():
+        if len(configuration) != len(names):
+            problem = f"the pose has {len(configuration)} positions, the robot {len(names)} joints"
+            yield document.finding("excitation.pose", problem, ("poses", pose))
+        else:
+            yield from _limit_findings(entry, document, robot, pose)
+
+
+def _limit_findings(entry: ExcitationDocument, document: Document, robot: Robot, pose: str) -> Iterator[Finding]:
+    courses = list(signals(entry))
+    at: Mapping[str, float] = dict(zip([each.name for each in robot.joints], entry.poses[pose], strict=True))
+    chosen: Sequence[str] = chosen_joints(entry, robot)
+    for joint in (each for each in robot.joints if each.name in chosen):
+        for course in courses:
+            reached = at[joint.name] + course.positions_rad
+            if reached.min() < joint.lower_rad or reached.max() > joint.upper_rad:
+                span = f"from {math.degrees(reached.min()):.4g} to {math.degrees(reached.max()):.4g} deg"
+                problem = f"{course.name} moves joint {joint.name!r} {span}, beyond its range"
+            elif np.abs(course.velocities_rad_s).max() > joint.speed_rad_s:
+                problem = f"{course.name} exceeds the speed limit of joint {joint.name!r}"
+            else:
+                continue
+            yield document.finding("excitation.limit", problem, ("poses", pose))
+            break

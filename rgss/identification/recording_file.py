@@ -1,0 +1,219 @@
+"""Recordings as CSV: three lines of comment, a header with units, and one line for each sample."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import math
+import re
+from collections.abc import Sequence
+from itertools import groupby, pairwise
+from pathlib import Path
+
+import numpy as np
+
+from rgss.documents import write_output
+from rgss.errors import DocumentError
+from rgss.findings import Finding, Severity, shown
+from rgss.identification.recording import Control, JointSeries, Recording, Segment
+
+LEAST_SAMPLES = 8
+LARGEST_GAP = 1.5
+"""Time between samples of a segment, over the usual one, from which samples are missing."""
+
+_COMMENTS = ("robot", "recorded", "control")
+_LABELS = ("time [s]", "pose", "joint", "signal")
+_QUANTITIES = (
+    ("commanded position", ""),
+    ("commanded velocity", "/s"),
+    ("measured position", ""),
+    ("measured velocity", "/s"),
+)
+_COLUMN = re.compile(r"^(?P<joint>\S+) commanded position \[(?P<unit>rad|deg)\]$")
+
+
+def write_recording(path: Path, recording: Recording) -> None:
+    """Write a recording as CSV, in seconds and radians.
+
+    Args:
+        path: The file.
+        recording: What was recorded.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    text = io.StringIO()
+    for key, value in zip(_COMMENTS, (recording.robot, recording.recorded, recording.control.value), strict=True):
+        text.write(f"# {key}: {value}\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*_LABELS, *(name for joint in recording.joints for name in _columns(joint, "rad"))])
+    for segment in recording.segments:
+        columns = [
+            values
+            for joint in recording.joints
+            for values in (
+                segment.series[joint].commanded_rad,
+                segment.series[joint].commanded_rad_s,
+                segment.series[joint].measured_rad,
+                segment.series[joint].measured_rad_s,
+            )
+        ]
+        labels = (segment.pose, segment.joint, segment.signal)
+        for time_s, row in zip(segment.times_s.tolist(), np.column_stack(columns).tolist(), strict=True):
+            writer.writerow([f"{time_s:.9g}", *labels, *(f"{value:.9g}" for value in row)])
+    write_output(path, text.getvalue().encode())
+
+
+def read_recording(path: Path) -> Recording:
+    """Read a recording, strictly.
+
+    Args:
+        path: The CSV file.
+
+    Raises:
+        DocumentError: The file is no recording; with its first problem.
+    """
+    try:
+        content = path.read_bytes()
+        text = content.decode("utf-8")
+    except OSError as error:
+        raise _wrong(path, 1, f"the file cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise _wrong(path, 1, "the file is not UTF-8") from error
+    lines = text.splitlines()
+    comments = _comments(path, lines)
+    reader = csv.reader(lines[len(_COMMENTS) :], strict=True)
+    try:
+        rows = list(reader)
+    except csv.Error as error:
+        raise _wrong(path, len(_COMMENTS) + reader.line_num, f"the file is not CSV: {error}") from error
+    header = rows[0] if rows else []
+    joints, factors = _joints(path, header)
+    values = _values(path, rows[1:], header)
+    values[:, 1:] *= factors
+    labels = [(row[1], row[2], row[3]) for row in rows[1:]]
+    _check_times(path, values[:, 0], labels)
+    segments, start = [], 0
+    for (pose, joint, signal), group in groupby(labels):
+        end = start + len(list(group))
+        line = len(_COMMENTS) + 2 + start
+        if joint not in joints:
+            raise _wrong(path, line, f"unknown joint {shown(joint)}", f"the columns have {', '.join(joints)}", 3)
+        if end - start < LEAST_SAMPLES:
+            problem = f"the segment has {end - start} samples, at least {LEAST_SAMPLES} are needed"
+            raise _wrong(path, line, problem)
+        part = values[start:end]
+        series = {
+            name: JointSeries(
+                commanded_rad=part[:, 1 + 4 * index],
+                commanded_rad_s=part[:, 2 + 4 * index],
+                measured_rad=part[:, 3 + 4 * index],
+                measured_rad_s=part[:, 4 + 4 * index],
+            )
+            for index, name in enumerate(joints)
+        }
+        segments.append(Segment(pose=pose, joint=joint, signal=signal, times_s=part[:, 0], series=series))
+        start = end
+    return Recording(
+        robot=comments["robot"],
+        recorded=comments["recorded"],
+        control=Control(comments["control"]),
+        joints=joints,
+        segments=tuple(segments),
+        digest=hashlib.sha256(content).hexdigest(),
+    )
+
+
+def _columns(joint: str, unit: str) -> list[str]:
+    return [f"{joint} {name} [{unit}{per}]" for name, per in _QUANTITIES]
+
+
+def _comments(path: Path, lines: Sequence[str]) -> dict[str, str]:
+    found = {}
+    for index, key in enumerate(_COMMENTS):
+        line = lines[index] if index < len(lines) else ""
+        start = f"# {key}:"
+        if not line.startswith(start) or not line[len(start) :].strip():
+            raise _wrong(path, index + 1, f"line {index + 1} must be '{start} …', got {shown(line)}")
+        found[key] = line[len(start) :].strip()
+    kinds = [each.value for each in Control]
+    if found["control"] not in kinds:
+        raise _wrong(path, 3, f"unknown control {shown(found['control'])}", f"write one of {', '.join(kinds)}")
+    return found
+
+
+def _joints(path: Path, header: Sequence[str]) -> tuple[tuple[str, ...], list[float]]:
+    """Names of the joints, and the factor of each column behind the time."""
+    line = len(_COMMENTS) + 1
+    for index, name in enumerate(_LABELS):
+        got = header[index] if index < len(header) else ""
+        if got != name:
+            raise _wrong(path, line, f"column {index + 1} must be {name!r}, got {shown(got)}", "", index + 1)
+    joints: list[str] = []
+    factors: list[float] = []
+    for first in range(len(_LABELS), max(len(header), len(_LABELS) + 1), 4):
+        begin = _COLUMN.match(header[first]) if first < len(header) else None
+        if begin is None:
+            got = header[first] if first < len(header) else ""
+            problem = f"column {first + 1} must be 'JOINT commanded position [rad]', got {shown(got)}"
+            raise _wrong(path, line, problem, "angles are in rad or in deg", first + 1)
+        joint, unit = begin["joint"], begin["unit"]
+        for index, name in enumerate(_columns(joint, unit), start=first):
+            got = header[index] if index < len(header) else ""
+            if got != name:
+                raise _wrong(path, line, f"column {index + 1} must be {name!r}, got {shown(got)}", "", index + 1)
+        if joint in joints:
+            raise _wrong(path, line, f"joint {shown(joint)} has columns twice", "", first + 1)
+        joints.append(joint)
+        factors += [1.0 if unit == "rad" else math.pi / 180.0] * 4
+    return tuple(joints), factors
+
+
+def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str]) -> np.ndarray[tuple[int, int]]:
+    """Time and motion of each line, in the units of the file."""
+    if not rows:
+        raise _wrong(path, len(_COMMENTS) + 2, "the recording has no samples")
+    found = []
+    for line, row in enumerate(rows, start=len(_COMMENTS) + 2):
+        if len(row) != len(header):
+            raise _wrong(path, line, f"the line has {len(row)} fields, the header has {len(header)}")
+        numbers = []
+        for index in (0, *range(len(_LABELS), len(row))):
+            try:
+                number = float(row[index])
+            except ValueError:
+                number = math.nan
+            if not math.isfinite(number):
+                problem = f"{header[index]} must be a finite number, got {shown(row[index])}"
+                raise _wrong(path, line, problem, "", index + 1)
+            numbers.append(number)
+        found.append(numbers)
+    return np.array(found)
+
+
+def _check_times(path: Path, times_s: np.ndarray[tuple[int]], labels: Sequence[tuple[str, str, str]]) -> None:
+    differences = np.diff(times_s)
+    inside = np.array([one == other for one, other in pairwise(labels)], dtype=bool)
+    usual_s = float(np.median(differences[inside])) if inside.any() else math.inf
+    for index, difference_s in enumerate(differences.tolist()):
+        line = len(_COMMENTS) + 3 + index
+        if difference_s <= 0.0:
+            raise _wrong(path, line, f"times must rise: {times_s[index + 1]:g} s follows {times_s[index]:g} s")
+        if inside[index] and difference_s > LARGEST_GAP * usual_s:
+            problem = f"samples are missing: {difference_s:g} s to this one, {usual_s:g} s usually"
+            raise _wrong(path, line, problem, "record the segment again")
+
+
+def _wrong(path: Path, line: int, message: str, hint: str = "", column: int = 1) -> DocumentError:
+    """An error at a line; the column is counted in fields."""
+    found = Finding(
+        file=str(path),
+        line=line,
+        column=column,
+        rule="recording.format",
+        severity=Severity.ERROR,
+        message=message,
+        hint=hint,
+    )
+    return DocumentError([found])

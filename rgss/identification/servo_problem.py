@@ -1,0 +1,180 @@
+"""Least-squares problem of a joint's servo: residuals over segments, their derivatives, and its solution."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.identification.recording import Control, Segment
+from rgss.identification.servo import JointServo, servo_motion
+
+Array = NDArray[np.float64]
+
+_LONGEST_DELAY_S = 0.5
+_MOST_GAIN_HZ = 5.0e3
+PARAMETER_ENDS = {
+    "velocity_gain_hz": (0.01, _MOST_GAIN_HZ, 1.0),
+    "position_gain_hz2": (0.0, _MOST_GAIN_HZ**2, 10.0),
+    "delay_s": (0.0, _LONGEST_DELAY_S, 1.0e-3),
+    "viscous_hz": (0.0, _MOST_GAIN_HZ, 0.1),
+    "coulomb_rad_s2": (0.0, 1.0e4, 0.1),
+}
+"""Lower end, upper end and least scale of each parameter."""
+
+
+class ServoProblem:
+    """Residuals of a servo, and their derivatives by central differences."""
+
+    def __init__(self, segments: Sequence[Segment], control: Control) -> None:
+        self._segments = [each for each in segments if np.abs(each.excited.commanded_rad_s).max() > 0.0]
+        self._positions = control is Control.POSITION
+        self.names = tuple(name for name in _PARAMETERS if self._positions or name != "position_gain_hz2")
+        self._lower, self._upper, self._least = (
+            np.array(values) for values in zip(*(PARAMETER_ENDS[n] for n in self.names), strict=True)
+        )
+        self._weights = (1.0, 1.0)
+
+    def servo(self, values: Array) -> JointServo:
+        """The servo with parameters, each within its ends."""
+        return JointServo(**dict(zip(self.names, np.clip(values, self._lower, self._upper).tolist(), strict=True)))
+
+    def residuals(self, values: Array) -> Array:
+        """Weighted residuals, shape (residuals,)."""
+        (found,) = self._many([values])
+        return found
+
+    def jacobian(self, values: Array) -> Array:
+        """Derivatives of the residuals, shape (residuals, parameters)."""
+        steps = 1.0e-4 * np.maximum(np.abs(values), self._least)
+        ahead, behind = (
+            [
+                np.clip(values + sign * step * unit, self._lower, self._upper)
+                for step, unit in zip(steps, np.eye(len(values)), strict=True)
+            ]
+            for sign in (1.0, -1.0)
+        )
+        found = self._many([*ahead, *behind])
+        spans = [
+            float(one.sum() - other.sum())
+            for one, other in zip(
+                np.array(ahead) * np.eye(len(values)), np.array(behind) * np.eye(len(values)), strict=True
+            )
+        ]
+        columns = [
+            (one - other) / span
+            for one, other, span in zip(found[: len(values)], found[len(values) :], spans, strict=True)
+        ]
+        return np.column_stack(columns)
+
+    def solved(self, begin: Array | None = None) -> Array:
+        """The best parameters from several starts, or from one that is given."""
+        from scipy.optimize import least_squares
+
+        starts = _starts(self.names) if begin is None else [begin]
+        costs = [float(np.sum(each**2)) for each in self._many(starts)]
+        order = sorted(range(len(starts)), key=lambda index: costs[index])[:2]
+        found = [
+            least_squares(
+                self.residuals,
+                np.clip(starts[index], self._lower, self._upper),
+                jac=self.jacobian,
+                bounds=(self._lower, self._upper),
+                x_scale=np.maximum(np.abs(starts[index]), self._least),
+                xtol=1e-9,
+                ftol=1e-10,
+                gtol=1e-10,
+                max_nfev=200,
+            )
+            for index in order
+        ]
+        best: Array = min(found, key=lambda each: float(each.cost)).x
+        return best
+
+    def weigh(self, values: Array) -> None:
+        """Weight positions and speeds with the deviations of their residuals at these parameters."""
+        speeds, positions = self._unweighted(values)
+        least = 1.0e-12
+        self._weights = (
+            1.0 / max(least, float(np.sqrt(np.mean(speeds**2)))),
+            1.0 / max(least, float(np.sqrt(np.mean(positions**2)))),
+        )
+
+    def rms(self, values: Array) -> dict[str, float]:
+        """Root mean square of the residual speeds by pose, in rad/s."""
+        speeds, _ = self._unweighted(values)
+        found: dict[str, list[Array]] = {}
+        start = 0
+        for segment in self._segments:
+            found.setdefault(segment.pose, []).append(speeds[start : start + len(segment.times_s)])
+            start += len(segment.times_s)
+        return {pose: math.sqrt(float(np.mean(np.concatenate(parts) ** 2))) for pose, parts in found.items()}
+
+    def autocorrelation(self, residuals: Array) -> float:
+        """Correlation of neighbouring residuals."""
+        total = float(np.sum(residuals**2))
+        return 0.0 if total == 0.0 else float(np.sum(residuals[1:] * residuals[:-1])) / total
+
+    def _unweighted(self, values: Array) -> tuple[Array, Array]:
+        both = self._compared([values])[0]
+        return np.concatenate([speeds for speeds, _ in both]), np.concatenate([positions for _, positions in both])
+
+    def _many(self, many: Sequence[Array]) -> list[Array]:
+        by_speed, by_position = self._weights
+        found = []
+        for parts in self._compared(many):
+            vectors = [by_speed * speeds for speeds, _ in parts]
+            if self._positions:
+                vectors += [by_position * positions for _, positions in parts]
+            found.append(np.concatenate(vectors))
+        return found
+
+    def _compared(self, many: Sequence[Array]) -> list[list[tuple[Array, Array]]]:
+        """Fitted minus measured speeds and positions of each segment, for each set of parameters."""
+        servos = [self.servo(values) for values in many]
+        found: list[list[tuple[Array, Array]]] = [[] for _ in servos]
+        for segment in self._segments:
+            series = segment.excited
+            motion = servo_motion(
+                servos,
+                segment.times_s,
+                series.commanded_rad,
+                series.commanded_rad_s,
+                start=_start(segment),
+            )
+            for index, parts in enumerate(found):
+                parts.append(
+                    (
+                        motion.velocities_rad_s[index] - series.measured_rad_s,
+                        motion.positions_rad[index] - series.measured_rad,
+                    )
+                )
+        return found
+
+
+_PARAMETERS = ("position_gain_hz2", "velocity_gain_hz", "delay_s", "viscous_hz", "coulomb_rad_s2")
+
+
+def _start(segment: Segment) -> tuple[float, float]:
+    """Position and speed before the first command: the mean of the samples at rest, else the first sample."""
+    series = segment.excited
+    moving = np.flatnonzero(np.abs(series.commanded_rad_s) > 0.0)
+    rest = max(1, int(moving[0]))
+    return float(series.measured_rad[:rest].mean()), 0.0 if rest > 1 else float(series.measured_rad_s[0])
+
+
+def _starts(names: Sequence[str]) -> list[Array]:
+    starts = []
+    for gain in (3.0, 10.0, 30.0, 100.0, 300.0):
+        for delay_s in (1.0e-3, 1.0e-2, 5.0e-2):
+            values = {
+                "position_gain_hz2": gain**2 / 4,
+                "velocity_gain_hz": gain,
+                "delay_s": delay_s,
+                "viscous_hz": 0.02 * gain,
+                "coulomb_rad_s2": 0.01 * gain,
+            }
+            starts.append(np.array([values[name] for name in names]))
+    return starts
