@@ -16,6 +16,7 @@ PLAIN = [
     errors.DefinitionError,
     errors.SimulationError,
     errors.MotionError,
+    errors.DriverError,
     errors.EvidenceError,
     errors.StorageError,
     errors.TradeoffError,
