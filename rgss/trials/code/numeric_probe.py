@@ -31,6 +31,7 @@ _CORE_NAMES = (
     "openblas_get_corename64_",
     "openblas_get_corename",
 )
+_WHEELS = frozenset({"numpy.libs", "scipy.libs"})
 _SIZES = (1, 2, 3, 4, 6, 7, 8, 16, 33, 100)
 _TELL = """
 import sys
@@ -169,13 +170,18 @@ def _matrix(count: int, step: float) -> NDArray[Any]:
 
 
 def _kernels() -> str:
-    """Names of the kernels of each OpenBLAS that is loaded, as far as the system lists what is."""
+    """Names of the kernels of each OpenBLAS of NumPy and SciPy, as far as the system lists what is loaded.
+
+    Where these have none of their own, of each that is loaded. Others compute nothing of what is digested, and
+    would name a process by what happens to be loaded in it.
+    """
     try:
         lines = Path("/proc/self/maps").read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
         return "unknown"
     files = sorted({line.split(maxsplit=5)[5] for line in lines if "openblas" in line.rpartition("/")[2]})
-    return "+".join(_kernel(file) for file in files) or "unknown"
+    own = [file for file in files if not _WHEELS.isdisjoint(Path(file).parts)]
+    return "+".join(_kernel(file) for file in own or files) or "unknown"
 
 
 def _kernel(file: str) -> str:

@@ -107,6 +107,23 @@ def test_what_was_computed_otherwise_is_told_in_one_line():
         require_alike("it", HERE, {**HERE, "blas": "Haswell x"})
 
 
+ANOTHER = """
+import json, sys
+from rgss.trials.code.numeric_probe import numerics
+if sys.argv[1:]:
+    import scs  # brings an OpenBLAS of its own
+print(json.dumps(dict(numerics())))
+"""
+
+
+def test_another_library_of_the_process_does_not_name_its_numerics():
+    def run(*arguments: str) -> dict:
+        done = subprocess.run([sys.executable, "-c", ANOTHER, *arguments], capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)
+
+    assert run() == run("scs")
+
+
 PROBE = """
 import json, sys
 from pathlib import Path
