@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.identification.calibration import MISFIT, CalibrationDocument, calibration_text, load_calibration
+    from rgss.identification.calibration import MISFIT, calibration_text
     from rgss.identification.excitation import ExcitationDocument, load_excitation
     from rgss.identification.fitting import FitStatus, FittedParameter, ServoFit, fit_joint
-    from rgss.identification.recording import Control, JointSeries, Recording, Segment
+    from rgss.identification.motion_of_servos import ServoMotion, servo_motion
+    from rgss.identification.recording import JointSeries, Recording, Segment
     from rgss.identification.recording_file import read_recording, write_recording
     from rgss.identification.response_measures import Response, responses
-    from rgss.identification.servo import JointServo, ServoMotion, servo_motion
     from rgss.identification.simulated_arm import simulated_recording
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

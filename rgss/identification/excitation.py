@@ -24,8 +24,7 @@ from rgss.documents import (
 )
 from rgss.errors import DocumentError
 from rgss.findings import Finding
-from rgss.identification.recording import Control
-from rgss.scenes import Robot
+from rgss.scenes import Robot, ServoControl
 
 Array = NDArray[np.float64]
 Speeds = Annotated[tuple[RadiansPerSecond, ...], Field(min_length=1)]
@@ -60,7 +59,7 @@ class ExcitationDocument(DocumentModel):
     """An excitation file."""
 
     excitation: Identifier
-    control: Control = Control.VELOCITY
+    control: ServoControl = ServoControl.VELOCITY
     rate: Hertz
     rest: Seconds
     steps: StepsEntry | None = None

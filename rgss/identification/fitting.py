@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
-from rgss.identification.recording import Control, Recording
-from rgss.identification.servo import JointServo
+from rgss.identification.recording import Recording
 from rgss.identification.servo_problem import PARAMETER_ENDS, ServoProblem
+from rgss.scenes import JointServo, ServoControl
 
 Array = NDArray[np.float64]
 
@@ -111,7 +111,7 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
         raise DefinitionError(f"the recording has no motion of joint {joint!r}", hint="record steps or sines of it")
     problem = ServoProblem(segments, recording.control)
     found = problem.solved()
-    if recording.control is Control.POSITION:
+    if recording.control is ServoControl.POSITION:
         problem.weigh(found)
         found = problem.solved(found)
     jacobian, residuals = problem.jacobian(found), problem.residuals(found)
@@ -120,7 +120,7 @@ def fit_joint(recording: Recording, joint: str) -> ServoFit:
         jacobian, residuals, correlation, np.array([PARAMETER_ENDS[name][2] for name in problem.names])
     )
     parameters = [_parameter(problem.names, index, found, half, alike) for index in range(len(problem.names))]
-    if recording.control is Control.VELOCITY:
+    if recording.control is ServoControl.VELOCITY:
         reason = "under velocity control the position gain has no effect"
         absent = FittedParameter(
             name="position_gain_hz2", status=FitStatus.ABSENT, value=None, interval=None, reason=reason

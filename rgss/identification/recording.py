@@ -4,19 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rgss.scenes import ServoControl
+
 Array = NDArray[np.float64]
-
-
-class Control(str, Enum):
-    """What a robot's servos are commanded: speeds alone, or positions with speeds fed forward."""
-
-    VELOCITY = "velocity"
-    POSITION = "position"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,7 +62,7 @@ class Recording:
 
     robot: str
     recorded: str
-    control: Control
+    control: ServoControl
     joints: tuple[str, ...]
     segments: tuple[Segment, ...]
     digest: str = ""

@@ -16,7 +16,8 @@ import numpy as np
 from rgss.documents import write_output
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity, shown
-from rgss.identification.recording import Control, JointSeries, Recording, Segment
+from rgss.identification.recording import JointSeries, Recording, Segment
+from rgss.scenes import ServoControl
 
 LEAST_SAMPLES = 8
 LARGEST_GAP = 1.5
@@ -118,7 +119,7 @@ def read_recording(path: Path) -> Recording:
     return Recording(
         robot=comments["robot"],
         recorded=comments["recorded"],
-        control=Control(comments["control"]),
+        control=ServoControl(comments["control"]),
         joints=joints,
         segments=tuple(segments),
         digest=hashlib.sha256(content).hexdigest(),
@@ -137,7 +138,7 @@ def _comments(path: Path, lines: Sequence[str]) -> dict[str, str]:
         if not line.startswith(start) or not line[len(start) :].strip():
             raise _wrong(path, index + 1, f"line {index + 1} must be '{start} …', got {shown(line)}")
         found[key] = line[len(start) :].strip()
-    kinds = [each.value for each in Control]
+    kinds = [each.value for each in ServoControl]
     if found["control"] not in kinds:
         raise _wrong(path, 3, f"unknown control {shown(found['control'])}", f"write one of {', '.join(kinds)}")
     return found

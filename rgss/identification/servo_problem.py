@@ -8,8 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.identification.recording import Control, Segment
-from rgss.identification.servo import JointServo, servo_motion
+from rgss.identification.motion_of_servos import servo_motion
+from rgss.identification.recording import Segment
+from rgss.scenes import JointServo, ServoControl
 
 Array = NDArray[np.float64]
 
@@ -28,9 +29,9 @@ PARAMETER_ENDS = {
 class ServoProblem:
     """Residuals of a servo, and their derivatives by central differences."""
 
-    def __init__(self, segments: Sequence[Segment], control: Control) -> None:
+    def __init__(self, segments: Sequence[Segment], control: ServoControl) -> None:
         self._segments = [each for each in segments if np.abs(each.excited.commanded_rad_s).max() > 0.0]
-        self._positions = control is Control.POSITION
+        self._positions = control is ServoControl.POSITION
         self.names = tuple(name for name in _PARAMETERS if self._positions or name != "position_gain_hz2")
         self._lower, self._upper, self._least = (
             np.array(values) for values in zip(*(PARAMETER_ENDS[n] for n in self.names), strict=True)

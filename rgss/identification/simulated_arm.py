@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
 from rgss.identification.excitation import ExcitationDocument, Signal, chosen_joints, signals
-from rgss.identification.recording import Control, JointSeries, Recording, Segment
-from rgss.identification.servo import JointServo, VelocityLoop, mean_commands
+from rgss.identification.recording import JointSeries, Recording, Segment
 from rgss.kinematics import ArmDynamics, gripper_loads
-from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Robot
+from rgss.physics import PhysicsSettings, TorqueArm, VelocityLoop, mean_commands
+from rgss.scenes import Gripper, JointServo, Robot, ServoControl
 
 Array = NDArray[np.float64]
 
@@ -107,7 +106,7 @@ class _ServoArm:
         """Positions (rad) and speeds (rad/s) before each step, each of shape (times, joints)."""
         count, step_s = len(course.velocities_rad_s), self._step_s
         under = servo
-        if self._control is Control.VELOCITY:
+        if self._control is ServoControl.VELOCITY:
             under = JointServo(
                 velocity_gain_hz=servo.velocity_gain_hz,
                 viscous_hz=servo.viscous_hz,

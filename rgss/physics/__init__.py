@@ -6,6 +6,7 @@ from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.hand_view import HandView
 from rgss.physics.opening import OtherEngineSettings, open_world
 from rgss.physics.rendering import Picture
+from rgss.physics.servo_loop import VelocityLoop, mean_commands
 from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, MOST_ITERATIONS, PhysicsSettings
 from rgss.physics.stage import Posture
 from rgss.physics.torque_arm import TorqueArm

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rgss.documents import replaced_file
-from rgss.identification import JointServo, Recording, servo_motion
+from rgss.identification import Recording, servo_motion
+from rgss.scenes import JointServo
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,6 +12,7 @@ from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
 from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
 from rgss.scenes.scene_file import load_scene
+from rgss.scenes.servos import Calibration, CalibrationDocument, JointServo, ServoControl, load_calibration
 from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.urdf_chain import UrdfChain, chain_to, kind_of
 from rgss.scenes.waypoints import Waypoint, waypoint_poses

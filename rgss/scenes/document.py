@@ -156,6 +156,7 @@ class RobotDocument(DocumentModel):
     frozen: dict[Identifier, JointPosition] = Field(default_factory=dict)
     without: tuple[Identifier, ...] = ()
     collision: CollisionShapes = CollisionShapes.HULL
+    calibration: Text | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from rgss.scenes.pose import Pose
+from rgss.scenes.servos import Calibration
 
 MOST_JOINTS = 8
 """Most joints of an arm."""
@@ -73,6 +74,7 @@ class Robot:
         home_rad: A configuration near which inverse-kinematics branches are preferred.
         files: The meshes and textures that the URDF names, by their content.
         tool_speed_m_s: Greatest speed of the tool centre where no design sets it; None if the file has none.
+        calibration: The servos of its joints as they were fitted; None if the file names none.
     """
 
     id: str
@@ -85,3 +87,4 @@ class Robot:
     home_rad: tuple[float, ...]
     files: tuple[RobotFile, ...] = ()
     tool_speed_m_s: float | None = None
+    calibration: Calibration | None = None

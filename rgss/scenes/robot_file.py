@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
 from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
-from rgss.findings import Finding
+from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location, named_file_findings, not_positive, too_slow
 from rgss.scenes.joint_units import home_findings, unit_findings
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Joint, JointKind, Robot
+from rgss.scenes.servos import Calibration, load_calibration
 from rgss.scenes.urdf_file import ReadUrdf, read_urdf
 
 
@@ -58,6 +60,7 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
     findings.extend((*problems, *urdf.findings))
     if not problems and not urdf.findings:
         findings.extend(unit_findings(entry, document, urdf.kinds))
+    calibration = _calibration(entry, document, findings, folder=path.parent, project=top)
     if findings:
         raise DocumentError(sorted(findings))
     return Robot(
@@ -82,7 +85,33 @@ def load_robot(path: Path, *, base: Pose, label: str | None = None, project: Pat
         home_rad=tuple(position.value for position in entry.home),
         files=urdf.files,
         tool_speed_m_s=entry.tool_speed,
+        calibration=calibration,
     )
+
+
+def _calibration(
+    entry: RobotDocument, document: Document, findings: list[Finding], *, folder: Path, project: Path
+) -> Calibration | None:
+    """The calibration that a robot file names; None if it names none, or a wrong one, which `findings` then has."""
+    name = entry.calibration
+    if name is None:
+        return None
+    problems = list(named_file_findings(document, name, ("calibration",), folder=folder, project=project))
+    findings.extend(problems)
+    if problems:
+        return None
+    try:
+        calibration = load_calibration(folder / name, label=os.path.relpath(folder / name, project))
+    except DocumentError as error:
+        findings.extend(error.findings)
+        return None
+    known = [joint.name for joint in entry.joints]
+    for joint, _ in calibration.servos:
+        if joint not in known:
+            message = f"the calibration has a servo of {shown(joint)}, which is no joint of the robot"
+            hint = f"joints: {', '.join(known)}"
+            findings.append(document.finding("scene.calibration", message, ("calibration",), hint=hint))
+    return calibration
 
 
 def _empty_ranges(entry: RobotDocument, document: Document) -> Iterable[Finding]:

@@ -14,7 +14,7 @@ from rgss.documents import DocumentModel, json_schema, read_document
 from rgss.errors import DefinitionError
 from rgss.measures import MeasuresDocument
 from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
-from rgss.scenes import GripperDocument, RobotDocument, SceneDocument
+from rgss.scenes import CalibrationDocument, GripperDocument, RobotDocument, SceneDocument
 from rgss.studies.document import StudyDocument
 
 
@@ -74,6 +74,9 @@ DOCUMENT_KINDS = (
     DocumentKind(id="catalogue", title="Catalogue of components", model=CatalogueModel, place="designs/"),
     DocumentKind(id="scene", title="Scene", model=SceneDocument, place="scenes/"),
     DocumentKind(id="robot", title="Robot", model=RobotDocument, place="scenes/robots/"),
+    DocumentKind(
+        id="calibration", title="Calibration of a robot's servos", model=CalibrationDocument, place="scenes/robots/"
+    ),
     DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
@@ -81,7 +84,7 @@ DOCUMENT_KINDS = (
 _OF_REQUIREMENTS = ("stakeholder", "system", "architecture", "measures", "rules", "reviews")
 _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
     "designs": (("components", "catalogue"), ("parameters", "design-space")),
-    "scenes": (("bodies", "scene"), ("joints", "robot"), ("azimuths", "gripper")),
+    "scenes": (("bodies", "scene"), ("joints", "robot"), ("azimuths", "gripper"), ("servos", "calibration")),
     "studies": (("study", "study"),),
 }
 

@@ -16,7 +16,7 @@ from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
 from rgss.studies.design_settings import GRIPPER, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.project import Project
 from rgss.studies.trial_values import values_of, with_values
-from rgss.trials import PlanningSettings, TrialSettings
+from rgss.trials import ControlMode, PlanningSettings, TrialSettings
 from rgss.trials.pieces import TrialSpec
 
 
@@ -111,4 +111,13 @@ def _spec(
     planner = values.get(PLANNER)
     if isinstance(planner, str):
         spec = replace(spec, planner_settings=project.study.planning.planner_settings(planner))
-    return with_values(spec, values)
+    return _with_calibration(with_values(spec, values))
+
+
+def _with_calibration(spec: TrialSpec) -> TrialSpec:
+    """The trial with the robot's calibration where its control needs it, and nowhere else, as it is an input."""
+    controller = spec.settings.controller
+    if controller.mode is not ControlMode.CALIBRATED:
+        return spec
+    controller = replace(controller, calibration=spec.scene.robot.calibration)
+    return replace(spec, settings=replace(spec.settings, controller=controller))

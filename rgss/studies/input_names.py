@@ -48,6 +48,7 @@ def _inputs_of(spec: TrialSpec) -> NamedInputs:
     text = hashlib.sha256(robot.urdf.encode("utf-8", "surrogatepass")).hexdigest()[:_SHORT]
     inputs = _without_colours(to_plain(replace(spec, scene=replace(spec.scene, robot=replace(robot, urdf=text)))))
     del inputs["variant"], inputs["seed"]
+    del inputs["scene"]["robot"]["calibration"]  # where the control uses it, the controller has it
     for name in ("timing", "controller"):
         settings = getattr(spec.settings, name)
         if settings == type(settings)():  # as in `digests_of`, the default is no input

@@ -21,7 +21,7 @@ from rgss.studies.design_settings import GRIPPER, design_findings
 from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import source_findings
 from rgss.studies.measure_traces import measure_traces
-from rgss.studies.motion import joint_name_findings
+from rgss.studies.motion import motion_findings
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings
 from rgss.trace import MeasureTrace, check_trace
@@ -203,10 +203,10 @@ class _Reader:
         if designs is not None:
             document = read_document(folder / named["design_space"], label=named["design_space"])
             if scene is not None and study is not None:
-                document_of_study = read_document(path, label=label)
-                self._findings += uncertainty_findings(scene, study, document_of_study, grippers)
+                written = read_document(path, label=label)
+                self._findings += uncertainty_findings(scene, study, written, grippers)
                 self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
-                self._findings += joint_name_findings(study.motion, document_of_study, scene.robot)
+                self._findings += motion_findings(study.motion, study.rate_hz, written, designs, document, scene.robot)
             if measures is not None:
                 document = read_document(folder / MEASURES, label=MEASURES)
                 self._findings.extend(source_findings(measures.inputs, designs.source_units(), document))

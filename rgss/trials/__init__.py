@@ -12,7 +12,14 @@ if TYPE_CHECKING:
     from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
     from rgss.trials.move_kinds import MoveKind
     from rgss.trials.planning import Obstacle, PlannedMove, TaskPlan, plan_of, searches_of, waypoint_configurations
-    from rgss.trials.plants import ControlMode, ControlSettings, JointController, JointGains, least_stable_rate_hz
+    from rgss.trials.plants import (
+        ControlMode,
+        ControlSettings,
+        JointController,
+        JointGains,
+        is_stable,
+        least_stable_rate_hz,
+    )
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.second_engine import mujoco_settings
     from rgss.trials.settings import PlanningSettings, TrialSettings

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from rgss.identification import Control, JointSeries, Recording, Segment
+from rgss.identification import JointSeries, Recording, Segment
+from rgss.scenes import ServoControl
 
 NOISE_RAD, NOISE_RAD_S = 0.0005, 0.01
 
@@ -38,7 +39,7 @@ def course_of(speed_rad_s, *, rate_hz=200, rest_s=0.1, hold_s=0.4):
     return np.arange(len(velocities)) / rate_hz, positions, velocities
 
 
-def recording_of(motions, *, control=Control.VELOCITY, seed=0, noise=(NOISE_RAD, NOISE_RAD_S), joint="j1"):
+def recording_of(motions, *, control=ServoControl.VELOCITY, seed=0, noise=(NOISE_RAD, NOISE_RAD_S), joint="j1"):
     """A recording from (times, commanded positions and speeds, positions, speeds) of each segment, with noise."""
     generator = np.random.default_rng(seed)
     segments, begin_s = [], 0.0

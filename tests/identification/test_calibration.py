@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from rgss.errors import DefinitionError, DocumentError
-from rgss.identification import JointServo, calibration_text, fit_joint, load_calibration
+from rgss.identification import calibration_text, fit_joint
+from rgss.scenes import JointServo, ServoControl, load_calibration
 from tests.identification.recordings import motions_of, recording_of
 
 SERVO = JointServo(velocity_gain_hz=30, delay_s=0.0137, viscous_hz=3, coulomb_rad_s2=1.5)
@@ -19,9 +20,12 @@ def test_what_is_written_is_read_as_the_fitted_servo(tmp_path):
 
     (tmp_path / "servos.yaml").write_text(text)
     found = load_calibration(tmp_path / "servos.yaml")
+    ((joint, servo),) = found.servos
+    assert (joint, found.recording, found.control, found.misfits) == ("j1", 'a "b".csv', ServoControl.VELOCITY, ())
+    assert found.origin == f'a "b".csv ({recording.recorded}; SHA-256 {recording.digest[:12]})'
     for name, value in fit.determined().items():
-        assert getattr(found["j1"], name) == pytest.approx(value, rel=1e-5)
-    assert found["j1"].position_gain_hz2 == 0.0
+        assert getattr(servo, name) == pytest.approx(value, rel=1e-5)
+    assert servo.position_gain_hz2 == 0.0
     assert 'recording: "a \\"b\\".csv"' in text
     assert "# position_gain: not in the recording" in text
 

@@ -8,22 +8,23 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.identification import Control, FitStatus, JointServo, fit_joint
+from rgss.identification import FitStatus, fit_joint
+from rgss.scenes import JointServo, ServoControl
 from tests.identification.recordings import motions_of, recording_of
 
 SERVO = JointServo(velocity_gain_hz=30, position_gain_hz2=400, delay_s=0.0137, viscous_hz=3, coulomb_rad_s2=1.5)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("control", list(Control))
+@pytest.mark.parametrize("control", list(ServoControl))
 def test_known_gains_are_recovered_within_five_percent(control):
-    motions = motions_of(SERVO, (0.15, 0.6, 1.2), velocity_control=control is Control.VELOCITY)
+    motions = motions_of(SERVO, (0.15, 0.6, 1.2), velocity_control=control is ServoControl.VELOCITY)
 
     fit = fit_joint(recording_of(motions, control=control), "j1")
 
     found = fit.determined()
     expected = {name: value for name, value in asdict(SERVO).items() if name in found}
-    assert len(found) == (5 if control is Control.POSITION else 4)
+    assert len(found) == (5 if control is ServoControl.POSITION else 4)
     assert found == pytest.approx(expected, rel=0.05)
     assert fit.adequate
     assert fit.rms_rad_s["p"] == pytest.approx(0.01, rel=0.1)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rgss.errors import DocumentError
-from rgss.identification import JointServo, read_recording, write_recording
+from rgss.identification import read_recording, write_recording
+from rgss.scenes import JointServo
 from tests.identification.recordings import motions_of, recording_of
 
 

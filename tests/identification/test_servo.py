@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.identification import JointServo, servo_motion
+from rgss.identification import servo_motion
+from rgss.scenes import JointServo
 from tests.identification.recordings import course_of, euler_motion
 
 

@@ -183,7 +183,11 @@ def test_a_design_sets_profile_mode_and_gains(folder, edit):
     ("parameter", "value", "expected"),
     [
         ("kind: name, sets: timing.profile", "trapezium", "x must be time_optimal or trapezoid, got 'trapezium'"),
-        ("kind: name, sets: control.mode", "torque", "x must be position or velocity or computed_torque, got 'torque'"),
+        (
+            "kind: name, sets: control.mode",
+            "torque",
+            "x must be position or velocity or computed_torque or calibrated, got 'torque'",
+        ),
         (
             'unit: "1", sets: timing.peak_speed',
             "1.5",

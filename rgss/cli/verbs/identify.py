@@ -51,7 +51,8 @@ def _record(options: argparse.Namespace) -> int:
     from rgss.cli.options import chosen_project
     from rgss.cli.output import announce, print_json
     from rgss.engines import require_engines
-    from rgss.identification import load_calibration, load_excitation, simulated_recording, write_recording
+    from rgss.identification import load_excitation, simulated_recording, write_recording
+    from rgss.scenes import load_calibration
     from rgss.studies import trial_specs
 
     require_engines("'rgss identify --record'")
@@ -59,7 +60,7 @@ def _record(options: argparse.Namespace) -> int:
     variant = project.designs.expand()[0] if options.variant is None else project.designs.variant(options.variant)
     (spec,) = trial_specs(project, variants=[variant], seeds=[project.study.seed])
     excitation = load_excitation(options.file, spec.scene.robot)
-    servos = {} if options.servos is None else load_calibration(options.servos)
+    servos = {} if options.servos is None else dict(load_calibration(options.servos).servos)
     recording = simulated_recording(
         excitation, spec.scene.robot, spec.gripper, gravity_m_s2=spec.scene.gravity_m_s2, servos=servos
     )

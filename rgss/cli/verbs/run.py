@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
     from rgss.cli.output import print_json
     from rgss.engines import require_engines
     from rgss.errors import DefinitionError
-    from rgss.evidence import record_digest
+    from rgss.evidence import Fidelity, record_digest
     from rgss.studies import trial_specs
     from rgss.sweep import compute
     from rgss.trials import drawn_values
@@ -62,10 +62,12 @@ def run(options: argparse.Namespace) -> int:
     record, trace = (compute(run_trial, spec), None) if order is None else traced_trial(spec)
     digest = record_digest(record)
     drawn = drawn_values(spec)
+    control = spec.settings.controller.origin if spec.fidelity is Fidelity.DYNAMIC else ""
     if options.json:
-        print_json({**_as_json(record, digest), **drawn_as_json(record.workload, drawn)})
+        shown = {**_as_json(record, digest), **drawn_as_json(record.workload, drawn)}
+        print_json({**shown, "control": control} if control else shown)
     else:
-        _show(record, digest, drawn)
+        _show(record, digest, drawn, control)
     if order is not None:
         lines = made_pictures(order, spec, record, trace)
         if not options.json:
@@ -105,7 +107,7 @@ def _as_json(record: Any, digest: str) -> dict[str, Any]:
     }
 
 
-def _show(record: Any, digest: str, drawn: Sequence[DrawnValue]) -> None:
+def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -> None:
     from rgss.cli.drawn import print_drawn
     from rgss.cli.output import number, print_table
 
@@ -126,7 +128,8 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue]) -> None:
                 number(None if phase.metrics.get("slip_m") is None else phase.metrics["slip_m"] * 1e3, 2),
             ]
         )
-    print(f"Variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity")
+    controlled = f", control {control}" if control else ""
+    print(f"Variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity{controlled}")
     print_drawn(record.workload, drawn)
     titles = ["", "phase", "outcome", "time [s]", "checks", "planning [s]", "path [m]", "grip margin", "slip [mm]"]
     print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))

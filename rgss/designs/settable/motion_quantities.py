@@ -42,11 +42,11 @@ MOTION_QUANTITIES = (
         name="control.mode",
         kind=ParameterKind.NAME,
         unit="",
-        meaning="Mode of the control of the joints, at dynamic fidelity: position, velocity or computed_torque.",
+        meaning="Control of the joints, at dynamic fidelity: position, velocity, computed_torque or calibrated.",
         field="settings.controller.mode",
         default="control.mode in the study",
         required=False,
-        choices=("position", "velocity", "computed_torque"),
+        choices=("position", "velocity", "computed_torque", "calibrated"),
     ),
     SettableQuantity(
         name="control.natural_frequency",

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from rgss.assessment import VariantMeasures, sequential_seeds
 from rgss.documents import load_document
 from rgss.errors import DocumentError
-from rgss.evidence import EvidenceStore
+from rgss.evidence import EvidenceStore, Fidelity
 from rgss.evidence.records import file_digests
 from rgss.reports.plain_numbers import Plain
 from rgss.studies import FOLDERS, Project, StudyDocument
+from rgss.trials import ControlMode
 from rgss.trials.code import versions
 
 
@@ -40,6 +42,7 @@ def provenance_of(
             ["catalogue", study.catalogue],
             ["scene", study.scene],
             ["fidelity", study.fidelity.value],
+            *_control(project),
             ["seeds", _seeds(project, measured)],
             ["variants", str(len(measured))],
             ["trials", str(len(keys))],
@@ -55,6 +58,16 @@ def provenance_of(
         "made_on": "" if first is None else first.provenance.machine,
         "made_by": "" if first is None else first.provenance.revision,
     }
+
+
+def _control(project: Project) -> list[list[str]]:
+    """The control of the joints where it is simulated, and what it was calibrated on."""
+    if project.study.fidelity is not Fidelity.DYNAMIC:
+        return []
+    controller = project.study.motion.controller
+    if controller.mode is ControlMode.CALIBRATED:
+        controller = replace(controller, calibration=project.scene.robot.calibration)
+    return [["control of the joints", controller.origin]]
 
 
 def _seeds(project: Project, measured: Sequence[VariantMeasures]) -> str:

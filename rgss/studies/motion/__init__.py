@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.studies.motion.calibrated import calibrated_at, motion_findings
     from rgss.studies.motion.section import (
         ControlEntry,
         MotionChoice,
         TimingEntry,
-        joint_name_findings,
         read_motion,
     )
 else:

@@ -57,7 +57,7 @@ class GainsEntry(DocumentModel):
 class ControlEntry(DocumentModel):
     """How the joints are controlled."""
 
-    mode: Literal["position", "velocity", "computed_torque"] = "computed_torque"
+    mode: Literal["position", "velocity", "computed_torque", "calibrated"] = "computed_torque"
     natural_frequency: RadiansPerSecond = _CONTROLLER.natural_frequency_rad_s
     damping_ratio: Dimensionless = _CONTROLLER.damping_ratio
     position_gain: RadiansPerSecond = _CONTROLLER.position_gain_1_s
@@ -117,7 +117,7 @@ def read_motion(
         ),
         thresholds=replace(ControlSettings(), largest_tracking_error_m=control.tracking_limit),
     )
-    if not found and rate_hz > 0.0:
+    if not found and rate_hz > 0.0 and choice.controller.mode is not ControlMode.CALIBRATED:
         findings.extend(_stability_findings(choice.controller, document, rate_hz))
     return choice
 

@@ -13,6 +13,7 @@ from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
 from rgss.scenes import Robot, mesh_summary
+from rgss.studies.motion import calibrated_at
 from rgss.studies.project import Project
 
 LARGEST_HULL_RATIO = 1.25
@@ -23,7 +24,7 @@ _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
 
 def robot_findings(project: Project) -> tuple[Finding, ...]:
-    """What is suspicious in the description of a project's robot.
+    """What is suspicious in the description of a project's robot, and in its calibration.
 
     Args:
         project: The project.
@@ -31,7 +32,22 @@ def robot_findings(project: Project) -> tuple[Finding, ...]:
     scene = PurePosixPath(project.study.scene)
     robot = scene.parent / read_document(project.folder / scene, label=str(scene)).data["robot"]["description"]
     urdf = robot.parent / read_document(project.folder / robot, label=str(robot)).data["description"]
-    return description_findings(project.scene.robot, project.folder / urdf, str(urdf))
+    return (*description_findings(project.scene.robot, project.folder / urdf, str(urdf)), *_misfit_findings(project))
+
+
+def _misfit_findings(project: Project) -> Iterator[Finding]:
+    """Warnings of joints whose calibrated servo does not explain the recording."""
+    study, calibration = project.study, project.scene.robot.calibration
+    document = read_document(project.folder / study.label, label=study.label)
+    space = read_document(project.folder / study.design_space, label=study.design_space)
+    chosen = calibrated_at(study.motion, document, project.designs, space)
+    if chosen is None or calibration is None:
+        return
+    where, place = chosen
+    for joint in calibration.misfits:
+        message = f"the servo of joint {joint!r} misses part of the motion that it was calibrated on"
+        hint = "record slower speeds, so that no torque limit is met"
+        yield where.finding("study.misfit", message, place, hint=hint, severity=Severity.WARNING)
 
 
 def description_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:

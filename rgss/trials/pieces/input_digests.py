@@ -199,7 +199,7 @@ def _rates_digest(robot: Robot) -> str:
 def _geometry_digest(scene: Scene) -> str:
     """Digest of what planning needs of a scene: where everything is, and where the arm may move."""
     robot = to_plain(scene.robot)
-    for name in ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2"):
+    for name in ("payload_kg", "tool_speed_m_s", "tool_acceleration_m_s2", "calibration"):
         del robot[name]
     for joint in robot["joints"]:
         for name in _RATES:

@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics
+    from rgss.trials.plants.calibrated_law import is_stable
     from rgss.trials.plants.control import ControlSettings
     from rgss.trials.plants.dynamic_plant import DynamicPlant
     from rgss.trials.plants.joint_controller import (

@@ -9,7 +9,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.scenes import Joint
+from rgss.errors import DefinitionError
+from rgss.scenes import Calibration, Joint
+from rgss.trials.plants.calibrated_law import CalibratedLaw
 
 Array = NDArray[np.float64]
 
@@ -20,6 +22,7 @@ class ControlMode(str, Enum):
     POSITION = "position"
     VELOCITY = "velocity"
     COMPUTED_TORQUE = "computed_torque"
+    CALIBRATED = "calibrated"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,6 +54,8 @@ class JointController:
         position:               2 ζ ω ė + ω² e
         velocity:         g (q̇_c - q̇)  with the commanded velocity  q̇_c = q̇_d + k e
 
+        calibrated:       that of the servos of the robot's calibration, with their delay and friction
+
     and inverse dynamics turns it into torques. ω² and 2 ζ ω are the gains k_p and k_d of a servo. The commanded
     velocity is clipped to the speeds of the joints. Sources: J. J. Craig, "Introduction to Robotics", 3rd ed., 2005,
     section 10.4 (computed torque, ζ = 1 for critical damping).
@@ -59,11 +64,12 @@ class JointController:
         mode: The mode.
         natural_frequency_rad_s: ω.
         damping_ratio: ζ.
-        position_gain_1_s: k, of the velocity mode.
+        position_gain_1_s: k, of the velocity mode, and of a calibration under velocity control.
         velocity_gain_1_s: g, of the velocity mode.
         joints: Gains of single joints, in place of those.
         reached_rad: Error of any joint up to which the end of a move counts as reached.
         settling_limit_s: Longest wait for that after a move.
+        calibration: The robot's servos, in the mode that needs them.
     """
 
     mode: ControlMode = ControlMode.COMPUTED_TORQUE
@@ -74,20 +80,33 @@ class JointController:
     joints: tuple[JointGains, ...] = ()
     reached_rad: float = 1.0e-3
     settling_limit_s: float = 0.5
+    calibration: Calibration | None = None
+
+    @property
+    def origin(self) -> str:
+        """The mode, and what it was calibrated on."""
+        mode = self.mode.value.replace("_", " ")
+        return mode if self.calibration is None else f"{mode} on {self.calibration.origin}"
 
 
 ControlLaw = Callable[[Array, Array, Array, Array, Array], Array]
 """Commanded acceleration of target position, velocity and acceleration, and of present position and velocity."""
 
 
-def control_law(controller: JointController, joints: Sequence[Joint]) -> ControlLaw:
+def control_law(controller: JointController, joints: Sequence[Joint], *, step_s: float) -> ControlLaw:
     """The law of a controller for the joints of an arm.
 
     Args:
         controller: Mode and gains.
         joints: The arm's joints, in order.
+        step_s: Time between two commands.
+
+    Raises:
+        DefinitionError: The mode is calibrated, and a joint has no servo.
     """
     names = [joint.name for joint in joints]
+    if controller.mode is ControlMode.CALIBRATED:
+        return _calibrated_law(controller, joints, step_s)
     if controller.mode is ControlMode.VELOCITY:
         return _velocity_law(
             _gains(controller, names, "velocity_gain_1_s"),
@@ -131,6 +150,23 @@ def least_stable_rate_hz(controller: JointController, joints: Sequence[str]) -> 
     """
     stiffness, damping = servo_gains(controller, joints)
     return float(np.max((damping + np.sqrt(damping**2 + 4.0 * stiffness)) / 4.0))
+
+
+def _calibrated_law(controller: JointController, joints: Sequence[Joint], step_s: float) -> ControlLaw:
+    calibration, names = controller.calibration, [joint.name for joint in joints]
+    if calibration is None or not {*names} <= {name for name, _ in calibration.servos}:
+        raise DefinitionError(
+            "the calibrated mode needs a servo of every joint",
+            hint="name a calibration with all joints in the robot's file, or choose another control.mode",
+        )
+    servos = dict(calibration.servos)
+    return CalibratedLaw(
+        [servos[name] for name in names],
+        np.array([joint.speed_rad_s for joint in joints]),
+        control=calibration.control,
+        position_gain_1_s=_gains(controller, names, "position_gain_1_s"),
+        step_s=step_s,
+    )
 
 
 def _velocity_law(gain: Array, position_gain: Array, fastest: Array) -> ControlLaw:

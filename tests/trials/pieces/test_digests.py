@@ -13,7 +13,7 @@ import pytest
 
 from rgss.evidence import Fidelity, PieceKind
 from rgss.motion import ClockKind, Objective, PlanningClock
-from rgss.scenes import Pose
+from rgss.scenes import Calibration, Pose, ServoControl
 from rgss.scenes.robot import RobotFile
 from rgss.studies.expansion import trial_specs
 from rgss.trials import JointController, JointGains, TimingProfile, TimingSettings
@@ -148,6 +148,7 @@ MOTION = [
     ("controller", {"joints": (JointGains(joint="elbow_joint", damping_ratio=0.7),)}, LAST),
     ("controller", {"reached_rad": 0.01}, LAST),
     ("controller", {"settling_limit_s": 1.0}, LAST),
+    ("controller", {"calibration": Calibration(robot="r", control=ServoControl.VELOCITY, servos=())}, LAST),
 ]
 
 

@@ -122,6 +122,7 @@ def test_without_feed_forward_an_accelerated_joint_lags(spec, followed):
             )
         )[-1, 5]
         for mode in ControlMode
+        if mode is not ControlMode.CALIBRATED
     }
     assert errors[ControlMode.POSITION] == pytest.approx(acceleration / 400.0, rel=0.03)
     assert errors[VELOCITY] == pytest.approx(acceleration / 400.0, rel=0.03)
@@ -137,7 +138,9 @@ def test_pure_velocity_control_does_not_know_where_it_is(spec, followed):
 
 def test_a_commanded_velocity_is_within_the_speed_of_the_joint(spec):
     joints = spec.scene.robot.joints
-    law = control_law(JointController(mode=VELOCITY, position_gain_1_s=1000.0, velocity_gain_1_s=1.0), joints)
+    law = control_law(
+        JointController(mode=VELOCITY, position_gain_1_s=1000.0, velocity_gain_1_s=1.0), joints, step_s=1e-3
+    )
     zeros = np.zeros(len(joints))
     wanted = law(np.ones(len(joints)), zeros, zeros, zeros, zeros)
     assert wanted == pytest.approx([joint.speed_rad_s for joint in joints])
@@ -153,7 +156,7 @@ def test_a_commanded_velocity_is_within_the_speed_of_the_joint(spec):
 )
 def test_the_error_grows_below_the_least_stable_rate(spec, controller):
     joint = spec.scene.robot.joints[0]
-    law, zero = control_law(controller, [joint]), np.zeros(1)
+    law, zero = control_law(controller, [joint], step_s=1e-3), np.zeros(1)
 
     def left(rate_hz):
         q, dq = np.array([-1e-6]), np.zeros(1)
