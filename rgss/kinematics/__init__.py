@@ -5,6 +5,7 @@ from rgss.kinematics.branches import choose_branches
 from rgss.kinematics.cartesian import FollowedLine, LineBreak, follow_line, straight_line
 from rgss.kinematics.collision import CollisionModel, NearestPair
 from rgss.kinematics.collision_context import CollisionContext
+from rgss.kinematics.differential_inverse import DifferentialInverse
 from rgss.kinematics.dynamics import ArmDynamics, Load, gripper_loads, workpiece_load
 from rgss.kinematics.inverse import InverseKinematics, inverse_kinematics
 from rgss.kinematics.link_contacts import lasting_contacts, touching_links

@@ -186,7 +186,7 @@ def test_a_design_sets_profile_mode_and_gains(folder, edit):
         (
             "kind: name, sets: control.mode",
             "torque",
-            "x must be position or velocity or computed_torque or calibrated, got 'torque'",
+            "x must be position or velocity or computed_torque or calibrated or tool_tracking, got 'torque'",
         ),
         (
             'unit: "1", sets: timing.peak_speed',

@@ -42,11 +42,11 @@ MOTION_QUANTITIES = (
         name="control.mode",
         kind=ParameterKind.NAME,
         unit="",
-        meaning="Control of the joints, at dynamic fidelity: position, velocity, computed_torque or calibrated.",
+        meaning="Control of the joints at dynamic fidelity, one of the modes of docs/motion.md.",
         field="settings.controller.mode",
         default="control.mode in the study",
         required=False,
-        choices=("position", "velocity", "computed_torque", "calibrated"),
+        choices=("position", "velocity", "computed_torque", "calibrated", "tool_tracking"),
     ),
     SettableQuantity(
         name="control.natural_frequency",

@@ -57,7 +57,7 @@ class GainsEntry(DocumentModel):
 class ControlEntry(DocumentModel):
     """How the joints are controlled."""
 
-    mode: Literal["position", "velocity", "computed_torque", "calibrated"] = "computed_torque"
+    mode: Literal["position", "velocity", "computed_torque", "calibrated", "tool_tracking"] = "computed_torque"
     natural_frequency: RadiansPerSecond = _CONTROLLER.natural_frequency_rad_s
     damping_ratio: Dimensionless = _CONTROLLER.damping_ratio
     position_gain: RadiansPerSecond = _CONTROLLER.position_gain_1_s

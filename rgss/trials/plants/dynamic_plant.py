@@ -59,7 +59,7 @@ class DynamicPlant:
         self._step_s = settings.step_s
         self._control = control
         self._controller = controller or JointController()
-        self._law = control_law(self._controller, scene.robot.joints, step_s=self._step_s)
+        self._law = control_law(self._controller, scene.robot.joints, step_s=self._step_s, tool=arm)
         self._checkpoint = checkpoint
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rgss.errors import DefinitionError
 from rgss.scenes import Calibration, Joint
 from rgss.trials.plants.calibrated_law import CalibratedLaw
+from rgss.trials.plants.tool_tracking_law import ToolFrames, ToolTrackingLaw
 
 Array = NDArray[np.float64]
 
@@ -23,6 +24,7 @@ class ControlMode(str, Enum):
     VELOCITY = "velocity"
     COMPUTED_TORQUE = "computed_torque"
     CALIBRATED = "calibrated"
+    TOOL_TRACKING = "tool_tracking"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,6 +56,7 @@ class JointController:
         position:               2 ζ ω ė + ω² e
         velocity:         g (q̇_c - q̇)  with the commanded velocity  q̇_c = q̇_d + k e
 
+        tool tracking:    g (q̇_c - q̇)  with the q̇_c that moves the tool with the target's velocity and k times its error
         calibrated:       that of the servos of the robot's calibration, with their delay and friction
 
     and inverse dynamics turns it into torques. ω² and 2 ζ ω are the gains k_p and k_d of a servo. The commanded
@@ -64,8 +67,8 @@ class JointController:
         mode: The mode.
         natural_frequency_rad_s: ω.
         damping_ratio: ζ.
-        position_gain_1_s: k, of the velocity mode, and of a calibration under velocity control.
-        velocity_gain_1_s: g, of the velocity mode.
+        position_gain_1_s: k, of the velocity mode, of tool tracking, and of a calibration under velocity control.
+        velocity_gain_1_s: g, of the velocity mode and of tool tracking.
         joints: Gains of single joints, in place of those.
         reached_rad: Error of any joint up to which the end of a move counts as reached.
         settling_limit_s: Longest wait for that after a move.
@@ -93,18 +96,32 @@ ControlLaw = Callable[[Array, Array, Array, Array, Array], Array]
 """Commanded acceleration of target position, velocity and acceleration, and of present position and velocity."""
 
 
-def control_law(controller: JointController, joints: Sequence[Joint], *, step_s: float) -> ControlLaw:
+def control_law(
+    controller: JointController, joints: Sequence[Joint], *, step_s: float, tool: ToolFrames | None = None
+) -> ControlLaw:
     """The law of a controller for the joints of an arm.
 
     Args:
         controller: Mode and gains.
         joints: The arm's joints, in order.
         step_s: Time between two commands.
+        tool: Kinematics of the tool, which tool tracking needs.
 
     Raises:
-        DefinitionError: The mode is calibrated, and a joint has no servo.
+        DefinitionError: The mode is calibrated and a joint has no servo, or the tool is to be tracked without its
+            kinematics.
     """
     names = [joint.name for joint in joints]
+    if controller.mode is ControlMode.TOOL_TRACKING:
+        if tool is None:
+            raise DefinitionError("tool tracking needs the kinematics of the tool")
+        return ToolTrackingLaw(
+            tool,
+            joints,
+            position_gain_1_s=_gains(controller, names, "position_gain_1_s"),
+            velocity_gain_1_s=_gains(controller, names, "velocity_gain_1_s"),
+            step_s=step_s,
+        )
     if controller.mode is ControlMode.CALIBRATED:
         return _calibrated_law(controller, joints, step_s)
     if controller.mode is ControlMode.VELOCITY:
@@ -131,7 +148,7 @@ def servo_gains(controller: JointController, joints: Sequence[str]) -> tuple[Arr
         controller: Mode and gains.
         joints: Names of the joints.
     """
-    if controller.mode is ControlMode.VELOCITY:
+    if controller.mode in (ControlMode.VELOCITY, ControlMode.TOOL_TRACKING):
         gain = _gains(controller, joints, "velocity_gain_1_s")
         return gain * _gains(controller, joints, "position_gain_1_s"), gain
     omega, zeta = (_gains(controller, joints, name) for name in ("natural_frequency_rad_s", "damping_ratio"))
