@@ -19,7 +19,7 @@ from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEnt
 from rgss.studies.assumptions_section import StudyAssumptionEntry
 from rgss.studies.motion import ControlEntry, TimingEntry
 from rgss.studies.planning import PlanningEntry
-from rgss.studies.regression_section import RegressionEntry
+from rgss.studies.regression import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
 

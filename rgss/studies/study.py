@@ -27,7 +27,7 @@ from rgss.studies.document import StudyDocument
 from rgss.studies.motion import MotionChoice, read_motion
 from rgss.studies.planning import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
-from rgss.studies.regression_section import RegressionGuard, read_regression
+from rgss.studies.regression import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
 from rgss.tradeoff import Anchor
