@@ -133,7 +133,7 @@ class Study:
 
     @property
     def decision(self) -> Decision:
-        """What is decided; as of `trade`."""
+        """Decision as a frame; as of `trade`."""
         return self._trade.decision
 
     @property
@@ -182,11 +182,11 @@ class Study:
         return self._trade.robustness()
 
     def effects(self) -> pd.DataFrame:
-        """What each level of each factor does to each measure; as of `trade`."""
+        """Effects of the factors' levels on the measures; as of `trade`."""
         return self._trade.effects()
 
     def tornado(self) -> pd.DataFrame:
-        """What each uncertain input does to the lead of the choice; as of `trade`."""
+        """Effects of the uncertain inputs on the lead of the choice; as of `trade`."""
         return self._trade.tornado()
 
     def portfolio(self) -> pd.DataFrame:
@@ -199,7 +199,7 @@ class Study:
         return portfolio_of_study(self.project)
 
     def columns(self, frame: str) -> pd.DataFrame:
-        """What the columns of a frame mean, with their units.
+        """Meanings of the columns of a frame, with their units.
 
         Args:
             frame: Its name, such as ``trials``.

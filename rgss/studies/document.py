@@ -73,14 +73,14 @@ class MovesEntry(DocumentModel):
 
 
 class PhysicsEntry(DocumentModel):
-    """How physics is stepped."""
+    """Steps of the physics."""
 
     rate: Hertz
     solver_iterations: Annotated[int, Field(ge=1, le=10_000)]
 
 
 class PromotionEntry(DocumentModel):
-    """Which designs go on from screening; one that cannot meet a requirement never does."""
+    """Rule for the designs that go on from screening; one that cannot meet a requirement never does."""
 
     requirements: Literal["possible"] | None = None
     keep: Annotated[int, Field(ge=1)] | None = None

@@ -116,7 +116,7 @@ def kind_of(name: str, data: Any) -> DocumentKind | None:
 
 
 def key_texts() -> Mapping[str, Mapping[str, str]]:
-    """What each key of the documents means, by the model that reads it."""
+    """Description of each key of the documents, by the model that reads it."""
     with resources.as_file(resources.files("rgss.studies") / "field_descriptions.yaml") as path:
         texts: Mapping[str, Mapping[str, str]] = read_document(path, label="field_descriptions.yaml").data
     return texts

@@ -21,7 +21,7 @@ _SHORT = 12
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedInputs:
-    """Everything that goes into a trial but its variant's number and its seed.
+    """Inputs of a trial other than its variant's number and its seed.
 
     Attributes:
         digest: What the store knows them by.

@@ -113,7 +113,7 @@ class StudyDefinition:
 
     @property
     def sweeps_until_decided(self) -> bool:
-        """Whether a sweep goes on until decided of itself: the rule is stated, and so is what it may spend."""
+        """True if a sweep goes on until decided of itself: the rule is stated, and so is what it may spend."""
         return self.is_sequential and self.until_decided.budget is not None
 
 
@@ -252,7 +252,7 @@ def value_anchors(trade_off: TradeOff, quantity_of: Callable[[Anchor, str], floa
 
 
 def _coarse_contact(entry: StudyDocument, document: Document) -> list[Finding]:
-    """What is too coarse of the physics for a grasp; docs/validation.md shows from where results converge."""
+    """Findings on steps too coarse for a grasp; docs/validation.md shows from where results converge."""
     rate_hz, iterations = entry.physics.rate, entry.physics.solver_iterations
     if rate_hz < LEAST_RATE_HZ:
         message = f"contact physics needs at least {LEAST_RATE_HZ:g} Hz, got {rate_hz:g} Hz"

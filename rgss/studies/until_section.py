@@ -1,4 +1,4 @@
-"""What a study says of replication until decided: how surely, how nearly, and with how many trials."""
+"""Section on replication until decided: confidence, margin, and number of trials."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def add_pictures(parser: argparse.ArgumentParser) -> None:
 
 
 def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
-    """What pictures the options ask for, with every file one that can be written; None if they ask for none.
+    """Pictures that the options request, each file checked to be writable; None if they request none.
 
     Raises:
         DefinitionError: An option is wrong, a file cannot be written, or a package is missing.

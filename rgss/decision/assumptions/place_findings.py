@@ -15,7 +15,7 @@ _ALL = "all"
 
 
 def assumption_findings(project: Project) -> tuple[Finding, ...]:
-    """What is wrong with the alternatives of assumptions, and with the names of ranges, at their places in the file.
+    """Findings on the alternatives of assumptions and the names of ranges, at their places in the file.
 
     Args:
         project: The project with its study.

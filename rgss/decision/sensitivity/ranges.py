@@ -73,7 +73,7 @@ class RangeBook:
         )
 
     def has(self, name: str) -> bool:
-        """Whether a range is stated for an input that has not taken it yet."""
+        """True if a range is stated for an input that has not taken it yet."""
         return name in self._stated
 
     def check(self, others: Iterable[str] = ()) -> None:

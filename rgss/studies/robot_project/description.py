@@ -1,4 +1,4 @@
-"""What is wrong or suspicious in an arm's description that can be used all the same."""
+"""Findings on an arm's description that can be used all the same."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
 
 def robot_findings(project: Project) -> tuple[Finding, ...]:
-    """What is suspicious in the description of a project's robot.
+    """Findings on the description of a project's robot.
 
     Args:
         project: The project.
@@ -35,7 +35,7 @@ def robot_findings(project: Project) -> tuple[Finding, ...]:
 
 
 def description_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
-    """What is suspicious in a description that can be used: units, masses, inertias, limits, meshes.
+    """Findings on a description that can be used: units, masses, inertias, limits, meshes.
 
     Args:
         robot: The arm.

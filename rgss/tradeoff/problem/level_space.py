@@ -47,7 +47,7 @@ class Incompatibility:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LevelSpace:
-    """Everything that levels can be combined to.
+    """Space of the combinations of levels.
 
     Attributes:
         factors: The factors; the last one varies fastest in `combinations`.

@@ -12,7 +12,7 @@ from rgss.tradeoff.sequential.evidence import SequentialEvidence
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SequentialRule:
-    """When to go on and when to stop.
+    """Stopping rule of sequential replication.
 
     Attributes:
         error_rate: α: probability that the decision is called decided and is wrong; and, of each
