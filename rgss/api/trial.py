@@ -226,4 +226,4 @@ def _whole(what: str, number: int) -> int:
     try:
         return operator.index(number)
     except TypeError:
-        raise DefinitionError(f"{what} {number!r} is no whole number", hint="give an id and a seed") from None
+        raise DefinitionError(f"{what} must be a whole number, got {number!r}", hint="give an id and a seed") from None

@@ -77,7 +77,7 @@ class Project:
         """
         known = [choice.value for choice in Fidelity]
         if fidelity not in known:
-            raise DefinitionError(f"there is no fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
+            raise DefinitionError(f"unknown fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
         return replace(self, study=replace(self.study, fidelity=Fidelity(fidelity), screening=None))
 
     @property

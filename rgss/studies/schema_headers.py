@@ -1,4 +1,4 @@
-"""The line at the head of a YAML file that tells an editor which schema it has."""
+"""Schema header of a YAML file: the first line, from which an editor finds the schema."""
 
 from __future__ import annotations
 

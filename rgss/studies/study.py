@@ -225,7 +225,7 @@ def _file_findings(document: Document, named: Mapping[str, str], project: Path) 
 
 
 def _requirements(project: Path) -> RequirementSet | None:
-    """The project's requirements; None if they cannot be read, which is told where they are."""
+    """The project's requirements; None if they cannot be read, which has a finding of its own."""
     try:
         return load_requirements(project / "requirements")
     except DocumentError:

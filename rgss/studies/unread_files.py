@@ -20,7 +20,7 @@ _REQUIREMENTS = "requirements"
 _PARTS = ("stakeholder", "system", "architecture")
 _SINGLE = ("measures", "rules", "reviews")
 _ENDINGS = (".yaml", ".yml")
-# What tells a kind of document by a key at its top.
+# Top-level keys by which a kind of document is recognised.
 _KIND_OF_KEY: Mapping[str, str] = {
     "study": "study",
     "parameters": "design-space",
@@ -109,7 +109,7 @@ def _of_other_folders(project: Path) -> Iterator[Finding]:
             if path.resolve() in named or (folder == "studies" == home and path.suffix == ".yaml"):
                 continue
             if path.suffix == ".yaml" and _data(path) is None:
-                continue  # what it is cannot be told; whoever reads it says what is wrong with it
+                continue  # of unknown kind; its reader reports what is wrong with it
             if home == folder and path.suffix == ".yaml":
                 if not complete:
                     continue  # what cannot be read may well name it

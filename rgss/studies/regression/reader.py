@@ -38,7 +38,7 @@ class _Reader:
 
     def read(self, entry: RegressionEntry) -> RegressionGuard:
         if not 0.0 < entry.error_rate < 0.5:
-            message = f"an error rate of {entry.error_rate:g} is none"
+            message = f"error rate must be between 0 and 0.5, got {entry.error_rate:g}"
             self._report(message, ("error_rate",), "give a share between 0 and 0.5, such as 0.05")
         runs = [self._run(one, place) for place, one in enumerate(entry.runs)]
         names = [one.id for one in entry.runs]
@@ -63,7 +63,7 @@ class _Reader:
         cap = entry.replicates if entry.cap is None else entry.cap
         if cap < entry.replicates:
             message = f"the cap of {cap} seeds is below the {entry.replicates} of the first look"
-            self._report(message, ("runs", place, "cap"), "raise it, or leave it away")
+            self._report(message, ("runs", place, "cap"), "raise it, or omit it")
         return WatchedRun(
             id=entry.id,
             fidelity=Fidelity(entry.fidelity),
@@ -88,7 +88,7 @@ class _Reader:
         for number, phase in enumerate(phases):
             if phase not in (*_PHASES, WHOLE_TRIAL):
                 hint = f"phases: {', '.join(_PHASES)}"
-                self._report(f"there is no phase {phase!r}", (*at, "phases", number), hint)
+                self._report(f"unknown phase {phase!r}", (*at, "phases", number), hint)
         return GuardedMetric(
             metric=entry.metric,
             guard=Guard(
@@ -127,7 +127,7 @@ class _Reader:
             self._report(f"of success, {entry.better} is not better", (*at, "better"), "write 'better: higher'")
         if not (_is_share(entry.margin) and unit != "1"):
             if entry.at_least is not None:
-                hint = "leave it away, or give the margin in per cent of the baseline's mean"
+                hint = "omit it, or give the margin in per cent of the baseline's mean"
                 self._report("at_least belongs to a margin in per cent", (*at, "at_least"), hint)
             return self._margin(entry, entry.margin, unit, (*at, "margin")), 0.0
         relative = self._margin(entry, entry.margin, "1", (*at, "margin"))
@@ -155,7 +155,7 @@ class _Reader:
         return margin
 
     def _unknown_run(self, name: str, at: tuple[str | int, ...], runs: list[str]) -> None:
-        self._report(f"there is no run {name!r}", at, f"runs: {', '.join(runs)}")
+        self._report(f"unknown run {name!r}", at, f"runs: {', '.join(runs)}")
 
     def _report(self, message: str, at: tuple[str | int, ...], hint: str) -> None:
         self._findings.append(self._document.finding("study.regression", message, ("regression", *at), hint=hint))

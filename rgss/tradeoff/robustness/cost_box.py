@@ -92,7 +92,7 @@ def box_range(problem: BoxProblem, chosen: int, *, most: float = 1.0) -> BoxRang
     rivals = [int(row) for row in np.flatnonzero(problem.feasible) if row != chosen]
     if _violation(problem, chosen, 0.0) or any(_lead(problem, chosen, row, 0.0)[0] < -TIE_TOLERANCE for row in rivals):
         raise TradeoffError(
-            f"alternative {chosen} is not the best at the assumed numbers", hint="ask for the one that is"
+            f"alternative {chosen} is not the best at the assumed numbers", hint="pass the one that is best"
         )
     factor = most
     own = _violation(problem, chosen, most)
