@@ -7,7 +7,7 @@ from enum import Enum
 
 
 class Kind(str, Enum):
-    """What the cells of a column are; the values are the types that pandas has for them."""
+    """Type of a column's cells; the values are the names of pandas' types."""
 
     NUMBER = "float64"
     COUNT = "Int64"

@@ -20,7 +20,7 @@ def reference_table(name: str) -> str:
         DefinitionError: There is no such frame.
     """
     if name not in FRAMES:
-        raise DefinitionError(f"there is no frame {name!r}", hint=f"frames: {', '.join(FRAMES)}")
+        raise DefinitionError(f"unknown frame {name!r}", hint=f"frames: {', '.join(FRAMES)}")
     frame = FRAMES[name]
     lines = [f"One row: {frame.row}.", "", "| column | unit | meaning |", "|---|---|---|"]
     lines += [f"| `{one.title}` (index) | {one.unit or '–'} | {one.meaning} |" for one in frame.index]

@@ -1,4 +1,4 @@
-"""What is known of a study as pandas frames, with the columns of `rgss.api.columns`."""
+"""Frames of pandas for a study, with the columns of `rgss.api.columns`."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def load(
     if replicates is not None:
         if not 1 <= replicates <= MOST_REPLICATES:
             raise DefinitionError(
-                f"replicates must be from 1 to {MOST_REPLICATES}", hint="leave it away for the study's number"
+                f"replicates must be from 1 to {MOST_REPLICATES}", hint="omit it for the study's number"
             )
         project = project.with_replicates(replicates)
     return Study(project=project if fidelity is None else project.with_fidelity(fidelity), _drawing=drawing)

@@ -8,7 +8,7 @@ from rgss.studies import Project
 
 
 def sweep_hint(project: Project) -> str:
-    """How to make the evidence of a study."""
+    """Instruction on how to make the evidence of a study."""
     study = project.study
     return (
         f"call sweep(), or run 'rgss sweep {study.label} --project {project.folder} "

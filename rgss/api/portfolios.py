@@ -17,7 +17,7 @@ def portfolio_of_study(project: Project) -> pd.DataFrame:
     """One row for each study of the portfolio, chosen by each study's own evidence.
 
     Raises:
-        DefinitionError: The study asks for no portfolio.
+        DefinitionError: The study has no portfolio.
         EvidenceError: Trials of one of the studies have no evidence.
         TradeoffError: The choice is ill posed.
     """

@@ -133,7 +133,7 @@ class Study:
 
     @property
     def decision(self) -> Decision:
-        """What is decided; as of `trade`."""
+        """Decision as a frame; as of `trade`."""
         return self._trade.decision
 
     @property
@@ -152,7 +152,7 @@ class Study:
         Args:
             what_if: What is to be supposed, such as ``{"weight.t_p": 0.4, "SYS-012.threshold": "0.9 kg"}`` or
                 ``{"planning.charge_per_check": "0.5 ms"}``.
-            run: Whether trials are run that the suppositions need and nobody ran; they are kept as evidence.
+            run: Whether trials that the suppositions need and that are missing are run; they are kept as evidence.
             jobs: Number of worker processes for them, as for `sweep`.
 
         Raises:
@@ -169,7 +169,7 @@ class Study:
         return Trade(project=scenario.project, measured=measured, scenario=scenario)
 
     def assumptions(self) -> pd.DataFrame:
-        """The choice under each alternative of each modelling assumption, as far as the evidence tells.
+        """The choice under each alternative of each modelling assumption, as far as the evidence shows.
 
         Raises:
             EvidenceError: Trials of the study have no evidence.
@@ -182,24 +182,24 @@ class Study:
         return self._trade.robustness()
 
     def effects(self) -> pd.DataFrame:
-        """What each level of each factor does to each measure; as of `trade`."""
+        """Effects of the factors' levels on the measures; as of `trade`."""
         return self._trade.effects()
 
     def tornado(self) -> pd.DataFrame:
-        """What each uncertain input does to the lead of the choice; as of `trade`."""
+        """Effects of the uncertain inputs on the lead of the choice; as of `trade`."""
         return self._trade.tornado()
 
     def portfolio(self) -> pd.DataFrame:
         """The designs that together serve the studies of the portfolio best, by each study's own evidence.
 
         Raises:
-            DefinitionError: The study asks for no portfolio.
+            DefinitionError: The study has no portfolio.
             EvidenceError, TradeoffError: Trials have no evidence, or the choice is ill posed.
         """
         return portfolio_of_study(self.project)
 
     def columns(self, frame: str) -> pd.DataFrame:
-        """What the columns of a frame mean, with their units.
+        """Meanings of the columns of a frame, with their units.
 
         Args:
             frame: Its name, such as ``trials``.
@@ -208,7 +208,7 @@ class Study:
             DefinitionError: There is no frame of that name.
         """
         if frame not in FRAMES:
-            raise DefinitionError(f"there is no frame {frame!r}", hint=f"frames: {', '.join(FRAMES)}")
+            raise DefinitionError(f"unknown frame {frame!r}", hint=f"frames: {', '.join(FRAMES)}")
         described = FRAMES[frame]
         columns = variant_columns(self.project) if frame == "variants" else described.columns
         rows = [{"column": one.title, "unit": one.unit, "meaning": one.meaning} for one in (*described.index, *columns)]

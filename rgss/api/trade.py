@@ -49,7 +49,7 @@ class Trade:
 
     @cached_property
     def decision(self) -> Decision:
-        """What is decided: chosen, runner-up, ties, ranking, what is infeasible and why, certificate."""
+        """Decision: chosen, runner-up, ties, ranking, what is infeasible and why, certificate."""
         return choose(self.project, self.measured)
 
     @cached_property
@@ -69,7 +69,7 @@ class Trade:
 
     @property
     def changes(self) -> pd.DataFrame:
-        """What is supposed; no row if nothing is."""
+        """Suppositions; no row if there are none."""
         return changes_frame(self.scenario)
 
     def robustness(self) -> Robustness:
@@ -77,15 +77,15 @@ class Trade:
         return self._robustness
 
     def effects(self) -> pd.DataFrame:
-        """What each level of each factor, and of each pair of factors, does to each measure."""
+        """Effects of the levels of each factor, and of each pair of factors, on the measures."""
         return effects_frame(computed_effects(self._robustness))
 
     def weights(self) -> pd.DataFrame:
-        """How far each weight may move alone before another variant is chosen."""
+        """Range of each weight alone within which the choice stays the same."""
         return weights_frame(self._robustness)
 
     def tornado(self) -> pd.DataFrame:
-        """What each uncertain input does to the lead of the choice, the largest swing first."""
+        """Effects of the uncertain inputs on the lead of the choice, the largest swing first."""
         return tornado_frame(self._sensitivity)
 
     def worth_keeping(self) -> pd.DataFrame:
@@ -93,7 +93,7 @@ class Trade:
         return worth_keeping_frame(self._sensitivity)
 
     def stakeholders(self) -> pd.DataFrame:
-        """What each feasible variant is worth to each stakeholder."""
+        """Value of each feasible variant to each stakeholder."""
         return stakeholders_frame(self._sensitivity)
 
     def acceptability(self) -> pd.DataFrame:

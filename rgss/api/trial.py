@@ -31,7 +31,7 @@ _LOWEST_HZ, _HIGHEST_HZ = 60.0, 10_000.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawing:
-    """How trials are drawn, which is given from outside: this room draws nothing.
+    """Callback that draws a trial; given by the caller, since this package draws nothing.
 
     Attributes:
         figure: Makes the plots of a record, its trace and the names of the joints.
@@ -57,12 +57,12 @@ class Trial:
 
     @property
     def success(self) -> bool:
-        """Whether all states are complete and the object is where it should be."""
+        """True if all states are complete and the object is where it should be."""
         return self.record.success
 
     @property
     def failure(self) -> str:
-        """What ended it and where, in words; empty on success."""
+        """Failure and the phase in which it occurred, in words; empty on success."""
         record = self.record
         if record.failure is None or record.failed_phase is None:
             return ""
@@ -70,7 +70,7 @@ class Trial:
 
     @property
     def metrics(self) -> Mapping[str, Metric]:
-        """What was observed over the whole trial, by name with unit; a row of numbers is a tuple."""
+        """Metrics of the whole trial, by name with unit; a row of numbers is a tuple."""
         return self.record.metrics
 
     @property
@@ -226,4 +226,4 @@ def _whole(what: str, number: int) -> int:
     try:
         return operator.index(number)
     except TypeError:
-        raise DefinitionError(f"{what} {number!r} is no whole number", hint="give an id and a seed") from None
+        raise DefinitionError(f"{what} must be a whole number, got {number!r}", hint="give an id and a seed") from None

@@ -86,7 +86,7 @@ def _run(options: argparse.Namespace, project: Project, specs: Sequence[TrialSpe
     print(f"Running {len(specs)} trials that the suppositions need.", file=sys.stderr)
 
     def on_finished(trial: FinishedTrial) -> None:
-        """Nothing is told of single trials."""
+        """Single trials are not reported."""
 
     result = sweep(
         specs,

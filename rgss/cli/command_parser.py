@@ -25,7 +25,7 @@ class CommandParser(argparse.ArgumentParser):
         """Say what is wrong and end the program with the status of bad input."""
         from rgss.findings import printable
 
-        line = _NO_WHOLE_NUMBER.sub(r"\1 is no whole number", " ".join(message.split()))
+        line = _NO_WHOLE_NUMBER.sub(r"must be a whole number, got \1", " ".join(message.split()))
         print(printable(f"{self.prog}: {line} (see '{self.prog} --help')"), file=sys.stderr)
         self.exit(BAD_INPUT)
 

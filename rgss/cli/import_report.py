@@ -1,4 +1,4 @@
-"""What an import changes, for people and for programs."""
+"""Report of what an import changes, as text and as JSON."""
 
 from __future__ import annotations
 

@@ -50,5 +50,5 @@ def own_stream(stream: TextIO) -> TextIO:
 
 
 def data_stream() -> TextIO:
-    """Where a file's content goes that is printed: as it is, but on a terminal."""
+    """Stream for the content of a file on standard output: unchanged, except on a terminal."""
     return sys.stdout if sys.stdout.isatty() else own_stream(sys.stdout)

@@ -134,7 +134,7 @@ def _format(options: argparse.Namespace, *, into_folder: bool) -> TraceFormat:
     suffix = options.output.suffix.lower()
     by_suffix = next((one for one in TRACE_FORMATS if one.suffix == suffix), None)
     if by_suffix is None or options.format not in (None, by_suffix.name):
-        # So that nobody writes a report over a file that is something else.
+        # A report must not replace a file that is not a report.
         wanted = ", ".join(one.suffix for one in TRACE_FORMATS if options.format in (None, one.name))
         raise DefinitionError(f"{str(options.output)!r} does not end in {wanted}", hint="name the file so")
     return by_suffix

@@ -72,7 +72,7 @@ class ConfirmedTrial:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SettingResult:
-    """What the confirmed designs came to under one setting.
+    """Result of the confirmed designs under one setting.
 
     Attributes:
         setting: The setting.
@@ -169,12 +169,12 @@ class Confirmation:
 
     @property
     def holds(self) -> bool:
-        """Whether the decision and every verdict are the same under all settings."""
+        """True if the decision and every verdict are the same under all settings."""
         return not self.differing_decisions and not self.differing_verdicts
 
     @property
     def aspects(self) -> tuple[Aspect, ...]:
-        """What was varied."""
+        """Aspects that were varied."""
         return tuple(result.setting.aspect for result in self.results[1:])
 
     def largest_difference(self, metric: str, setting: int) -> float | None:

@@ -1,4 +1,4 @@
-"""Which designs and which trials of a decided study are confirmed."""
+"""Selection of the designs and trials of a decided study for confirmation."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _PLANNED = frozenset(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Selection:
-    """What is confirmed.
+    """Designs and trials that are confirmed.
 
     Attributes:
         variants: The designs, the chosen one first where there is one.

@@ -1,4 +1,4 @@
-"""Which trials of the evidence a project's studies name, with the project and the code as they are now."""
+"""Trials in the evidence that a project's studies name, with the present project and code."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ def portfolio_projects(project: Project) -> Mapping[str, Project]:
     """The project with each of the studies that its portfolio serves, by the study's file.
 
     Raises:
-        DefinitionError: The study asks for no portfolio.
+        DefinitionError: The study has no portfolio.
         DocumentError: A study's file is wrong.
     """
     return {each.study: load_project(project.folder, each.study) for each in _portfolio(project).studies}
@@ -44,7 +44,7 @@ def choose_portfolio(
     Raises:
         EvidenceError: Trials of a study have no evidence.
         TradeoffError: The choice is ill posed.
-        DefinitionError: The studies have different designs, or no one knows what a member is.
+        DefinitionError: The studies have different designs, or a member is unknown.
     """
     choice = _portfolio(project)
     designs: dict[int, str] = {}
@@ -77,7 +77,7 @@ def _portfolio(project: Project) -> PortfolioEntry:
     portfolio = project.study.trade_off.portfolio
     if portfolio is None:
         raise DefinitionError(
-            f"study {project.study.id!r} asks for no portfolio", hint="add 'portfolio' to the study's trade_off"
+            f"study {project.study.id!r} has no portfolio", hint="add 'portfolio' to the study's trade_off"
         )
     return portfolio
 

@@ -163,7 +163,7 @@ def _first_look(
 
 
 def _possible(criterion: Criterion, outlook: Mapping[str, EstimateBounds]) -> bool:
-    """Whether a verdict other than not met is possible.
+    """True if a verdict other than not met is possible.
 
     A criterion compares with one threshold, so what the ends of an outlook cannot meet nothing between them can.
     """

@@ -47,7 +47,7 @@ class ScreenedVariant:
 
     @property
     def goes_on(self) -> bool:
-        """Whether it is tried with more physics."""
+        """True if it is tried with more physics."""
         return self.outcome in (ScreeningOutcome.PROMOTED, ScreeningOutcome.UNSCREENED, ScreeningOutcome.SPARED)
 
 
@@ -75,7 +75,7 @@ class ScreeningResult:
 
 
 def screening_summary(result: ScreeningResult) -> str:
-    """What was screened out, by which evidence and why, in a few sentences."""
+    """Sentences on what was screened out, by which evidence and why."""
     out = result.screened_out
     screening = result.screening
     trials = f"{screening.fidelity.value} trials ({screening.promotion})"

@@ -23,7 +23,7 @@ def trace_evidence(
     variant: int | None = None,
     decision: Decision | None = None,
 ) -> TraceEvidence:
-    """What is known of a project beyond its files.
+    """Evidence and decision of a project, for its traceability.
 
     Args:
         project: The project with its study.
@@ -48,7 +48,7 @@ def trace_evidence(
 
 
 def variant_evidence(project: Project, entry: VariantMeasures) -> VariantEvidence:
-    """What is known of one variant, with the value of each measure in each of its trials.
+    """Evidence on one variant, with the value of each measure in each of its trials.
 
     Args:
         project: The project with its study.

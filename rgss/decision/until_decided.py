@@ -29,7 +29,7 @@ from rgss.trials.pieces import TrialSpec
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UntilDecided:
-    """What replication until decided came to.
+    """Result of replication until decided.
 
     Attributes:
         reason: Why it ended.

@@ -95,7 +95,7 @@ def p_values(project: Project, before: DecisionState, now: DecisionState) -> dic
     """Probability that what moved in the decision moved by the luck of the seeds.
 
     A verdict rests on its measure of its variant, a choice and a place on the front on every measure
-    of every variant. Measures are held against those of the baseline, paired by seed.
+    of every variant. Measures are compared with those of the baseline, paired by seed.
 
     Args:
         project: The study.

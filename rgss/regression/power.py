@@ -20,7 +20,7 @@ TARGET = 0.8
 """The power for which a number of seeds is recommended."""
 
 MOST_SEEDS = 200
-"""No more seeds than these are recommended."""
+"""Most seeds of a variant that a guard may take, and that are recommended."""
 
 MEAN_LOSS = 2.0
 """The loss of a mean in margins: it is called worse only if it is beyond its margin, which a loss of one is not."""

@@ -39,7 +39,7 @@ def driver_lines(found: DriversOfFailures) -> Iterator[str]:
 
 
 def driver_sentence(one: FailureDrivers) -> str:
-    """What drives a kind of failure, in a sentence.
+    """Sentence on the drivers of a kind of failure.
 
     Args:
         one: The kind with its drivers.

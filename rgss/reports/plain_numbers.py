@@ -1,4 +1,4 @@
-"""How a report's document writes numbers: finite, and no longer than they are known."""
+"""Numbers of a report's JSON document: finite, and no longer than they are known."""
 
 from __future__ import annotations
 

@@ -46,5 +46,5 @@ def chosen_table(tables: tuple[Table, ...], name: str) -> tuple[Table, ...]:
     chosen = tuple(one for one in tables if name in ("", one.name))
     if not chosen:
         known = ", ".join(one.name for one in tables)
-        raise DefinitionError(f"there is no table {name!r} here", hint=f"tables: {known}")
+        raise DefinitionError(f"unknown table {name!r}", hint=f"tables: {known}")
     return chosen

@@ -29,7 +29,7 @@ def draw_workspace(positions_m: NDArray[np.float64], path: Path, *, title: str) 
     from matplotlib.figure import Figure
 
     if path.suffix.lower() not in _SUFFIXES:
-        raise DefinitionError(f"{path} is no picture that is drawn", hint="name a .png or .svg file")
+        raise DefinitionError(f"picture must be a PNG or SVG file, got {path}", hint="name a .png or .svg file")
     figure = Figure(figsize=(9.0, 4.6), layout="constrained")
     side, above = figure.subplots(1, 2)
     x, y, z = positions_m.T

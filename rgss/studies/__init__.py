@@ -23,7 +23,7 @@ if TYPE_CHECKING:
         project_of_study,
     )
     from rgss.studies.promotion import Promotion, Screening
-    from rgss.studies.regression_section import GuardedMetric, RegressionGuard, WatchedRun
+    from rgss.studies.regression import GuardedMetric, RegressionGuard, WatchedRun
     from rgss.studies.scaffolding import write_scaffold
     from rgss.studies.scene_findings import check_scene
     from rgss.studies.schema_headers import write_headers, write_schemas

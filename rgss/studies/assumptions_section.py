@@ -35,7 +35,7 @@ AlternativeText = Annotated[
 
 
 class StudyAssumptionEntry(DocumentModel):
-    """What was assumed, and why; with what it could be instead."""
+    """Assumption with its reason and its alternatives."""
 
     about: Text
     rationale: Text

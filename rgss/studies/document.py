@@ -19,7 +19,7 @@ from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEnt
 from rgss.studies.assumptions_section import StudyAssumptionEntry
 from rgss.studies.motion import ControlEntry, TimingEntry
 from rgss.studies.planning import PlanningEntry
-from rgss.studies.regression_section import RegressionEntry
+from rgss.studies.regression import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
 
@@ -73,14 +73,14 @@ class MovesEntry(DocumentModel):
 
 
 class PhysicsEntry(DocumentModel):
-    """How physics is stepped."""
+    """Steps of the physics."""
 
     rate: Hertz
     solver_iterations: Annotated[int, Field(ge=1, le=10_000)]
 
 
 class PromotionEntry(DocumentModel):
-    """Which designs go on from screening; one that cannot meet a requirement never does."""
+    """Rule for the designs that go on from screening; one that cannot meet a requirement never does."""
 
     requirements: Literal["possible"] | None = None
     keep: Annotated[int, Field(ge=1)] | None = None

@@ -99,7 +99,7 @@ def document_kind(name: str) -> DocumentKind:
         if kind.id == name:
             return kind
     known = ", ".join(kind.id for kind in DOCUMENT_KINDS)
-    raise DefinitionError(f"there is no document {name!r}", hint=f"documents: {known}")
+    raise DefinitionError(f"unknown document {name!r}", hint=f"documents: {known}")
 
 
 def kind_of(name: str, data: Any) -> DocumentKind | None:
@@ -107,7 +107,7 @@ def kind_of(name: str, data: Any) -> DocumentKind | None:
 
     Args:
         name: The file relative to the project, such as ``scenes/kitchen.yaml``.
-        data: Its content as plain data, which tells apart what stands in one folder.
+        data: Its content as plain data, by which the kinds of one folder are distinguished.
     """
     folder, *rest = PurePosixPath(name).parts
     if folder == "requirements" and rest:
@@ -119,7 +119,7 @@ def kind_of(name: str, data: Any) -> DocumentKind | None:
 
 
 def key_texts() -> Mapping[str, Mapping[str, str]]:
-    """What each key of the documents means, by the model that reads it."""
+    """Description of each key of the documents, by the model that reads it."""
     with resources.as_file(resources.files("rgss.studies") / "field_descriptions.yaml") as path:
         texts: Mapping[str, Mapping[str, str]] = read_document(path, label="field_descriptions.yaml").data
     return texts

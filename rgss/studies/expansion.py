@@ -42,7 +42,7 @@ def trial_specs(
 
 
 def trial_settings(project: Project) -> TrialSettings:
-    """How the study plans and simulates; searches are as long as the longest limit of any design."""
+    """Settings of the study's trials; searches are as long as the longest limit of any design."""
     study = project.study
     planning = study.planning
     return TrialSettings(

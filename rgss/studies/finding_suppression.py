@@ -1,4 +1,4 @@
-"""Findings that only follow from another one: they are told when that one is mended."""
+"""Suppression of findings that only follow from another one, until that one is resolved."""
 
 from __future__ import annotations
 

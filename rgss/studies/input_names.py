@@ -1,4 +1,4 @@
-"""The inputs of a trial by name, kept so that it can be told later which of them has changed."""
+"""Inputs of a trial by name, kept so that a later change of one can be reported."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.trials.code import code_of_trials
 from rgss.trials.pieces import TrialSpec, to_plain
 
 CODE = "code"
-"""The entry that tells the modules' digests; what remains are the user's inputs."""
+"""Entry with the modules' digests; the others are the user's inputs."""
 
 _NO_INPUTS = ("colour",)
 _SHORT = 12
@@ -21,12 +21,12 @@ _SHORT = 12
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NamedInputs:
-    """Everything that goes into a trial but its variant's number and its seed.
+    """Inputs of a trial other than its variant's number and its seed.
 
     Attributes:
         digest: What the store knows them by.
-        values: Plain data; its dotted names are those that a changed input is told by. A long text
-            is told by a digest.
+        values: Plain data; its dotted names are those under which a changed input is reported. A long
+            text is represented by a digest.
     """
 
     digest: str

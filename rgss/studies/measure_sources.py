@@ -1,4 +1,4 @@
-"""Whether there is what the measures take their inputs from."""
+"""Check that the sources of the measures' inputs exist."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ Loaded = TypeVar("Loaded")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Project:
-    """Everything that a study stands on.
+    """Project: a study with all that it depends on.
 
     Attributes:
         folder: The project's folder.
@@ -66,7 +66,7 @@ class Project:
         return self.folder / EVIDENCE
 
     def check(self) -> tuple[Finding, ...]:
-        """What traceability finds wrong, without a simulation."""
+        """Findings on traceability, without a simulation."""
         return check_trace(self.requirements, self.measure_traces)
 
     def with_fidelity(self, fidelity: str) -> Project:
@@ -77,12 +77,12 @@ class Project:
         """
         known = [choice.value for choice in Fidelity]
         if fidelity not in known:
-            raise DefinitionError(f"there is no fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
+            raise DefinitionError(f"unknown fidelity {fidelity!r}", hint=f"fidelities: {', '.join(known)}")
         return replace(self, study=replace(self.study, fidelity=Fidelity(fidelity), screening=None))
 
     @property
     def uncertainty(self) -> Uncertainty:
-        """What differs from trial to trial: what the study says, else the scene; nothing in a nominal study."""
+        """Uncertainty from trial to trial: the study's, else the scene's; none in a nominal study."""
         if self.study.is_nominal:
             return NOTHING_UNCERTAIN
         return self.scene.uncertainty.overridden_by(self.study.uncertainty)

@@ -1,4 +1,4 @@
-"""What a study says of screening: which fidelity comes first, and which designs go on from there."""
+"""Section on screening of a study: the first fidelity, and the designs that go on from there."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rgss.studies.document import StudyDocument
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Promotion:
-    """Which designs are tried again with more physics.
+    """Rule for the designs that are tried again at a higher fidelity.
 
     A design that provably misses a requirement is never among them, whatever else is said; with
     neither of the two bounds every other design is.
@@ -48,7 +48,7 @@ class Screening:
 
 
 def read_screening(entry: StudyDocument, document: Document, findings: list[Finding]) -> Screening | None:
-    """What a study's file says of screening; None if all its designs are tried at one fidelity.
+    """Screening as the study's file states it; None if all its designs are tried at one fidelity.
 
     Args:
         entry: What the file says.

@@ -1,4 +1,4 @@
-"""What is wrong with a project's scene, at its places in the scene file."""
+"""Findings on a project's scene, at their places in the scene file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _AT_GRASP = (Waypoint.GRASP_APPROACH, Waypoint.GRASP, Waypoint.LIFT, Waypoint.GR
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SceneCheck:
-    """What a check of the scene found.
+    """Result of a check of the scene.
 
     Attributes:
         findings: What is wrong, by place.

@@ -1,4 +1,4 @@
-"""The line at the head of a YAML file that tells an editor which schema it has."""
+"""Schema header of a YAML file: the first line, from which an editor finds the schema."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def write_headers(project: Path, schemas: Path) -> tuple[Path, ...]:
 
 
 def cannot_write(path: Path, error: OSError | ValueError) -> DefinitionError:
-    """What to say of a file or folder that cannot be written."""
+    """Error for a file or folder that cannot be written."""
     reason = getattr(error, "strerror", None) or str(error)
     return DefinitionError(f"cannot write {str(path)!r}: {reason}", hint="choose another place")
 

@@ -27,7 +27,7 @@ from rgss.studies.document import StudyDocument
 from rgss.studies.motion import MotionChoice, read_motion
 from rgss.studies.planning import PlanningChoice, read_planning
 from rgss.studies.promotion import Screening, read_screening
-from rgss.studies.regression_section import RegressionGuard, read_regression
+from rgss.studies.regression import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
 from rgss.tradeoff import Anchor
@@ -113,7 +113,7 @@ class StudyDefinition:
 
     @property
     def sweeps_until_decided(self) -> bool:
-        """Whether a sweep goes on until decided of itself: the rule is stated, and so is what it may spend."""
+        """True if a sweep goes on until decided of itself: the rule is stated, and so is what it may spend."""
         return self.is_sequential and self.until_decided.budget is not None
 
 
@@ -225,7 +225,7 @@ def _file_findings(document: Document, named: Mapping[str, str], project: Path) 
 
 
 def _requirements(project: Path) -> RequirementSet | None:
-    """The project's requirements; None if they cannot be read, which is told where they are."""
+    """The project's requirements; None if they cannot be read, which has a finding of its own."""
     try:
         return load_requirements(project / "requirements")
     except DocumentError:
@@ -252,7 +252,7 @@ def value_anchors(trade_off: TradeOff, quantity_of: Callable[[Anchor, str], floa
 
 
 def _coarse_contact(entry: StudyDocument, document: Document) -> list[Finding]:
-    """What is too coarse of the physics for a grasp; docs/validation.md shows from where results converge."""
+    """Findings on steps too coarse for a grasp; docs/validation.md shows from where results converge."""
     rate_hz, iterations = entry.physics.rate, entry.physics.solver_iterations
     if rate_hz < LEAST_RATE_HZ:
         message = f"contact physics needs at least {LEAST_RATE_HZ:g} Hz, got {rate_hz:g} Hz"

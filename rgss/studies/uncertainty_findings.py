@@ -16,7 +16,7 @@ _FRICTION = "workpiece.friction"
 def uncertainty_findings(
     scene: Scene, study: StudyDefinition, document: Document, grippers: Mapping[str, GripperFile]
 ) -> Iterator[Finding]:
-    """What contradicts itself between the uncertainty of a scene and the uncertainty and workload of a study.
+    """Contradictions between the uncertainty of a scene and the uncertainty and workload of a study.
 
     Args:
         scene: The scene.

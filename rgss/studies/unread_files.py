@@ -20,7 +20,7 @@ _REQUIREMENTS = "requirements"
 _PARTS = ("stakeholder", "system", "architecture")
 _SINGLE = ("measures", "rules", "reviews")
 _ENDINGS = (".yaml", ".yml")
-# What tells a kind of document by a key at its top.
+# Top-level keys by which a kind of document is recognised.
 _KIND_OF_KEY: Mapping[str, str] = {
     "study": "study",
     "parameters": "design-space",
@@ -109,7 +109,7 @@ def _of_other_folders(project: Path) -> Iterator[Finding]:
             if path.resolve() in named or (folder == "studies" == home and path.suffix == ".yaml"):
                 continue
             if path.suffix == ".yaml" and _data(path) is None:
-                continue  # what it is cannot be told; whoever reads it says what is wrong with it
+                continue  # of unknown kind; its reader reports what is wrong with it
             if home == folder and path.suffix == ".yaml":
                 if not complete:
                     continue  # what cannot be read may well name it
@@ -124,7 +124,7 @@ def _of_other_folders(project: Path) -> Iterator[Finding]:
 
 
 def _unreadable(project: Path) -> Iterator[Finding]:
-    """What has the name of a document and no content that could be read: a device, a pipe, a link to nothing."""
+    """Paths named like a document without readable content: a device, a pipe, a link to nothing."""
     for folder in DATA_FOLDERS:
         for path in sorted(_named_as_documents(project / folder)):
             what = _irregularity(path) or _unopened(path)
@@ -135,7 +135,7 @@ def _unreadable(project: Path) -> Iterator[Finding]:
 
 
 def _irregularity(path: Path) -> str:
-    """What a path is instead of a file; empty for a file."""
+    """Kind of a path that is not a file; empty for a file."""
     try:
         mode = path.stat().st_mode
     except OSError as error:
@@ -172,7 +172,7 @@ def _beside_folders(project: Path) -> Iterator[Finding]:
 
 
 def _documents(folder: Path) -> Iterator[Path]:
-    """What looks like a document: by its ending, in whatever capitals, or with another one behind it."""
+    """Paths that look like a document: by their ending, in any capitals, or with another one behind it."""
     yield from sorted(path for path in _named_as_documents(folder) if path.is_file())
 
 

@@ -1,4 +1,4 @@
-"""What a study says of replication until decided: how surely, how nearly, and with how many trials."""
+"""Section on replication until decided: confidence, margin, and number of trials."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def _problems(entry: UntilDecidedEntry, pilot: int, replicates: int) -> list[tup
     """The key, the message and the hint of each thing that is wrong."""
     found = []
     if not 0.0 < entry.error_rate < 0.5:
-        message = f"an error rate of {entry.error_rate:g} is none"
+        message = f"error rate must be between 0 and 0.5, got {entry.error_rate:g}"
         found.append(("error_rate", message, "give a share between 0 and 0.5, such as 5 %"))
     if not 0.0 <= entry.margin < 1.0:
         message = f"a margin of {entry.margin:g} is no difference of values, which lie between 0 and 1"

@@ -75,7 +75,7 @@ class EngineProcess:
                 how = child.end()
                 raise SimulationError(f"the process that ran the trial {how}") from None
             except BaseException:
-                # What it is at belongs to nobody any more.
+                # No caller waits for its task any more.
                 self._child = None
                 child.end()
                 raise
@@ -163,7 +163,7 @@ def answer_calls(descriptor: int) -> None:
             answer: tuple[Exception | None, Any] = (None, function(*arguments))
         except RgssError as error:
             answer = (error, None)
-        # What breaks is told to the caller and not to this process's standard error.
+        # Errors go to the caller and not to this process's standard error.
         except Exception as error:
             line = f"{type(error).__name__}: {' '.join(str(error).split())}"
             answer = (SimulationError(f"the trial could not be run: {line}"), None)

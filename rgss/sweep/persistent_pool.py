@@ -88,6 +88,6 @@ class _PoolHandle:
         return ended
 
     def close(self) -> None:
-        # What is still being done belongs to nobody any more, and only the end of its process stops it.
+        # No caller waits for running tasks any more, and only the end of their processes stops them.
         if self._running:
             self._owner.close()

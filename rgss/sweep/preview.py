@@ -149,7 +149,7 @@ def _causes(trial: Trial, store: EvidenceStore) -> tuple[Cause, ...]:
     if not before:
         return (Cause(reason=Reason.NEW),)
     candidates = [_differences(trial, stored, store) for stored in before]
-    # Of several earlier studies the one that differs least tells what the user has just changed.
+    # Of several earlier studies the one that differs least shows what the user has just changed.
     return min(candidates, key=lambda causes: (Cause(reason=Reason.UNKNOWN) in causes, len(causes)))
 
 

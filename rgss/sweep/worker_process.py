@@ -96,7 +96,7 @@ def serve(
     # From here on engines may be loaded. What is read here was written by the process that started this one.
     try:
         make = pickle.loads(function)  # noqa: S301
-    # Importing the function's module can break on anything; the parent is told instead of left waiting.
+    # Importing the function's module can raise anything; it is reported, so that the parent does not wait.
     except Exception as error:
         channel.send(pickle.dumps(Ready(error=_line(error))))
         return

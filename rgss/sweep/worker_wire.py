@@ -66,7 +66,7 @@ class FrameReader:
     def _next(self) -> bytes | None:
         start = bytes(self._buffer[: len(_MARK)])
         if not _MARK.startswith(start):
-            raise WireError("it wrote something that is no answer to its pipe")
+            raise WireError("it wrote something other than an answer to its pipe")
         if len(self._buffer) < _HEAD.size:
             return None
         _, length, checksum = _HEAD.unpack_from(self._buffer)

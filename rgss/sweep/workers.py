@@ -131,7 +131,7 @@ class WorkerPool:
         worker = next(worker for worker in self._workers if worker.ready and worker.key is None)
         worker.key, worker.task = key, next(self._numbers)
         worker.ends_at = self._clock() + self._time_limit_s
-        # If it has died meanwhile, that is noticed and told when its end is waited for.
+        # If it has died meanwhile, that is reported when its end is waited for.
         worker.channel.send(pickle.dumps((worker.task, arguments)))
 
     def wait(self, timeout_s: float) -> list[Ended]:
@@ -200,7 +200,7 @@ class WorkerPool:
     def _looked_at(self, worker: _Worker) -> Ended | None:
         """End of a worker's task since the last look; None if there is none."""
         worker.channel.flush()
-        # Asked before its last words are read, which then are all that there will be.
+        # Polled before the tail of stderr is read, which is then complete.
         has_ended = worker.process.exitcode is not None
         try:
             messages = worker.channel.receive()

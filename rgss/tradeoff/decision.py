@@ -47,7 +47,7 @@ class InfeasibleAlternative:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contribution:
-    """What one measure adds to the value of one alternative.
+    """Contribution of one measure to the value of one alternative.
 
     Attributes:
         measure: The measure.
@@ -86,7 +86,7 @@ class FlatMeasure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Counts:
-    """How many alternatives there are of each kind.
+    """Numbers of alternatives by kind.
 
     Attributes:
         alternatives: All.

@@ -43,7 +43,7 @@ def find_runner_up(
 def near_ties(
     enumeration: Enumeration, ranking: tuple[RankedAlternative, ...], ties: tuple[int, ...], margin: float
 ) -> tuple[int, ...]:
-    """What comes within the practical margin of the best, beside the tied."""
+    """Alternatives within the practical margin of the best, other than the tied."""
     near = set(enumeration.variants[enumeration.ordering.near(enumeration.feasible, margin)].tolist()) - set(ties)
     return tuple(ranked.variant for ranked in ranking if ranked.variant in near)
 
@@ -57,7 +57,7 @@ def infeasible_alternatives(enumeration: Enumeration) -> tuple[InfeasibleAlterna
 def excluded_better(
     enumeration: Enumeration,
 ) -> tuple[tuple[InfeasibleAlternative, ...], tuple[RequirementCount, ...], int]:
-    """What the program prefers to the best feasible alternative, and the demands that exclude it.
+    """Alternatives preferred to the best feasible one, with the demands that exclude them.
 
     An alternative of which the program does not know enough is not counted: it is unknown whether it
     is better.
@@ -81,7 +81,7 @@ def excluded_better(
 
 
 def contributions(problem: TradeProblem, enumeration: Enumeration, variant: int | None) -> tuple[Contribution, ...]:
-    """What each measure adds to the weighted value of an alternative; empty for None."""
+    """Contributions of the measures to the weighted value of an alternative; empty for None."""
     if variant is None:
         return ()
     measures = enumeration.table[enumeration.table.row_of(variant)].measures

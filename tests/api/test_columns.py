@@ -163,7 +163,7 @@ def test_the_page_has_the_tables_of_the_code():
     assert re.findall(r"<!-- columns of (\w+) -->", page) == list(FRAMES)
     assert with_reference_tables(page) == page, f"write them anew: {WRITE}"
     assert reference_table("weights").startswith("One row: a measure with a weight above 0.\n\n| column | unit |")
-    with pytest.raises(DefinitionError, match="there is no frame 'x'"):
+    with pytest.raises(DefinitionError, match="unknown frame 'x'"):
         reference_table("x")
 
 

@@ -252,16 +252,16 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda study: study.columns("trial"), "there is no frame 'trial' (frames: variants, trials, phases,"),
-        (lambda study: study.sweep(jobs=-1), "-1 is no number of processes (0 works in this process)"),
+        (lambda study: study.columns("trial"), "unknown frame 'trial' (frames: variants, trials, phases,"),
+        (lambda study: study.sweep(jobs=-1), "jobs must be at least 0, got -1 (0 works in this process)"),
         (lambda study: study.sweep("d8=PRM", jobs=0), "only: "),
         (lambda study: study.trade({"weight.x": 1}), "--what-if: there is no 'weight.x'"),
-        (lambda study: study.trade("weight.t_e"), "--what-if: 'weight.t_e' is no supposition"),
+        (lambda study: study.trade("weight.t_e"), "--what-if: supposition must be NAME=VALUE, got 'weight.t_e'"),
         (lambda study: study.trial(99), "there is no variant 99"),
         (lambda study: study.trial(1, -1), "seed -1 is out of range (give a seed from 0 to 2147483647)"),
-        (lambda study: study.trial(1.5), "variant 1.5 is no whole number (give an id and a seed)"),
-        (lambda study: study.trial(1, "2"), "seed '2' is no whole number"),
-        (lambda study: study.trial(1, fidelity="real"), "there is no fidelity 'real'"),
+        (lambda study: study.trial(1.5), "variant must be a whole number, got 1.5 (give an id and a seed)"),
+        (lambda study: study.trial(1, "2"), "seed must be a whole number, got '2'"),
+        (lambda study: study.trial(1, fidelity="real"), "unknown fidelity 'real'"),
         (lambda study: study.trial(1, rate_hz=1), "1 steps a second are out of range (give from 60 to 10000)"),
         (lambda study: study.payload(1, friction=-0.1), "no coefficient of friction is -0.1 (give a number from 0 on)"),
         (lambda study: study.payload(1, finger_force_n=-1.0), "the force of a finger"),
@@ -278,7 +278,7 @@ def test_what_cannot_be_loaded(empty, tmp_path):
         rgss.load_study(tmp_path)
     with pytest.raises(DefinitionError, match="replicates must be from 1 to"):
         rgss.load_study(empty, replicates=0)
-    with pytest.raises(DefinitionError, match="there is no fidelity 'real'"):
+    with pytest.raises(DefinitionError, match="unknown fidelity 'real'"):
         rgss.load_study(empty, fidelity="real")
     with pytest.raises(DocumentError):
         rgss.load_study(empty, "studies/none.yaml")
@@ -317,7 +317,7 @@ def test_suppositions_on_how_trials_are_made_need_their_trials(changeable):
 
     assert made.decision == again.decision
     assert "planning.resolution=0.06 rad" in made.changes.reset_index()["what"].tolist()
-    with pytest.raises(DefinitionError, match="-1 is no number of processes"):
+    with pytest.raises(DefinitionError, match="jobs must be at least 0, got -1"):
         study.trade({"planning.resolution": "0.07 rad"}, run=True, jobs=-1)
 
 

@@ -53,4 +53,6 @@ def test_a_new_format_is_one_registration(monkeypatch, rgss, with_evidence, tmp_
     assert (written.status, written.output) == (0, f"Wrote {file}\n")
     assert file.read_text(encoding="utf-8").splitlines()[0].startswith("SYS-")
     assert "a list of ids cannot be printed (name a file with -o trace.ids)" in printed.complaint
-    assert "--table does not go with ids, which holds everything (use text, md, csv or xlsx)" in table.complaint
+    *others, last = [one.name for one in TRACE_FORMATS if one.has_tables]
+    use = f"use {', '.join(others)} or {last}"
+    assert f"--table does not go with ids, which holds everything ({use})" in table.complaint

@@ -289,7 +289,7 @@ class TestPortfolios:
         assert projects["studies/pick_place.yaml"].study.id == "pick_place"
 
     def test_no_portfolio_is_asked_for(self, shipped, measured):
-        with pytest.raises(DefinitionError, match="study 'pick_place' asks for no portfolio"):
+        with pytest.raises(DefinitionError, match="study 'pick_place' has no portfolio"):
             choose_portfolio(shipped, {})
 
     def test_an_unknown_member(self, shipped, measured, read):

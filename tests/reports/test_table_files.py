@@ -122,7 +122,7 @@ def test_a_table_that_is_not_there(table):
     assert chosen_table((table,), "hostile") == chosen_table((table,), "") == (table,)
     with pytest.raises(DefinitionError) as caught:
         chosen_table((table,), "matrix")
-    assert str(caught.value) == "there is no table 'matrix' here (tables: hostile)"
+    assert str(caught.value) == "unknown table 'matrix' (tables: hostile)"
 
 
 def without(monkeypatch, package: str) -> None:

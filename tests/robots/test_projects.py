@@ -76,7 +76,7 @@ WITHOUT_ITS_MESH = (
         (TWO_ARMS, ["--flange", "body"], "the arm has 0 movable joints from its base to body"),
         (TWO_ARMS.replace("revolute", "planar"), ["--flange", "left"], "the joint left_joint is planar"),
         ("<robot", [], "is not XML"),
-        ("<model/>", [], "is no URDF: it has no robot with links"),
+        ("<model/>", [], "is not a URDF: it has no robot with links"),
         ("<!DOCTYPE robot><robot/>", [], "declares a document type"),
         (WITHOUT_ITS_MESH, [], "the file no.stl of arm.urdf is not there"),
     ],

@@ -47,7 +47,7 @@ def test_an_arm_in_words_and_a_picture(capsys, written, tmp_path):
 
 def test_a_picture_of_another_kind_is_refused(capsys, written, tmp_path):
     assert main(["robot", str(written()), "-o", str(tmp_path / "workspace.gif")]) == 2
-    assert "is no picture that is drawn" in capsys.readouterr().err
+    assert "picture must be a PNG or SVG file, got" in capsys.readouterr().err
     assert main(["robot", str(written()), "-o", str(tmp_path / "none" / "workspace.png")]) == 2
     assert "cannot be written" in capsys.readouterr().err
 

@@ -226,6 +226,6 @@ def test_kinds_of_files():
 
 
 def test_an_unknown_kind():
-    with pytest.raises(DefinitionError, match="there is no document 'scenes'") as caught:
+    with pytest.raises(DefinitionError, match="unknown document 'scenes'") as caught:
         document_kind("scenes")
     assert caught.value.hint.startswith("documents: stakeholder, system, architecture, measures")

@@ -80,8 +80,18 @@ def test_no_trial_depends_on_it(shipped, folder, section):
 @pytest.mark.parametrize(
     ("old", "new", "mark", "message"),
     [
-        ("1 %", "0", "0\n  margin", "an error rate of 0 is none (give a share between 0 and 0.5, such as 5 %)"),
-        ("1 %", "60 %", "60 %", "an error rate of 0.6 is none (give a share between 0 and 0.5, such as 5 %)"),
+        (
+            "1 %",
+            "0",
+            "0\n  margin",
+            "error rate must be between 0 and 0.5, got 0 (give a share between 0 and 0.5, such as 5 %)",
+        ),
+        (
+            "1 %",
+            "60 %",
+            "60 %",
+            "error rate must be between 0 and 0.5, got 0.6 (give a share between 0 and 0.5, such as 5 %)",
+        ),
         ("1 %", "2 s", "2 s", "'2 s' has a unit where a pure number is expected (write 2)"),
         ("0.02", "1.5", "1.5", "a margin of 1.5 is no difference of values, which lie between 0 and 1 (give one such"),
         ("0.02", "-0.1", "-0.1", "a margin of -0.1 is no difference of values"),

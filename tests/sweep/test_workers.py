@@ -184,7 +184,7 @@ def test_garbage_in_place_of_an_answer_costs_the_worker_and_nothing_else(liars, 
 
     assert {each.trouble.kind for each in ended.values()} == {RunFailureKind.WRONG_ANSWER}
     details = {name: each.trouble.detail for name, each in ended.items()}
-    assert details["zeros"] == "the worker was ended: it wrote something that is no answer to its pipe"
+    assert details["zeros"] == "the worker was ended: it wrote something other than an answer to its pipe"
     assert details["a huge length"] == (
         f"the worker was ended: it announced an answer of {2**60} bytes; at most 67108864 are read"
     )

@@ -49,7 +49,7 @@ def check_driver(options: argparse.Namespace, *, has_pictures: bool) -> None:
     if options.driver == "simulated":
         for name in ("address", "go"):
             if getattr(options, name) is not None:
-                raise DefinitionError(f"--{name} is for a real robot", hint="leave it away with --driver simulated")
+                raise DefinitionError(f"--{name} is for a real robot", hint="omit it with --driver simulated")
     elif options.go and not options.address:
         raise DefinitionError(f"--driver {options.driver} --go needs --address", hint="give the controller's address")
     if options.recording is not None and options.driver != "simulated" and not options.go:

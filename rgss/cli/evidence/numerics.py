@@ -1,4 +1,4 @@
-"""What ``rgss evidence verify`` prints of the numerics that trials were computed with."""
+"""Lines of ``rgss evidence verify`` on the numerics that trials were computed with."""
 
 from __future__ import annotations
 

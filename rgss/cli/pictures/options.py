@@ -69,7 +69,7 @@ def add_pictures(parser: argparse.ArgumentParser) -> None:
 
 
 def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
-    """What pictures the options ask for, with every file one that can be written; None if they ask for none.
+    """Pictures that the options request, each file checked to be writable; None if they request none.
 
     Raises:
         DefinitionError: An option is wrong, a file cannot be written, or a package is missing.
@@ -195,7 +195,9 @@ def _check_files(files: dict[str, Path]) -> None:
     for kind, path in files.items():
         suffix = SUFFIXES[kind]
         if path.suffix.lower() != suffix:
-            raise DefinitionError(f"--{kind}: {path} is no {suffix} file", hint=f"give a name that ends in {suffix}")
+            raise DefinitionError(
+                f"--{kind}: {path} must be a {suffix} file", hint=f"give a name that ends in {suffix}"
+            )
         reason = why_not_writable(path)
         if reason:
             raise DefinitionError(f"--{kind}: cannot write {path}: {reason}", hint="choose another place")
@@ -213,7 +215,7 @@ def _view(text: str) -> View:
         azimuth, elevation, distance = (float(part) for part in text.split(","))
     except ValueError:
         raise DefinitionError(
-            f"--camera: there is no view {text!r}",
+            f"--camera: unknown view {text!r}",
             hint=f"choose {', '.join(VIEWS)}, or azimuth,elevation,distance such as 215,30,2.5",
         ) from None
     if not (math.isfinite(azimuth) and -90 <= elevation <= 90 and _NEAREST_M <= distance <= _FARTHEST_M):
@@ -232,7 +234,9 @@ def picture_size(text: str, option: str = "--size") -> tuple[int, int]:
     """
     match = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text, re.ASCII)
     if match is None:
-        raise DefinitionError(f"{option}: {text!r} is no size", hint=f"write width and height, such as {_SIZE}")
+        raise DefinitionError(
+            f"{option} must be WIDTHxHEIGHT in pixels, got {text!r}", hint=f"write width and height, such as {_SIZE}"
+        )
     width, height = int(match[1]), int(match[2])
     if not (_SMALLEST <= width <= _LARGEST and _SMALLEST <= height <= _LARGEST):
         raise DefinitionError(

@@ -23,7 +23,7 @@ MOST_LARGE_FILMS = 4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FilmLook:
-    """How films look.
+    """Appearance of films.
 
     Attributes:
         width: Width in pixels.
@@ -41,7 +41,7 @@ SMALL = FilmLook(width=400, height=300, rate_hz=5.0)
 
 
 def ordered_look(size: str | None, rate_hz: float | None, *, films: int) -> FilmLook:
-    """How films look by the options, or as fits their number where these say nothing.
+    """Appearance of films by the options; where these are silent, as fits the number of films.
 
     Args:
         size: Width and height, such as ``640x480``; None if not given.

@@ -72,7 +72,7 @@ def jobs_of(options: argparse.Namespace) -> int:
         )
     jobs = options.jobs if options.jobs is not None else (os.cpu_count() or 1)
     if jobs < 1:
-        raise DefinitionError("--jobs must be at least 1", hint="leave it away for one process a core")
+        raise DefinitionError("--jobs must be at least 1", hint="omit it for one process a core")
     return int(jobs)
 
 

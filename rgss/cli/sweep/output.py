@@ -1,4 +1,4 @@
-"""What a sweep did or would do, for people and as JSON."""
+"""Output of a sweep and of a dry run, as text and as JSON."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _TRIALS_SHOWN = 6
 def result_lines(
     trials: int, tally: Mapping[str, int], failures: Mapping[str, int], result: SweepResult, label: str
 ) -> list[str]:
-    """What a sweep did, line by line.
+    """Lines on the result of a sweep.
 
     Args:
         trials: How many trials the study has.
@@ -43,7 +43,7 @@ def result_lines(
 def result_as_json(
     trials: int, tally: Mapping[str, int], failures: Mapping[str, int], result: SweepResult, label: str
 ) -> dict[str, Any]:
-    """What a sweep did, as JSON; the arguments are those of `result_lines`."""
+    """Result of a sweep as JSON; the arguments are those of `result_lines`."""
     return {
         "trials": trials,
         "run": tally["run"],
@@ -93,7 +93,7 @@ _FAILED = {
 
 
 def dry_run_lines(found: DryRun, label: str) -> list[str]:
-    """What a sweep would do, line by line.
+    """Lines on what a dry run found.
 
     Args:
         found: What it would do.
@@ -109,7 +109,7 @@ def dry_run_lines(found: DryRun, label: str) -> list[str]:
 
 
 def dry_run_as_json(found: DryRun, label: str) -> dict[str, Any]:
-    """What a sweep would do, as JSON; the arguments are those of `dry_run_lines`."""
+    """Result of a dry run as JSON; the arguments are those of `dry_run_lines`."""
     return {
         "trials": found.trials,
         "run": found.run,

@@ -1,4 +1,4 @@
-"""How far a sweep is, on standard error while it runs."""
+"""Progress of a running sweep on standard error."""
 
 from __future__ import annotations
 

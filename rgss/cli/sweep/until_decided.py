@@ -105,7 +105,7 @@ def _budget(trials: int) -> int:
     from rgss.errors import DefinitionError
 
     if trials < 1:
-        raise DefinitionError(f"--budget must be at least 1 trial, got {trials}", hint="leave it away for the study's")
+        raise DefinitionError(f"--budget must be at least 1 trial, got {trials}", hint="omit it for the study's")
     return trials
 
 

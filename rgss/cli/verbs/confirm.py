@@ -154,7 +154,7 @@ def _ids(text: str) -> list[int]:
 
     parts = [part.strip() for part in text.split(",")]
     if not all(part.isdecimal() and part.isascii() and len(part) <= _MOST_DIGITS for part in parts):
-        raise DefinitionError(f"--variants: {shown(text)} is no list of variants", hint="write ids, such as 28,31")
+        raise DefinitionError(f"--variants must be a list of ids, got {shown(text)}", hint="write ids, such as 28,31")
     return [int(part) for part in parts]
 
 
@@ -166,7 +166,7 @@ def _seeds(options: argparse.Namespace, project: Project) -> int:
         return project.study.replicates
     if not 1 <= options.seeds <= MOST_REPLICATES:
         raise DefinitionError(
-            f"--seeds must be from 1 to {MOST_REPLICATES}, got {options.seeds}", hint="leave it away for the replicates"
+            f"--seeds must be from 1 to {MOST_REPLICATES}, got {options.seeds}", hint="omit it for the replicates"
         )
     return int(options.seeds)
 

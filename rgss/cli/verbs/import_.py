@@ -116,7 +116,8 @@ def _check(copy: Path, options: argparse.Namespace, changes: Sequence[ElementCha
     wrong = not_as_planned(changes, before, after, remove=options.remove)
     if wrong:
         raise DefinitionError(
-            f"the change to {wrong[0]!r} cannot be written into its file as that stands", hint="edit the YAML by hand"
+            f"the change to {wrong[0]!r} cannot be written into its file in its present form",
+            hint="edit the YAML by hand",
         )
 
 

@@ -37,9 +37,7 @@ def run(options: argparse.Namespace) -> int:
     project = chosen_project(options)
     number = project.study.replicates if options.seeds is None else options.seeds
     if not 1 <= number <= MOST_REPLICATES:
-        raise DefinitionError(
-            f"--seeds must be from 1 to {MOST_REPLICATES}", hint="leave it away for the study's number"
-        )
+        raise DefinitionError(f"--seeds must be from 1 to {MOST_REPLICATES}", hint="omit it for the study's number")
     seeds = range(project.study.seed, project.study.seed + number)
     names = [name.strip() for name in (options.only or "").split(",") if name.strip()]
     compared = compared_planners(project, seeds=seeds, names=names, on_plan=_report)

@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
     require_engines("'rgss regress'")
     jobs = options.jobs if options.jobs is not None else (os.cpu_count() or 1)
     if jobs < 1:
-        raise DefinitionError("--jobs must be at least 1", hint="leave it away for one process a core")
+        raise DefinitionError("--jobs must be at least 1", hint="omit it for one process a core")
     if options.reason is not None and not options.update:
         raise DefinitionError("--reason needs --update", hint="without it nothing is changed")
     if options.update:

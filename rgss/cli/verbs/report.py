@@ -139,7 +139,7 @@ def _evidence_state(
 
     state = evidence_state(project, measured, recorded=recorded, junit=junit)
     if junit is not None and state.software is None:
-        raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
+        raise DefinitionError("--junit is given, but the project has no tests", hint="omit it")
     return state
 
 
@@ -163,7 +163,7 @@ def _check_file(path: Path) -> None:
     from rgss.errors import DefinitionError
 
     if path.suffix.lower() not in (".html", ".htm"):
-        # So that nobody writes a report over a file that is something else.
+        # A report must not replace a file that is not a report.
         raise DefinitionError(f"{str(path)!r} does not end in .html", hint="name the file so")
     problem = why_not_writable(path)
     if problem:

@@ -50,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
     if options.headers and (options.out is None or options.document is not None):
         raise DefinitionError("--headers goes with --out and no DOCUMENT", hint="rgss schema --out schemas --headers")
     if options.project is not None and not options.headers:
-        raise DefinitionError("--project goes with --headers", hint="leave it away; schemas are alike in all projects")
+        raise DefinitionError("--project goes with --headers", hint="omit it; schemas are alike in all projects")
     if options.out is not None:
         return _write(options)
     if options.document is not None:

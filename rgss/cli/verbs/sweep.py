@@ -178,5 +178,5 @@ def _positive(option: str, text: str, unit: str, example: str) -> float:
     except QuantityError as error:
         raise DefinitionError(f"{option}: {error.message}", hint=f"write it as '{example}'") from error
     if value <= 0.0:
-        raise DefinitionError(f"{option}: {shown(text)} is no limit", hint=f"write it as '{example}'")
+        raise DefinitionError(f"{option} must be greater than zero, got {shown(text)}", hint=f"write it as '{example}'")
     return value

@@ -75,5 +75,5 @@ def _evidence(project: Project, options: argparse.Namespace) -> TraceEvidence:
 
     measured, state = measured_state(project, options.junit)
     if options.junit is not None and state.software is None:
-        raise DefinitionError("--junit is given, but the project has no tests", hint="leave it away")
+        raise DefinitionError("--junit is given, but the project has no tests", hint="omit it")
     return trace_evidence(project, measured, state, variant=options.variant)

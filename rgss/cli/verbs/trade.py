@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--run",
         action="store_true",
-        help="run the trials that the suppositions need and nobody ran; without --what-if, those that the table of "
+        help="run the trials that suppositions need and that are missing; without --what-if, those that the table of "
         "assumptions needs",
     )
     parser.add_argument(

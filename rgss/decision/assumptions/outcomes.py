@@ -56,7 +56,7 @@ class AssumptionOutcome:
 def assumption_outcomes(
     project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore
 ) -> tuple[AssumptionOutcome, ...]:
-    """The choice under each alternative, one at a time, as far as the evidence tells; nothing is simulated.
+    """The choice under each alternative, one at a time, as far as the evidence shows; nothing is simulated.
 
     Args:
         project: The project with its study, without suppositions.

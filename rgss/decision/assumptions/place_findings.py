@@ -15,7 +15,7 @@ _ALL = "all"
 
 
 def assumption_findings(project: Project) -> tuple[Finding, ...]:
-    """What is wrong with the alternatives of assumptions, and with the names of ranges, at their places in the file.
+    """Findings on the alternatives of assumptions and the names of ranges, at their places in the file.
 
     Args:
         project: The project with its study.
@@ -39,7 +39,7 @@ def _range_findings(project: Project) -> Iterator[Finding]:
         if one.input not in known:
             near = difflib.get_close_matches(one.input, known, n=3)
             hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(known[:4])}"
-            message = f"{one.input!r} is no input of this decision"
+            message = f"unknown input {one.input!r} of the decision"
             yield replace(one.place, severity=Severity.ERROR, message=message, hint=hint)
 
 

@@ -1,4 +1,4 @@
-"""Which assumptions of a study are questioned: those of its file, else a list that follows from the study."""
+"""Assumptions of a study that are varied: those of its file, else a list that follows from the study."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far each assumed number may be wrong, alone and all costs together, before the choice changes."""
+"""Errors of assumed numbers that the choice survives: each alone, and all costs together."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ SCAN_FACTOR = 4.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AssumptionFinding:
-    """What an assumed number means for the choice.
+    """Effect of an assumed number on the choice.
 
     Attributes:
         number: The number.
@@ -159,7 +159,7 @@ class _Follower:
         )
 
     def _kinks(self, line: _Line, columns: tuple[str, ...]) -> list[float]:
-        """Where a quantity meets a point of its value function or a threshold."""
+        """Points at which a quantity meets a breakpoint of its value function or a threshold."""
         levels: dict[str, set[float]] = {column: set() for column in columns}
         for function in self.preferences.value_functions:
             if function.measure in levels:

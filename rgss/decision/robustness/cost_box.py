@@ -23,7 +23,7 @@ from rgss.tradeoff.robustness import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CostBox:
-    """How far all assumed costs together may be off.
+    """Largest joint error of all assumed costs.
 
     Attributes:
         numbers: The costs.

@@ -1,4 +1,4 @@
-"""Which design parameters move which measure, over all designs of a study."""
+"""Effects of the design parameters on the measures, over all designs of a study."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _analysed(project: Project) -> Iterator[Measure]:
 
 
 def _replicate_columns(project: Project, measured: Sequence[VariantMeasures]) -> dict[str, NDArray[np.float64]]:
-    """What each replicate of each variant showed, shape (n, r), by measure that is observed in trials.
+    """Quantities by replicate of each variant, shape (n, r), for each measure that is observed in trials.
 
     Filled row by row: as objects, the replicates of many variants take four times the memory.
     """
@@ -148,7 +148,7 @@ def _classes(factor: FactorLevels, rows: Sequence[VariantMeasures]) -> NDArray[n
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Design:
-    """Where each variant stands among the combinations of levels."""
+    """Position of each variant among the combinations of levels."""
 
     factors: tuple[FactorLevels, ...]
     places: tuple[tuple[int, ...], ...]

@@ -27,7 +27,7 @@ from rgss.tradeoff.weights import WeightRegion
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequirementPrice:
-    """What a requirement costs.
+    """Price of a requirement.
 
     Attributes:
         condition: What is demanded.
@@ -41,7 +41,7 @@ class RequirementPrice:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class WeightRobustness:
-    """What other weights would do to a choice by weighted value.
+    """Effect of other weights on a choice by weighted value.
 
     Attributes:
         elicited: Whether the weights are bounded by what was elicited; all weights otherwise.
@@ -70,7 +70,7 @@ class WeightRobustness:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Robustness:
-    """How robust a decision is.
+    """Robustness of a decision.
 
     Attributes:
         variants: The ids of the rows of everything below, ascending.

@@ -1,4 +1,4 @@
-"""How robust a decision is: against weights, noise, assumptions, thresholds, and other variants."""
+"""Robustness of a decision against weights, noise, assumptions, thresholds, and other variants."""
 
 from __future__ import annotations
 

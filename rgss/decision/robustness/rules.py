@@ -50,7 +50,7 @@ def rule_kinks(project: Project, measured: Sequence[VariantMeasures], number: Mo
 
 
 def _names(rule: Rule, number: ModelNumber) -> bool:
-    """Whether a rule compares quantities of which a number is a part."""
+    """True if a rule compares quantities of which a number is a part."""
     if isinstance(rule.require, Limit):
         return number.source in (*rule.require.product_of, rule.require.at_most)
     return isinstance(rule.require, Constraint) and number.source in rule.require.names

@@ -54,12 +54,12 @@ class BentValue:
 
     @property
     def flips(self) -> bool:
-        """Whether the choice changes within the range."""
+        """True if the choice changes within the range."""
         return self.convex.flip is not None or self.concave.flip is not None
 
 
 def bent_values_of(project: Project, tornado: Tornado, functions: Sequence[ValueFunction]) -> tuple[BentValue, ...]:
-    """What bending does to the choice, in the order of the study.
+    """Effects of bending on the choice, in the order of the study.
 
     Args:
         project: The project with its study.

@@ -13,7 +13,7 @@ from rgss.tradeoff import Decision, FlatMeasure
 
 
 class FlatRemedy(str, Enum):
-    """What would let a weight separate designs.
+    """Change that would let a weight separate designs.
 
     Attributes:
         MOVE_ENDS: The quantities differ, but all lie beyond one end of the value function: move the ends to them.

@@ -22,7 +22,7 @@ class InputKind(str, Enum):
 
 
 class RangeBasis(str, Enum):
-    """Where a range comes from: stated in the study, elicited, or a share of the value by convention."""
+    """Source of a range: stated in the study, elicited, or a share of the value by convention."""
 
     STATED = "stated"
     ELICITED = "elicited"
@@ -30,7 +30,7 @@ class RangeBasis(str, Enum):
 
 
 class FlipSearch(str, Enum):
-    """How the value at which a choice changes is found.
+    """Method that finds the value at which a choice changes.
 
     Attributes:
         KNOWN: It is solved for by the analyses of robustness.

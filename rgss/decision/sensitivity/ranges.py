@@ -73,7 +73,7 @@ class RangeBook:
         )
 
     def has(self, name: str) -> bool:
-        """Whether a range is stated for an input that has not taken it yet."""
+        """True if a range is stated for an input that has not taken it yet."""
         return name in self._stated
 
     def check(self, others: Iterable[str] = ()) -> None:
@@ -90,7 +90,7 @@ class RangeBook:
             if one.input not in ignored:
                 near = difflib.get_close_matches(one.input, self._known, n=3)
                 hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(self._known[:4])}"
-                self._report(one, f"{one.input!r} is no input of this decision", hint)
+                self._report(one, f"unknown input {one.input!r} of the decision", hint)
         if self._findings:
             raise DocumentError(sorted(self._findings))
 

@@ -172,7 +172,7 @@ def with_threshold(project: Project, requirement: str, threshold: float) -> Proj
 
 
 def anchored_on_requirements(project: Project) -> bool:
-    """Whether an end of a value function is anchored on a requirement."""
+    """True if an end of a value function is anchored on a requirement."""
     trade_off = project.study.trade_off
     return any(not isinstance(anchor, float) for valued in trade_off.valued for anchor in valued.anchors.values())
 

@@ -68,12 +68,12 @@ class TornadoBar:
 
     @property
     def flips(self) -> bool:
-        """Whether the choice changes within the range."""
+        """True if the choice changes within the range."""
         return self.low.flip is not None or self.high.flip is not None
 
     @property
     def moves(self) -> bool:
-        """Whether the advantage moves by more than a tie."""
+        """True if the advantage moves by more than a tie."""
         return self.swing > TIE_TOLERANCE
 
 

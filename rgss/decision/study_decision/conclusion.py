@@ -1,4 +1,4 @@
-"""What the evidence shows of every design: feasible, infeasible or open, by its verdicts."""
+"""Conclusion on every design: feasible, infeasible or open, by its verdicts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rgss.studies import Project
 
 
 class Feasibility(str, Enum):
-    """What the evidence shows of a design under all requirements that a measure decides."""
+    """Conclusion on a design under all requirements that a measure decides."""
 
     FEASIBLE = "feasible"
     """Every verdict is met."""
@@ -53,7 +53,7 @@ class DesignStanding:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Conclusion:
-    """What the evidence shows of a study's designs.
+    """Conclusion on a study's designs.
 
     Attributes:
         standings: The verdicts on each design, by ascending id.

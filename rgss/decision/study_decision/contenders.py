@@ -39,7 +39,7 @@ class Contender:
 
     @property
     def on_front(self) -> bool:
-        """Whether it is on the Pareto front."""
+        """True if it is on the Pareto front."""
         return self.support is not None and self.support is not Support.DOMINATED
 
 

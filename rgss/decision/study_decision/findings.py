@@ -76,7 +76,7 @@ class RobustnessFindings:
     sampled: bool
 
     def is_missing(self, part: Part) -> bool:
-        """Whether a part could not be computed."""
+        """True if a part could not be computed."""
         return part in self.analysis.not_computed
 
     def variants(self, rows: tuple[int, ...]) -> tuple[int, ...]:

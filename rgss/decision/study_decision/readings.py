@@ -1,4 +1,4 @@
-"""What each reading of the source would lead to."""
+"""Decisions under each reading of the source."""
 
 from __future__ import annotations
 

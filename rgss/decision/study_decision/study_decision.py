@@ -92,14 +92,14 @@ class StudyDecision:
 
     @property
     def is_final(self) -> bool:
-        """Whether a choice is proven best, the portfolio's too, and no part of the analysis is missing."""
+        """True if a choice is proven best, the portfolio's too, and no part of the analysis is missing."""
         is_whole = self.robustness is None or not self.robustness.analysis.not_computed
         is_whole &= self.sensitivity is None or not self.sensitivity.not_computed
         return is_settled(self.decision, self.portfolio) and is_whole
 
 
 def is_settled(decision: Decision, portfolio: PortfolioDecision | None) -> bool:
-    """Whether a variant is chosen, the portfolio too where there is one, and both are proven best."""
+    """True if a variant is chosen, the portfolio too where there is one, and both are proven best."""
     return decision.status is DecisionStatus.OPTIMAL and (
         portfolio is None or portfolio.status is DecisionStatus.OPTIMAL
     )

@@ -37,7 +37,7 @@ class ModelNumber:
 
     @property
     def is_assumed(self) -> bool:
-        """Whether it is an assumption and has no source."""
+        """True if it is an assumption and has no source."""
         return bool(self.rationale)
 
     @property

@@ -1,4 +1,4 @@
-"""Which numbers of the model trials were simulated with."""
+"""Numbers of the model that trials were simulated with."""
 
 from __future__ import annotations
 

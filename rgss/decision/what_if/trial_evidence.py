@@ -35,7 +35,7 @@ class ScenarioEvidence:
 
     @property
     def lack(self) -> str:
-        """How many trials lack, in words."""
+        """Phrase on the number of trials that lack."""
         return f"the suppositions need {len(self.missing)} trials of {self.trials} that were not run"
 
     def require_whole(self) -> None:

@@ -148,7 +148,7 @@ def _split(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     name, value = name.strip(), value.strip()
     if not equals or not name or not value:
-        raise DefinitionError(f"--what-if: {shown(text)} is no supposition", hint=f"write {EXAMPLE}")
+        raise DefinitionError(f"--what-if: supposition must be NAME=VALUE, got {shown(text)}", hint=f"write {EXAMPLE}")
     return name, value
 
 
@@ -160,7 +160,7 @@ def _full_name(project: Project, name: str) -> str:
     """
     if name.startswith(EVIDENCE_PREFIX):
         raise DefinitionError(
-            f"--what-if: {shown(name)} demands that a measure is known, which is no number",
+            f"--what-if: {shown(name)} demands that a measure is known and has no number",
             hint="run trials that show it, or suppose another threshold",
         )
     trade_off = project.study.trade_off

@@ -34,7 +34,7 @@ def summary_sentences(confirmation: Confirmation) -> Iterator[str]:
 
 
 def decision_sentence(confirmation: Confirmation) -> str:
-    """Whether the decision depends on the setting, and on what."""
+    """Sentence on the dependence of the decision on the setting."""
     results, differing = confirmation.results, confirmation.differing_decisions
     first = results[0].first
     if not differing:
@@ -57,7 +57,7 @@ def decision_sentence(confirmation: Confirmation) -> str:
 
 
 def verdict_sentence(confirmation: Confirmation) -> str:
-    """Which verdicts depend on the setting."""
+    """Sentence on the verdicts that depend on the setting."""
     study = confirmation.results[0].verdicts
     total = sum(map(len, study.values()))
     designs = f"{len(study)} design{'' if len(study) == 1 else 's'}"
@@ -74,7 +74,7 @@ def verdict_sentence(confirmation: Confirmation) -> str:
 
 
 def outcome_sentence(confirmation: Confirmation) -> str:
-    """Which trials end otherwise under another setting."""
+    """Sentence on the trials that end differently under another setting."""
     total = len(confirmation.trials)
     differing = confirmation.differing_trials
     if not differing:
@@ -85,7 +85,7 @@ def outcome_sentence(confirmation: Confirmation) -> str:
 
 
 def trial_sentence(confirmation: Confirmation, trial: ConfirmedTrial) -> str:
-    """How one trial ends in the study and under the settings that differ, with the numbers that show it."""
+    """Outcome of one trial in the study and under the settings that differ, with the numbers that show it."""
     parts = []
     for index in trial.differing:
         detail = trial.records[index].failure_detail

@@ -86,7 +86,7 @@ def _metrics(confirmation: Confirmation) -> Table:
 
 
 def _side_by_side(found: Sequence[str]) -> tuple[str, ...]:
-    """What the study has, and of the other settings what differs from it."""
+    """Rows with the study's values, and those of the other settings where they differ."""
     return (found[0], *("the same" if other == found[0] else other for other in found[1:]))
 
 

@@ -25,7 +25,7 @@ def elicitation_sentences(elicited: Iterable[ElicitedWeights], by: Mapping[str, 
 
 
 def verdict_phrase(one: ElicitedWeights) -> str:
-    """Whether the answers agree, in a phrase."""
+    """Phrase on the agreement of the answers."""
     consistency = one.consistency
     if consistency is None:
         return "the answers are orders and ranges, which agree"
@@ -35,7 +35,7 @@ def verdict_phrase(one: ElicitedWeights) -> str:
 
 
 def method_sentence(one: ElicitedWeights) -> str:
-    """How the weights were found."""
+    """Sentence on the method that gave the weights."""
     if one.method is FitMethod.LEAST_SQUARES:
         bounds = ", within the orders and ranges" if one.bounds else ""
         return f"Least squares of the logarithms of the ratios{bounds}; the worst ratio is missed by ×{one.factor:.3g}."

@@ -48,7 +48,7 @@ def assumption_rows(made: StudyDecision) -> tuple[AssumptionRow, ...]:
 
 
 def assumption_sentences(made: StudyDecision) -> Iterator[str]:
-    """What the table says in a sentence, how to complete it, and whether less physics decides otherwise.
+    """Summary of the table, how to complete it, and whether a lower fidelity gives another decision.
 
     Args:
         made: The decision.

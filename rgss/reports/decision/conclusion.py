@@ -15,7 +15,7 @@ MOST_TIES = 4
 
 
 def headline(made: StudyDecision) -> str:
-    """What is chosen, and whether the choice and the others are shown to meet every requirement.
+    """Sentences on the choice, and on which designs are shown to meet every requirement.
 
     Args:
         made: The decision.

@@ -9,7 +9,7 @@ from rgss.reports.decision.words import amount
 
 
 def flat_sentences(flat: tuple[FlatWeight, ...]) -> Iterator[str]:
-    """What each weight that separates nothing is spent on, and what to do about it.
+    """Sentences on weights that do not separate the designs, with advice.
 
     Args:
         flat: The weights.

@@ -1,4 +1,4 @@
-"""What the figures of a decision mean, in words for readers who decide and do not compute."""
+"""Explanations of the figures of a decision, for readers who decide and do not compute."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ MOST_CONFLICTS_LISTED = 12
 
 
 def conflict_part(decision: Decision) -> Plain | None:
-    """Which requirements cannot be met together, how surely, and which limits would mend it.
+    """Requirements that cannot be met together, with the probability, and the limits that would resolve it.
 
     Args:
         decision: What was decided.
@@ -92,7 +92,7 @@ def conflict_reasons(decision: Decision) -> Iterator[str]:
 
 
 def _easiest_first(conflicts: Conflicts) -> list[JointRepair]:
-    """What mends everything, the smallest of the largest relative changes first; what is unknown last."""
+    """Repairs that resolve everything, by ascending largest relative change; unknown ones last."""
 
     def largest(repair: JointRepair) -> float:
         if not repair.changes:

@@ -95,7 +95,7 @@ def _robustness(found: RobustnessFindings | None) -> Plain:
 
 
 def _drivers(made: StudyDecision) -> Plain:
-    """Which draws go with which failures, in sentences, and the success of each case; empty where nothing was drawn."""
+    """Sentences on the draws that go with failures, and the success of each case; empty where nothing was drawn."""
     drivers = made.drivers
     if drivers is None or not drivers.seeds:
         return {}

@@ -17,7 +17,7 @@ from rgss.reports.plain_numbers import Plain
 
 
 def sensitivity_part(found: Sensitivity | None) -> Plain | None:
-    """What the section on sensitivity shows, in words and figures as the page writes them; None without a choice.
+    """Content of the section on sensitivity, as the page writes it; None without a choice.
 
     Args:
         found: The sensitivity of the decision; None if not analysed.

@@ -39,7 +39,7 @@ def kept_groups(found: Sensitivity) -> tuple[KeptGroup, ...]:
 
 
 def beaten_sentences(found: Sensitivity) -> Iterator[str]:
-    """What beats the designs that are not kept, in a sentence for each that does."""
+    """One sentence for each design that beats designs which are not kept."""
     beaten: dict[tuple[KeptFor, tuple[int, ...]], list[int]] = {}
     for one in found.kept or ():
         if not one.is_kept:
@@ -54,7 +54,7 @@ def beaten_sentences(found: Sensitivity) -> Iterator[str]:
 
 
 def bend_sentences(bends: Sequence[BentValue]) -> Iterator[str]:
-    """What bending value functions does to the choice."""
+    """Sentences on the effect of bent value functions on the choice."""
     if not bends:
         return
     for bend in bends:
@@ -71,7 +71,7 @@ def bend_sentences(bends: Sequence[BentValue]) -> Iterator[str]:
 
 
 def range_sentence(tornado: Tornado) -> str:
-    """Where the ranges come from."""
+    """Sentence on the sources of the ranges."""
     stated = sum(bar.basis.value == "stated" for bar in tornado.bars)
     elicited = sum(bar.basis.value == "elicited" for bar in tornado.bars)
     shares = len(tornado.bars) - stated - elicited
@@ -82,7 +82,7 @@ def range_sentence(tornado: Tornado) -> str:
 
 
 def agreement_sentences(found: Sensitivity) -> Iterator[str]:
-    """What all stakeholders accept, and the compromise."""
+    """Sentences on what all stakeholders accept, and on the compromise."""
     agreement = found.agreement
     if agreement is None:
         return

@@ -161,7 +161,7 @@ def no_portfolio(portfolio: PortfolioDecision) -> str:
 
 
 def portfolio_proof(portfolio: PortfolioDecision) -> str:
-    """Whether a portfolio is proven best, and by how much another can be better.
+    """Sentence on the proof that a portfolio is best, or on how much better another can be.
 
     Args:
         portfolio: The choice of a portfolio.
@@ -175,7 +175,7 @@ def portfolio_proof(portfolio: PortfolioDecision) -> str:
 
 
 def noise_sentence(survival: ConflictSurvival | None) -> str:
-    """How the survival of conflicts under noise was computed.
+    """Method by which the survival of conflicts under noise was computed.
 
     Args:
         survival: The survival; None where there is one replicate of each variant.

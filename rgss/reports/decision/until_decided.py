@@ -34,7 +34,7 @@ def until_decided_summary(result: UntilDecided) -> str:
 
 
 def open_paragraph(result: UntilDecided, *, command: str) -> str:
-    """What is open when replication ends, what would settle it, and what to type; empty where it is decided.
+    """Open questions at the end of replication, what would settle them, and the command; empty if decided.
 
     Args:
         result: What it came to.

@@ -45,12 +45,12 @@ def quantity_text(value: float, unit: str) -> str:
 
 
 def moved_limit(limit: float, needed: float, unit: str) -> str:
-    """What a limit has to become, rounded away from what it is, so that the number as written is enough."""
+    """New value of a limit, rounded away from the present one, so that the number as written is enough."""
     return amount(rounded_away(limit, needed, unit), unit)
 
 
 def moves_text(before: Mapping[str, float], after: Mapping[str, float]) -> str:
-    """Which weights move, the largest moves first: ``C_total 0.25 → 0.17``."""
+    """Changes of the weights, the largest first: ``C_total 0.25 → 0.17``."""
     # Rounded, so that equal moves stay in the measures' order.
     moved = sorted(before, key=lambda measure: -round(abs(after[measure] - before[measure]), 9))
     parts = [

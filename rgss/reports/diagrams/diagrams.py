@@ -38,7 +38,7 @@ def diagrams_of(requirements: RequirementSet) -> tuple[Drawing, ...]:
 
 
 def missing_diagrams(requirements: RequirementSet) -> str:
-    """What is not drawn because it is too large, in words; empty if everything is."""
+    """Sentence on what is too large to be drawn; empty if everything is drawn."""
     if len(requirements.elements) > MOST_ELEMENTS:
         return (
             f"The model has {len(requirements.elements)} elements. Of more than {MOST_ELEMENTS}, "

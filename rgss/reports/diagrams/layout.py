@@ -28,7 +28,7 @@ _SHAPES = {Shape.ELLIPSE: "ellipse", Shape.DIAMOND: "diamond", Shape.INITIAL: "c
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Frame:
-    """Where a cluster is: its left and upper edge, its size."""
+    """Position and size of a cluster: left and upper edge, width and height."""
 
     x: float
     y: float
@@ -38,7 +38,7 @@ class Frame:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
-    """Where everything of a diagram is, in pixels from the upper left corner.
+    """Positions in a diagram, in pixels from the upper left corner.
 
     Attributes:
         width: Width of the diagram.

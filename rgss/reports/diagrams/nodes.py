@@ -1,4 +1,4 @@
-"""How large the node of a diagram is, and how it is drawn."""
+"""Sizes and drawing of the nodes of a diagram."""
 
 from __future__ import annotations
 

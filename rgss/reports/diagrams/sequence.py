@@ -71,7 +71,7 @@ def sequence_diagram(behaviour: Behaviour, names: Mapping[str, str], bounds: Map
 
 
 def _columns(interaction: Interaction) -> tuple[dict[str, float], float]:
-    """Where each lifeline stands: so far from the next that the messages between them fit."""
+    """Positions of the lifelines, far enough apart that the messages between them fit."""
     order = {name: index for index, name in enumerate(interaction.lifelines)}
     gaps = [_HEAD_WIDTH + 12 + _HEAD_GAP] * len(order)
     for message in interaction.messages:

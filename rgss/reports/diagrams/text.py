@@ -1,4 +1,4 @@
-"""How wide a text is in a diagram, and where its lines break, the same on every machine."""
+"""Text width and line breaks in a diagram, the same on every machine."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _BOLD = (
 
 
 def text_width(text: str, size: float, *, bold: bool = False) -> float:
-    """How wide a line is, in the unit of the font size.
+    """Width of a line, in the unit of the font size.
 
     Args:
         text: The line.

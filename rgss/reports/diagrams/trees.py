@@ -34,7 +34,7 @@ class _Line:
 
 
 def containment_map(requirements: RequirementSet) -> Drawing:
-    """Everything that is asked for, each within what contains it: sets, kinds and groups, requirements."""
+    """Tree of the requirements, each within what contains it: sets, kinds and groups, requirements."""
     lines = list(_lines(requirements))
     canvas = Canvas()
     # Where the line down from each depth begins.

@@ -88,7 +88,7 @@ def behaviour_of(report: RegressionReport) -> str:
 
 
 def reasons_of(report: RegressionReport) -> Iterator[str]:
-    """What changed that needs a stated reason, one line each; metrics that moved have lines of their own."""
+    """Changes that need a stated reason, one line each; metrics that moved have lines of their own."""
     if report.behaviour.is_changed:
         yield behaviour_of(report)
     yield from (str(one) for one in report.inputs if one.kind is InputKind.ENGINE)
@@ -108,7 +108,7 @@ def inputs_of(report: RegressionReport) -> Iterator[str]:
 
 
 def remedy_of(report: RegressionReport) -> str:
-    """How a change gets its reason; empty if nothing needs one."""
+    """Instruction on how to state the reason of a change; empty if nothing needs one."""
     if report.accepted:
         return f"changed behaviour is accepted in this run: {report.accepted}"
     if report.verdict != "changed":
@@ -153,7 +153,7 @@ def _more(count: int) -> str:
 
 
 def counts_of(report: RegressionReport) -> str:
-    """How many comparisons there are of each outcome, and how many seeds they took."""
+    """Numbers of comparisons by outcome, and of the seeds that they took."""
     counted = ", ".join(f"{len(report.of(outcome))} {outcome.value}" for outcome in ORDER if report.of(outcome))
     seeds = ", ".join(f"{run} {count}" for run, count in report.trials.items())
     looks = f"{report.looks} look{'' if report.looks == 1 else 's'}"

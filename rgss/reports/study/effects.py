@@ -1,4 +1,4 @@
-"""What each factor of the design does to each measure, as a report shows it."""
+"""Effects of the design's factors on the measures, as a report shows them."""
 
 from __future__ import annotations
 

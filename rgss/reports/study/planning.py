@@ -1,4 +1,4 @@
-"""How long planning took in a report: every search once, with the variants that share it."""
+"""Planning times of a report: every search once, with the variants that share it."""
 
 from __future__ import annotations
 

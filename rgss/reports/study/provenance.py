@@ -19,7 +19,7 @@ from rgss.trials.code import versions
 def provenance_of(
     project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore, *, evidence: str
 ) -> Plain:
-    """Where the figures come from; nothing in it depends on when or where it is asked for.
+    """Provenance of the figures; independent of time and machine.
 
     Args:
         project: The project with its study.

@@ -23,7 +23,7 @@ from rgss.tradeoff.robustness import Support
 
 
 def variant_columns(measured: Sequence[VariantMeasures], decision: Decision, found: Robustness) -> Plain:
-    """What a report says of all variants, in the order of their ids.
+    """Entries of all variants in a report, by ascending id.
 
     A column is a list with an entry for each variant, or one value that all of them have.
 

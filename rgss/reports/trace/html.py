@@ -57,7 +57,7 @@ def trace_context(
     drawings: Sequence[Mapping[str, Any]] = (),
     drawings_notice: str = "",
 ) -> dict[str, Any]:
-    """What the template of the traceability sections shows, by the names that it has there.
+    """Variables of the template of the traceability sections, by name.
 
     Args:
         report: The report.

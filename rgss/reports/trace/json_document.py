@@ -74,7 +74,7 @@ def chain_to_json(chain: Chain) -> dict[str, Any]:
 
 
 def impact_to_json(impact: Impact) -> dict[str, Any]:
-    """What a change touches, as plain data."""
+    """Impact of a change, as plain data."""
     return {
         "schema": SCHEMA,
         "document": "impact",

@@ -1,4 +1,4 @@
-"""What a traceability report is about: matrices, verification, coverage, gaps."""
+"""Content of a traceability report: matrices, verification, coverage, gaps."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Gap:
 
     @property
     def lacks(self) -> tuple[str, ...]:
-        """What it has not, in words; that it is not met goes without saying where there is no evidence."""
+        """List of what it lacks; that it is not met is left out where there is no evidence."""
         names = [metric.id for metric in self.metrics]
         return tuple(
             metric.lack for metric in self.metrics if metric.id != "system-met" or "system-evidence" not in names
@@ -66,7 +66,7 @@ class Gap:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TraceReport:
-    """Everything that a traceability report shows.
+    """Content of a traceability report.
 
     Attributes:
         title: The title of the report.
@@ -90,7 +90,7 @@ class TraceReport:
 
     @property
     def is_complete(self) -> bool:
-        """Whether nothing is open that a project must have."""
+        """True if nothing is open that a project must have."""
         return not any(metric.required and metric.missing for metric in self.metrics)
 
 
@@ -157,7 +157,7 @@ def trace_report(
 
 
 def element_texts(model: TraceModel, definitions: MeasureSet | None) -> Mapping[str, str]:
-    """What each element says, or what it is called, by its id."""
+    """Text of each element, or its name, by its id."""
     texts = {measure.id: measure.id for measure in model.measures}
     if definitions is not None:
         texts |= {measure.id: measure.name for measure in definitions.measures}

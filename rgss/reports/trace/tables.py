@@ -29,7 +29,7 @@ def report_tables(report: TraceReport, *, widest_grid: int, gaps_only: bool = Fa
 
 
 def coverage_table(report: TraceReport) -> Table:
-    """How much is covered, and what is not."""
+    """Table of the coverage, with what is not covered."""
     return Table(
         name="coverage",
         title="Coverage",
@@ -51,7 +51,7 @@ def coverage_table(report: TraceReport) -> Table:
 
 
 def gap_table(report: TraceReport) -> Table:
-    """Everything that is open, one row for each element."""
+    """Table of the gaps, one row for each element."""
     return Table(
         name="gaps",
         title="Gaps",
@@ -92,7 +92,7 @@ def matrix_table(part: MatrixPart, *, widest_grid: int) -> Table:
 
 
 def matrix_note(part: MatrixPart) -> str:
-    """How many links a matrix has, and what has none."""
+    """Number of links of a matrix, and what has none."""
     matrix = part.matrix
     note = f"{len(matrix.rows)} {part.rows_are}, {len(matrix.columns)} {part.columns_are}, {matrix.link_count} links."
     if matrix.empty_rows:
@@ -142,7 +142,7 @@ def chain_table(chain: Chain) -> Table:
 
 
 def impact_table(impact: Impact) -> Table:
-    """What a change touches, one row for each thing."""
+    """Impact of a change, one row for each element."""
     groups: tuple[tuple[str, tuple[str, ...]], ...] = (
         ("stakeholder requirement to hold it against", impact.needs),
         ("system requirement", impact.requirements),
@@ -179,7 +179,7 @@ def evidence_in_words(row: VerificationRow) -> str:
 
 
 def tally_in_words(row: VerificationRow) -> str:
-    """How many variants have which verdict."""
+    """Numbers of variants by verdict."""
     return ", ".join(f"{count} {verdict_in_words(verdict)}" for verdict, count in row.tally)
 
 

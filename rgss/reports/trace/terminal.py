@@ -94,7 +94,7 @@ def chain_lines(chain: Chain) -> list[str]:
 
 
 def impact_lines(impact: Impact) -> list[str]:
-    """What a change touches as lines: one for each sort of thing, with how many and which."""
+    """Impact of a change as lines, one for each kind of element, with their number and ids."""
     verdicts = [
         f"{one.requirement} ({verdict_in_words(one.verdict)}{f', {one.variants} variants' if one.variants else ''})"
         for one in impact.verdicts

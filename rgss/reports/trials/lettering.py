@@ -42,7 +42,7 @@ def words(name: str) -> str:
 
 
 def headline(record: TrialRecord) -> str:
-    """What became of a trial, in one line."""
+    """Outcome of a trial in one line."""
     trial = f"Variant {record.variant}, seed {record.seed}"
     if record.failure is not None and record.failed_phase is not None:
         return f"{trial}: failed at {words(record.failed_phase.value)}, {words(record.failure.value)}"

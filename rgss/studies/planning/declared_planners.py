@@ -106,7 +106,7 @@ def planner_problem(name: str, declared: Iterable[str] = ()) -> tuple[str, str] 
         return None
     if reason := refusal_of(name):
         return f"planner {name} cannot be run: {reason}", _listed(known)
-    # Names of planners are told apart by few letters: compared without their case.
+    # Names of planners differ in few letters, so they are compared without case.
     folded = {one.casefold(): one for one in reversed(known)}
     near = difflib.get_close_matches(name.casefold(), folded, n=1)
     suggestion = f"did you mean {folded[near[0]]!r}? " if near else ""

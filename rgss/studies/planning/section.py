@@ -1,4 +1,4 @@
-"""How a study plans moves: the section ``planning`` of its file."""
+"""Section ``planning`` of a study's file."""
 
 from __future__ import annotations
 

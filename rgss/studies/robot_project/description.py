@@ -1,4 +1,4 @@
-"""What is wrong or suspicious in an arm's description that can be used all the same."""
+"""Findings on an arm's description that can be used all the same."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
 
 def robot_findings(project: Project) -> tuple[Finding, ...]:
-    """What is suspicious in the description of a project's robot, and in its calibration.
+    """Findings on the description of a project's robot, and on its calibration.
 
     Args:
         project: The project.
@@ -51,7 +51,7 @@ def _misfit_findings(project: Project) -> Iterator[Finding]:
 
 
 def description_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
-    """What is suspicious in a description that can be used: units, masses, inertias, limits, meshes.
+    """Findings on a description that can be used: units, masses, inertias, limits, meshes.
 
     Args:
         robot: The arm.

@@ -75,7 +75,7 @@ def _read(urdf: Path) -> tuple[str, ET.Element]:
     except ET.ParseError as error:
         raise DefinitionError(f"{urdf} is not XML: {error}", hint=hint) from error
     if root.tag != "robot" or root.find("link") is None:
-        raise DefinitionError(f"{urdf} is no URDF: it has no robot with links", hint=hint)
+        raise DefinitionError(f"{urdf} is not a URDF: it has no robot with links", hint=hint)
     return text, root
 
 

@@ -80,7 +80,7 @@ assumptions:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
-    """Where the tables are.
+    """Positions of the tables.
 
     Attributes:
         reach_m: The arm's reach, by which everything is scaled.

@@ -23,7 +23,7 @@ _YAML = frozenset({".yaml", ".yml"})
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RobotSummary:
-    """What an arm is.
+    """Summary of an arm.
 
     Attributes:
         robot: The arm, its base in the world's origin.

@@ -72,7 +72,7 @@ class RangeEntry(DocumentModel):
 
 
 class SensitivityEntry(DocumentModel):
-    """How far the inputs of the decision are moved, and how far from the best a design is kept."""
+    """Ranges of the inputs of the decision, and the distance from the best within which a design is kept."""
 
     weights: Dimensionless = 0.25
     anchors: Dimensionless = 0.10
@@ -121,7 +121,7 @@ class EpsilonConstraintEntry(DocumentModel):
 
 
 class TchebycheffEntry(DocumentModel):
-    """As near as possible to a reference point."""
+    """Program that minimises the distance to a reference point."""
 
     program: Literal["tchebycheff"]
     reference: dict[Identifier, AnchorField] = Field(default_factory=dict)
@@ -179,7 +179,7 @@ class PortfolioEntry(DocumentModel):
 
 
 class TradeOffEntry(DocumentModel):
-    """How designs are compared."""
+    """Comparison of designs."""
 
     values: Annotated[tuple[ValueEntry, ...], Field(min_length=1)]
     rank_rule: RankRule | None = None

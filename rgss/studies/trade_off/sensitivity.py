@@ -34,7 +34,7 @@ class StatedRange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SensitivityChoice:
-    """How far each kind of input is moved where no range is stated for it.
+    """Range of each kind of input for which none is stated.
 
     Attributes:
         weights: Share of a weight by which it is moved.

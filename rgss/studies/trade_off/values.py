@@ -270,7 +270,7 @@ class ValueReader:
     def _anchors(
         self, field: RequirementAnchor | str | tuple[PointEntry, ...], measure: str, at: Place
     ) -> Anchor | tuple[tuple[Anchor, float], ...] | None:
-        """What a key of a shape holds: an anchor, or points; None where one has a finding."""
+        """Content of a key of a shape: an anchor, or points; None where one has a finding."""
         if not isinstance(field, tuple):
             return self._places.anchor(field, measure, at)
         points = [

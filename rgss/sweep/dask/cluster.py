@@ -91,7 +91,7 @@ def dask_cluster(
         security = distributed.Security()
         if address.startswith("tls://") and not security.get_connection_args("client").get("ssl_context"):
             raise DefinitionError(
-                f"{address} asks for TLS, and Dask's settings name no certificates for a client",
+                f"{address} uses TLS, but Dask's settings name no certificates for a client",
                 hint="set distributed.comm.tls.ca-file, client.cert and client.key, as docs/scale-out.md shows",
             )
         try:

@@ -44,7 +44,7 @@ class PairwiseAnswer:
 
     @property
     def is_ratio(self) -> bool:
-        """Whether it states one ratio, which is a judgement with an error; otherwise it is a bound."""
+        """True if it states one ratio, which is a judgement with an error; otherwise it is a bound."""
         return self.least == self.most
 
     @property

@@ -63,7 +63,7 @@ class WorstAnswer:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Consistency:
-    """How far ratio answers agree with each other.
+    """Consistency of ratio answers.
 
     Attributes:
         criteria: Number n of criteria that ratio answers name.
@@ -89,7 +89,7 @@ class Consistency:
 
     @property
     def is_acceptable(self) -> bool | None:
-        """Whether the index, and the ratio where there is one, are within their limits; None where nothing checks."""
+        """True if the index, and the ratio where there is one, are within their limits; None where nothing checks."""
         if self.index is None:
             return None
         return self.index <= self.index_limit and (self.ratio is None or self.ratio <= GREATEST_RATIO)

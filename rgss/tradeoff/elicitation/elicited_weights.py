@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class FitMethod(str, Enum):
-    """How answers became weights.
+    """Method that turned answers into weights.
 
     Attributes:
         LEAST_SQUARES: Least squares of the logarithms of the ratios, within the bounds.

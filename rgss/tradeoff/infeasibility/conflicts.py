@@ -17,7 +17,7 @@ MOST_CONFLICTS = 1_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequirementCount:
-    """How many alternatives one requirement excludes.
+    """Number of alternatives that one requirement excludes.
 
     Attributes:
         requirement: Its id.
@@ -105,7 +105,7 @@ class JointRepair:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConflictSurvival:
-    """How often a conflict is still there when the replicates are drawn anew.
+    """Share of resamples of the replicates in which a conflict persists.
 
     Attributes:
         resamples: How many draws were looked at.
@@ -203,7 +203,7 @@ def excluded_counts(enumeration: Enumeration, among: NDArray[np.bool_]) -> tuple
 
 
 def violation_sets(violated: NDArray[np.bool_]) -> list[tuple[int, ...]]:
-    """What alternatives violate, each different set once, as columns in ascending order.
+    """Distinct sets of demands that alternatives violate, as columns in ascending order.
 
     Args:
         violated: Which alternative violates which requirement, shape (n, r).

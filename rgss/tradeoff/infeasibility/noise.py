@@ -1,4 +1,4 @@
-"""What the noise of the replicates can change: evidence drawn anew from the replicates that there are."""
+"""Effect of the noise of the replicates: evidence resampled from the replicates that there are."""
 
 from __future__ import annotations
 

@@ -112,7 +112,7 @@ def _reachable(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.
 
 
 def _effort(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.float64]:
-    """How much of its limit a condition would have to give up for each alternative; 0 where it holds."""
+    """Relaxation of a condition's limit that each alternative needs; 0 where it holds."""
     missing = condition.limit - column if condition.sense is Comparison.AT_LEAST else column - condition.limit
     scale = abs(condition.limit) or 1.0
     return np.where(keeps(condition.sense, column, condition.limit), 0.0, missing / scale)

@@ -43,7 +43,7 @@ class Attempt:
     selection_error: float = 0.0
 
     def confirms(self, best: float) -> bool:
-        """Whether the run proved what the best known objective is, or that there is none."""
+        """True if the run proved what the best known objective is, or that there is none."""
         if self.outcome is Outcome.INFEASIBLE:
             return best == -math.inf
         return self.outcome is Outcome.PROVEN and self.score >= best - tolerance_at(best)
@@ -164,7 +164,7 @@ def bound_check(bound: IntervalBound, attempt: Attempt, best: float) -> Check:
 
 
 def _verdict(others: Sequence[Attempt]) -> bool | None:
-    """Whether the runs that do not confirm an answer contradict it; None where all of them were only ended."""
+    """True if the runs that do not confirm an answer contradict it; None where all of them were only ended."""
     if not others:
         return True
     return None if all(one.outcome is Outcome.ENDED for one in others) else False

@@ -22,7 +22,7 @@ ROUNDING = 1e-12
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class IntervalBound:
-    """What interval branch and bound comes to.
+    """Result of interval branch and bound.
 
     Attributes:
         bound: No design's objective exceeds it; minus infinity if none is feasible.
@@ -115,7 +115,7 @@ class _Reduced:
             self._slack[measure] = ROUNDING * sum(largest)
 
     def allowed(self, designs: Designs) -> NDArray[np.bool_]:
-        """Which partial designs no rule on fixed factors excludes."""
+        """Mask of the partial designs that no rule on fixed factors excludes."""
         kept = np.ones(len(designs), dtype=np.bool_)
         for places, excluded in self._grid.rules:
             if self._fixed.issuperset(places):

@@ -77,7 +77,7 @@ class LevelGrid:
             yield np.stack(np.unravel_index(np.arange(start, min(start + BLOCK, self.size)), self.counts), axis=1)
 
     def allowed(self, designs: Designs) -> NDArray[np.bool_]:
-        """Which designs no rule excludes, shape (n,)."""
+        """Mask of the designs that no rule excludes, shape (n,)."""
         kept = np.ones(len(designs), dtype=np.bool_)
         for places, excluded in self.rules:
             kept &= ~excluded[tuple(designs[:, place] for place in places)]

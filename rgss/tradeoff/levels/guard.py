@@ -203,7 +203,7 @@ class GuardedStageSolver(StageSolver):
                     solvers=solvers,
                 )
             raise TradeoffError(
-                f"stage {stage.name!r}: no feasible design was found, and that there is none was not proved",
+                f"stage {stage.name!r}: no feasible design was found, but infeasibility was not proven",
                 hint="relax a requirement, allow more time, or look for measures of extreme magnitude",
             )
         gap = max(0.0, bound.bound - best)

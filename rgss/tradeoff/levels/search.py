@@ -90,7 +90,7 @@ def _climb(
 
 
 def _merit(grid: LevelGrid, stage: Stage, constraints: Sequence[Constraint], designs: Designs) -> Merit:
-    """How much each design violates, and its objective where it violates nothing."""
+    """Violation of each design, and its objective where it violates nothing."""
     scores = grid.scores(stage, constraints, designs)
     violated = (~grid.allowed(designs)).astype(np.float64)
     quantities = grid.quantities(designs)

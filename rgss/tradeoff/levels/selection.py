@@ -28,7 +28,7 @@ LARGEST_CURVED = 20_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LevelTable(Generic[Entry]):
-    """What a combination of levels of some factors gives.
+    """Contribution of a combination of levels of some factors.
 
     Attributes:
         factors: The factors that it depends on; none for a constant.
@@ -41,7 +41,7 @@ class LevelTable(Generic[Entry]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LevelModel:
-    """What the variables of a choice of levels stand for.
+    """Model of a choice of levels: the factors, and the tables that give its quantities.
 
     Attributes:
         space: The factors with the compatibility rules.

@@ -44,7 +44,7 @@ class Intervals:
 
     @property
     def known(self) -> Mask:
-        """Where the quantity can be known."""
+        """Mask of where the quantity can be known."""
         return np.asarray(self.low <= self.high)
 
 

@@ -108,7 +108,7 @@ class LimitedRuns:
             raise
 
     def _solve(self, problem: Any, run: SolverRun, limit: RunLimit) -> None:
-        """What `Problem.solve` does, with the solver in the other process."""
+        """Solve as `Problem.solve` does, with the solver in the other process."""
         data, chain, inverse = problem.get_problem_data(run.solver, solver_opts=dict(run.options))
         request = highs_request(data) if run.solver == "HIGHS" else {"data": _picklable(data)}
         answer = self._process.solve({**request, "solver": run.solver, "options": dict(run.options)}, limit=limit)
@@ -151,7 +151,7 @@ def highs_request(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _picklable(data: Mapping[str, Any]) -> dict[str, Any]:
-    """What the interface of CVXPY reads, without its own objects that refer to the whole problem."""
+    """Data that the interface of CVXPY reads, without its own objects that refer to the whole problem."""
     wanted = ("c", "A", "b", "dims", "bool_vars_idx", "int_vars_idx", "lower_bounds", "upper_bounds")
     return {name: data[name] for name in wanted if name in data}
 

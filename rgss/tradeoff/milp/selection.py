@@ -17,7 +17,7 @@ Row = tuple[float | None, ...]
 
 
 class Selection(Protocol):
-    """What terms need of the decision variables, whatever these are.
+    """Interface of the decision variables that terms depend on.
 
     A measure takes one of several quantities, each of which has a coefficient; the coefficient of
     the quantity that is selected is linear in the variables.
@@ -25,7 +25,7 @@ class Selection(Protocol):
 
     @property
     def structure(self) -> Sequence[tuple[str, Any]]:
-        """What makes the variables a selection: names and CVXPY constraints."""
+        """Constraints that make the variables a selection: names and CVXPY constraints."""
         ...
 
     def quantities(self, measure: str) -> Sequence[float | None]:
@@ -42,7 +42,7 @@ class Selection(Protocol):
         ...
 
     def replicates(self, measure: str) -> Sequence[Row]:
-        """What the replicates of a measure showed, for each of the rows that can be selected."""
+        """Replicates of a measure for each of the rows that can be selected."""
         ...
 
     def of_selected_replicates(self, measure: str, coefficients: Sequence[Sequence[float]]) -> Any:
@@ -59,11 +59,11 @@ class Selection(Protocol):
         ...
 
     def exclusion(self, alternative: Alternative) -> Any:
-        """That something else than an alternative is selected, as a CVXPY constraint."""
+        """CVXPY constraint that excludes an alternative from being selected."""
         ...
 
     def read(self) -> tuple[Alternative, float]:
-        """What the solved variables select.
+        """Rows that the solved variables select.
 
         Returns:
             The alternative, and the largest difference of a variable from selecting exactly it.

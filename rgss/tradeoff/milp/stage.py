@@ -95,7 +95,7 @@ class Stage:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StageSolution:
-    """What the solver answered.
+    """Answer of the solver.
 
     Attributes:
         name: The name of the stage.
@@ -223,7 +223,7 @@ def solve_program(problem: Any, run: SolverRun = FIRST_RUN, *, solve: Callable[[
 
 
 def proven_gap(problem: Any) -> float:
-    """How far the bound that the solver proved is from the objective that it found; 0 if that is proven best."""
+    """Gap between the bound that the solver proved and the objective that it found; 0 if proven best."""
     information = problem.solver_stats.extra_stats
     if isinstance(information, Mapping):
         if "gap" in information:

@@ -83,7 +83,7 @@ def _piecewise(quantity: LinearQuantity, points: Sequence[tuple[float, float]]) 
 
 
 def limit_of_sum(quantity: LinearQuantity, sense: Comparison, limit: float) -> Any:
-    """That a linear quantity keeps a limit, as a CVXPY constraint."""
+    """CVXPY constraint that a linear quantity keeps a limit."""
     slack = RELATIVE_TOLERANCE * abs(limit)
     distance = (quantity.expression - limit) / quantity.span
     return distance >= -slack / quantity.span if sense is Comparison.AT_LEAST else distance <= slack / quantity.span

@@ -26,7 +26,7 @@ PORTFOLIO_RUN = SolverRun(name=FIRST_RUN.name, options={**FIRST_RUN.options, "mi
 
 
 class PortfolioAim(str, Enum):
-    """What a portfolio is judged by: the weighted mean of the tasks' values, or the worst of them."""
+    """Objective of a portfolio: the weighted mean of the tasks' values, or the worst of them."""
 
     MEAN = "mean"
     WORST = "worst"

@@ -64,7 +64,7 @@ class CoverBound:
         return np.asarray(reached @ (self.weights * left).T)
 
     def excludes(self, shares: NDArray[np.float64], left: NDArray[np.float64], size: int) -> bool:
-        """Whether so many members cannot cover the tasks that are left."""
+        """True if so many members cannot cover the tasks that are left."""
         top = shares if size >= len(shares) else np.partition(shares, len(shares) - size, axis=0)[-size:]
         return bool((top.sum(axis=0) < self.weights @ left).any())
 

@@ -10,7 +10,7 @@ from rgss.tradeoff.portfolio.work import Cut
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assignment:
-    """Which alternative serves a task.
+    """Assignment of an alternative to a task.
 
     Attributes:
         task: The task.

@@ -18,7 +18,7 @@ UNSERVED = -2.0
 
 
 def profits_of(values: Values, weights: Values) -> Values:
-    """What each member adds to the mean by serving each task, shape (members, tasks)."""
+    """Contribution of each member to the mean by serving each task, shape (members, tasks)."""
     return np.where(values >= 0.0, values * weights, UNSERVED)
 
 

@@ -52,7 +52,7 @@ class WorkBudget:
 
     @property
     def spent(self) -> bool:
-        """Whether a limit is reached."""
+        """True if a limit is reached."""
         return self.cut is not None
 
 

@@ -66,7 +66,7 @@ class BoundedMeasure(ABC):
     @property
     @abstractmethod
     def demand(self) -> str:
-        """What is demanded, such as ``P_max >= 0.8 kg``."""
+        """Text of the condition, such as ``P_max >= 0.8 kg``."""
 
     @property
     def sense(self) -> Comparison:
@@ -94,7 +94,7 @@ class Threshold(BoundedMeasure):
 
     @property
     def demand(self) -> str:
-        """What is demanded, such as ``P_max >= 0.8 kg``."""
+        """Text of the condition, such as ``P_max >= 0.8 kg``."""
         return f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
 
     def statistic(self, alternative: Alternative) -> float | None:
@@ -102,7 +102,7 @@ class Threshold(BoundedMeasure):
         return alternative.measures[self.measure]
 
     def margin(self, quantity: float) -> float:
-        """How far a quantity is on the good side; negative on the bad side, in the measure's unit."""
+        """Margin of a quantity to the limit, in the measure's unit; negative where it is violated."""
         return self.comparison.margin(quantity, self.value)
 
     def is_met_by(self, quantity: float | None) -> bool:
@@ -137,7 +137,7 @@ class ChanceBound(BoundedMeasure):
 
     @property
     def demand(self) -> str:
-        """What is demanded, such as ``P[t_e <= 25 s] >= 0.9``."""
+        """Text of the condition, such as ``P[t_e <= 25 s] >= 0.9``."""
         return f"P[{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}] >= {self.probability:g}"
 
     @property
@@ -198,7 +198,7 @@ class TailBound(BoundedMeasure):
 
     @property
     def demand(self) -> str:
-        """What is demanded, such as ``mean of the worst 10 % of t_e <= 30 s``."""
+        """Text of the condition, such as ``mean of the worst 10 % of t_e <= 30 s``."""
         limit = f"{self.comparison.value} {self.value:g}{unit_text(self.unit)}"
         return f"mean of the worst {100.0 * self.share:g} % of {self.measure} {limit}"
 
@@ -231,7 +231,7 @@ Condition = Threshold | ChanceBound | TailBound
 
 
 def replicates_of(alternative: Alternative, measure: str) -> Sequence[float | None]:
-    """What each replicate showed of a measure; of one that follows from the design, its quantity once."""
+    """Quantity of each replicate of a measure; of one that follows from the design, its quantity once."""
     row = alternative.replicates(measure)
     return (alternative.measures[measure],) if row is None else row
 

@@ -1,4 +1,4 @@
-"""What there is to choose from, with its evidence: alternative by alternative, or as one table."""
+"""Alternatives with their evidence: one by one, or as one table."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ class Alternative:
     samples: Mapping[str, tuple[float | None, ...]] = field(default_factory=dict, hash=False)
 
     def replicates(self, measure: str) -> tuple[float | None, ...] | None:
-        """What each replicate showed of a measure; None if it follows from the design alone."""
+        """Quantity of a measure in each replicate; None if it follows from the design alone."""
         return self.samples.get(measure)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Samples:
-    """What every replicate of every alternative showed of one measure.
+    """Quantities of one measure in every replicate of every alternative.
 
     Attributes:
         values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.

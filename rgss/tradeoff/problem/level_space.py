@@ -47,7 +47,7 @@ class Incompatibility:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LevelSpace:
-    """Everything that levels can be combined to.
+    """Space of the combinations of levels.
 
     Attributes:
         factors: The factors; the last one varies fastest in `combinations`.
@@ -118,7 +118,7 @@ class LevelStructure:
             levels = self.levels.get(alternative.variant)
             if levels is None or levels not in allowed:
                 raise TradeoffError(
-                    f"variant {alternative.variant} is no combination of levels that the rules allow",
+                    f"variant {alternative.variant} must be a combination of levels that the rules allow",
                     hint="give every alternative a level of each factor",
                 )
             if levels in taken:
@@ -129,6 +129,6 @@ class LevelStructure:
             taken[levels] = alternative.variant
         for levels in sorted(allowed - taken.keys()):
             raise TradeoffError(
-                f"the combination {', '.join(levels)} is no alternative",
+                f"the combination {', '.join(levels)} has no alternative",
                 hint="measure every design, or exclude the combination by a rule",
             )

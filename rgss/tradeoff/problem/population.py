@@ -78,7 +78,7 @@ def _alikeness(group: NDArray[np.intp], count: int, levels: NDArray[np.intp] | N
         np.add.at(member, (group, codes), 1.0)
         member /= member.sum(axis=1, keepdims=True)
         shared = member @ member.T
-        # A factor with one level, or that tells each alternative from all others, is the mean or the rest.
+        # A factor with one level is the mean; one with a level for each alternative is the rest.
         if np.ptp(shared) > 0.0 and not np.array_equal(shared, np.eye(count)):
             shares.append(shared)
     return shares
@@ -113,7 +113,7 @@ def _jointly(own: Array, shares: Sequence[Array], seeds: int, generator: np.rand
     """
     draws, count = own.shape
     places, noise = own.mean(axis=0), _weighed_noise(own, seeds)
-    # Noise that all have in common tells none apart.
+    # Noise that is common to all alternatives does not separate them.
     scale = float(noise.trace() / count - noise.mean())
     scale = max(scale, _RIDGE * float(noise.trace()) / count)
     parts = [*shares, np.eye(count)]

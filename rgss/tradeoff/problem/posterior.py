@@ -115,7 +115,7 @@ def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, genera
     seen, there = np.where(known, values, 0.0)[rows], known[rows]
     _, first, group = np.unique(groups[rows], return_index=True, return_inverse=True)
     successes, trials = seen.sum(axis=1)[first], there.sum(axis=1)[first]
-    # What befalls all alternatives in a seed tells none apart: only the rest is noise between them, which the
+    # What all alternatives of a seed share does not separate them: only the rest is noise between them, which the
     # population's strength is weighed against.
     rates = (successes / trials)[:, None]
     own = max(_LEAST_OWN, _own_share(np.where(there[first], seen[first] - rates, 0.0), there[first]))
@@ -123,7 +123,7 @@ def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, genera
     strength = strength * own
     more = generator.standard_gamma(mean * strength)[:, group]
     less = generator.standard_gamma((1.0 - mean) * strength)[:, group]
-    # Alternatives that no seed told apart may differ in seeds to come: each has half a seed of its own.
+    # Alternatives that no seed separated may differ in later seeds: each has half a seed of its own.
     unseen = np.bincount(group)[group] > 1
     shape = (len(weights), int(unseen.sum()))
     more[:, unseen] += generator.standard_gamma(_UNSEEN / 2.0, size=shape)

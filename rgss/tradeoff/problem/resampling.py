@@ -99,7 +99,7 @@ def bootstrap(replicates: int, *, draws: int, generator: np.random.Generator) ->
     """
     if replicates < FEWEST_REPLICATES:
         raise TradeoffError(
-            f"{replicates} replicate{'' if replicates == 1 else 's'} of each variant tell nothing of noise",
+            f"noise cannot be estimated from {replicates} replicate{'' if replicates == 1 else 's'} of each variant",
             hint=f"run 'rgss sweep' with at least {FEWEST_REPLICATES} replicates",
         )
     if math.comb(2 * replicates - 1, replicates) <= MOST_ENUMERATED:

@@ -1,4 +1,4 @@
-"""What is known of the weights beside their values: intervals and orders, as people state them."""
+"""Bounds on weights: intervals and orders, as people state them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much each measure weighs: stated weights, and swing weights from ranks or points."""
+"""Weights of the measures: stated ones, and swing weights from ranks or points."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WEIGHT_SUM_TOLERANCE = 1e-9
 
 
 class RankRule(str, Enum):
-    """How ranks of importance become weights.
+    """Method that turns ranks of importance into weights.
 
     With n measures, rank 1 being the most important:
 

@@ -35,7 +35,7 @@ class ConstraintResidual:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StageCertificate:
-    """What the solver proved of one stage.
+    """Proof of the solver for one stage.
 
     Attributes:
         name: What was optimised.
@@ -184,7 +184,7 @@ def _checks(
 
 
 def stage_certificates(solutions: Sequence[StageSolution]) -> tuple[StageCertificate, ...]:
-    """What the solver proved stage by stage; empty if something was infeasible."""
+    """Proofs of the solver by stage; empty if something was infeasible."""
     found = []
     for solution in solutions:
         if solution.alternative is None or solution.objective is None or solution.gap is None:

@@ -58,7 +58,7 @@ def tail_column(condition: TailBound, samples: Samples) -> Column:
 
 
 def keeps(sense: Comparison, quantities: Column, limit: float | Column) -> NDArray[np.bool_]:
-    """Which quantities keep a limit; an unknown one does not, one equal up to one part in 10⁹ does."""
+    """Mask of the quantities that keep a limit; an unknown one does not, one equal up to one part in 10⁹ does."""
     kept = quantities >= limit if sense is Comparison.AT_LEAST else quantities <= limit
     equal = np.abs(quantities - limit) <= RELATIVE_TOLERANCE * np.maximum(np.abs(quantities), np.abs(limit))
     return np.asarray(kept | equal, dtype=np.bool_)

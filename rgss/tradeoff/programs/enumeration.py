@@ -92,7 +92,7 @@ def enumerate_alternatives(problem: TradeProblem, *, excluded: Collection[int] =
 
 
 def violations(preferences: Preferences, table: EvidenceTable) -> NDArray[np.bool_]:
-    """Which alternative violates which of the demands, shape (n, r)."""
+    """Mask of the demands that each alternative violates, shape (n, r)."""
     requirements = preferences.requirements
     violated = np.zeros((len(table), len(requirements)), dtype=np.bool_)
     for condition in preferences.conditions:

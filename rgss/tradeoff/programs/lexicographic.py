@@ -60,7 +60,7 @@ class Aim:
         return best - given_up if self.sense is Comparison.AT_LEAST else best + given_up
 
     def kept(self, best: float) -> Threshold:
-        """That a selection keeps what is still good enough."""
+        """Threshold that keeps this criterion within what is still good enough."""
         return Threshold(
             requirement=f"stage {self.measure}",
             measure=self.measure,

@@ -1,4 +1,4 @@
-"""How many alternatives compare: by one score, or by one criterion after another."""
+"""Orderings of many alternatives: by one score, or by one criterion after another."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ MOST_COMPARED = 5_000_000
 
 
 class Ordering(Protocol):
-    """How the alternatives of a trade-off compare."""
+    """Ordering of the alternatives of a trade-off."""
 
     @property
     def objectives(self) -> tuple[str, ...]:
-        """What is optimised, in turn."""
+        """Criteria that are optimised, in turn."""
         ...
 
     def at(self, row: int) -> tuple[float, ...]:
@@ -34,11 +34,11 @@ class Ordering(Protocol):
         ...
 
     def best(self, among: Mask) -> Mask:
-        """Which of some alternatives are tied best, shape (n,)."""
+        """Mask of those of some alternatives that are tied best, shape (n,)."""
         ...
 
     def near(self, among: Mask, margin: float) -> Mask:
-        """Which of some alternatives come within a practical margin of the best, shape (n,)."""
+        """Mask of those of some alternatives within a practical margin of the best, shape (n,)."""
         ...
 
     def shortfall(self, row: int, among: Mask) -> float | None:
@@ -49,7 +49,7 @@ class Ordering(Protocol):
         ...
 
     def beats(self, row: int) -> Mask:
-        """Which alternatives are better than one by more than a tie, shape (n,)."""
+        """Mask of the alternatives that are better than one by more than a tie, shape (n,)."""
         ...
 
     def ranked(self, among: Mask, most: int) -> NDArray[np.intp]:
@@ -97,7 +97,7 @@ class ScoreOrdering:
         return np.asarray(among & (self.scores >= self.scores[among].max() - max(margin, TIE_TOLERANCE)))
 
     def shortfall(self, row: int, among: Mask) -> float | None:
-        """How far its score is below the highest."""
+        """Distance of its score below the highest."""
         difference = float(self.scores[among].max() - self.scores[row]) if among.any() else math.nan
         return None if math.isnan(difference) else difference
 
@@ -139,7 +139,7 @@ class Step:
     reported: float = 1.0
 
     def keeps(self, rows: Rows, *, exactly: bool) -> Rows:
-        """Which of some rows are good enough; with ``exactly`` the tolerance is 0."""
+        """Mask of those of some rows that are good enough; with ``exactly`` the tolerance is 0."""
         if not rows.size:
             return rows
         column = self.column[rows]
@@ -180,7 +180,7 @@ class SequenceOrdering:
         return np.asarray(self._mask(self.steps[-1].keeps(kept, exactly=False)) | self.best(among))
 
     def shortfall(self, row: int, among: Mask) -> float | None:
-        """How far it is from the best in the last criterion, among what the others keep."""
+        """Distance from the best in the last criterion, among what the others keep."""
         kept = self._kept(np.flatnonzero(among))
         column = self.steps[-1].column
         if self.ties_by_value is not None:
@@ -244,5 +244,5 @@ class SequenceOrdering:
 
 
 def at_least(column: Column, bound: float | Column) -> Mask:
-    """Which quantities reach a bound; those that differ by less than one part in 10⁹ do."""
+    """Mask of the quantities that reach a bound; those that differ by less than one part in 10⁹ do."""
     return keeps(Comparison.AT_LEAST, column, bound)

@@ -104,7 +104,7 @@ class Preferences(ABC):
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
-        """Everything that a choice must meet: thresholds, the program's limits, and risks."""
+        """Demands that a choice must meet: thresholds, the program's limits, and risks."""
         return (*self.thresholds, *self.program.limits, *self.risks)
 
     @property
@@ -126,7 +126,7 @@ class Preferences(ABC):
 
     @property
     def demands(self) -> Mapping[str, str]:
-        """What each of the `requirements` demands, for people."""
+        """Text of each of the `requirements`."""
         found: dict[str, list[str]] = {}
         for condition in self.conditions:
             found.setdefault(condition.requirement, []).append(condition.demand)

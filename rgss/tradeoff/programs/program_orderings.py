@@ -1,4 +1,4 @@
-"""Which alternatives each program prefers, by enumeration in NumPy: the oracle of the solver's answers.
+"""Preferred alternatives of each program, by enumeration in NumPy: the oracle of the solver's answers.
 
 It shares the data and the corners of the weights with the programs, but neither their terms nor
 their stages: values are interpolated column by column, statistics are sorted, orders are masks.
@@ -26,7 +26,7 @@ VALUE_DECIMALS = 12
 
 @singledispatch
 def ordering_of(program: Program, preferences: Preferences, table: EvidenceTable, feasible: Mask) -> Ordering:  # noqa: ARG001 - read by the programs' own
-    """How alternatives compare under a program.
+    """Ordering of alternatives under a program.
 
     Args:
         program: The program.
@@ -76,7 +76,7 @@ def _(program: MinimaxRegret, preferences: Preferences, table: EvidenceTable, fe
 
 
 def orderings_of(program: Program, preferences: Preferences, table: EvidenceTable) -> Callable[[Mask], Ordering]:
-    """How alternatives compare under a program, for one choice of the feasible ones after another.
+    """Orderings of alternatives under a program, for one choice of the feasible ones after another.
 
     What does not depend on that choice is prepared once.
 

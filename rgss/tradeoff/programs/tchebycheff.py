@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tchebycheff(Program):
-    """As near as possible to a reference point, the largest weighted shortfall counting.
+    """Augmented Tchebycheff program: least largest weighted shortfall from a reference point.
 
     ``min max_i w_i (z_i - v_i(x)) + ρ Σ_i (z_i - v_i(x))``, the augmented weighted Tchebycheff metric
     (Steuer and Choo, "An interactive weighted Tchebycheff procedure", 1983). With the right weights it

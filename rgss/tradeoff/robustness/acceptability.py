@@ -40,7 +40,7 @@ class OutcomeSource(Protocol):
 
     @property
     def exact(self) -> bool:
-        """Whether these are all the outcomes there are."""
+        """True if these are all the outcomes there are."""
         ...
 
     def at(self, outcome: int) -> tuple[Array, NDArray[np.bool_]]:

@@ -1,4 +1,4 @@
-"""How far one assumed number may move before another alternative is chosen."""
+"""Range of one assumed number within which the choice stays the same."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NO_SLOPE = 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Standing:
-    """What the alternatives are worth at one value of the assumption.
+    """Values of the alternatives at one value of the assumption.
 
     Attributes:
         totals: Weighted values, shape (n,); NaN only where not feasible.
@@ -65,7 +65,7 @@ class AssumptionRange:
 
     @property
     def always(self) -> bool:
-        """Whether the choice stays best as far as was looked."""
+        """True if the choice stays best as far as was looked."""
         return self.low is None and self.high is None
 
 
@@ -147,7 +147,7 @@ def _inner_points(near: float, far: float) -> tuple[float, float]:
 
 
 def _first_loss(lead: Array, rate: Array, length: float) -> float | None:
-    """How far on the first lead becomes negative; None if none does on the way.
+    """Distance at which the first lead becomes negative; None if none does on the way.
 
     At the start no lead is negative beyond a tie, so what is below zero there is rounding.
     """
@@ -162,7 +162,7 @@ def _first_loss(lead: Array, rate: Array, length: float) -> float | None:
 
 
 def _leaders(totals: Array, rate: Array) -> NDArray[np.intp]:
-    """Which are best from here on: of those that are best here, the ones that gain fastest."""
+    """Alternatives that are best from here on: of those that are best here, the ones that gain fastest."""
     if not len(totals):
         return np.array([], dtype=np.intp)
     level = totals >= totals.max() - TIE_TOLERANCE

@@ -1,4 +1,4 @@
-"""How far several assumed numbers may be wrong together, at their worst corner."""
+"""Largest joint error of several assumed numbers that the choice survives, at their worst corner."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class BoxProblem:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BoxRange:
-    """How far all assumed numbers may be off at once.
+    """Largest joint error of all assumed numbers.
 
     Attributes:
         factor: The largest x such that the choice stays best whatever the numbers are within
@@ -92,7 +92,7 @@ def box_range(problem: BoxProblem, chosen: int, *, most: float = 1.0) -> BoxRang
     rivals = [int(row) for row in np.flatnonzero(problem.feasible) if row != chosen]
     if _violation(problem, chosen, 0.0) or any(_lead(problem, chosen, row, 0.0)[0] < -TIE_TOLERANCE for row in rivals):
         raise TradeoffError(
-            f"alternative {chosen} is not the best at the assumed numbers", hint="ask for the one that is"
+            f"alternative {chosen} is not the best at the assumed numbers", hint="pass the one that is best"
         )
     factor = most
     own = _violation(problem, chosen, most)
@@ -127,7 +127,7 @@ def _bisect(lost: Callable[[float], bool], most: float) -> float:
 
 
 def _violation(problem: BoxProblem, chosen: int, factor: float) -> bool:
-    """Whether the choice itself can miss a threshold on the measure within the box."""
+    """True if the choice itself can miss a threshold on the measure within the box."""
     centre = float(problem.base[chosen] + problem.coefficients[chosen] @ problem.assumed)
     reach = factor * float(np.abs(problem.coefficients[chosen] * problem.assumed).sum())
     slack = 1e-12 * max(1.0, abs(centre))

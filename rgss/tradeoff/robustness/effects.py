@@ -32,7 +32,7 @@ _DUST = 1e-12
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Effect:
-    """What one factor, or several together beyond each alone, does to a measure.
+    """Effect of one factor on a measure, or of several together beyond each alone.
 
     Attributes:
         factors: The factors of the term; one for a main effect, two for their interaction.

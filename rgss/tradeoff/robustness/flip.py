@@ -1,4 +1,4 @@
-"""How far the weights are from another decision."""
+"""Distance of the weights from another decision."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class WeightShift:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WeightRange:
-    """How far one weight may move, the others keeping their proportions, before the decision flips.
+    """Range of one weight, the others keeping their proportions, within which the decision stays.
 
     Attributes:
         low: The least weight at which the chosen alternative is still best.
@@ -103,7 +103,7 @@ def weight_shifts(
 
 
 def weight_ranges(values: Array, feasible: Mask, weights: Array, chosen: int) -> tuple[WeightRange, ...]:
-    """How far each weight may move alone, the others scaled so that all sum to 1.
+    """Range of each weight alone, the others scaled so that all sum to 1.
 
     Along that line every weighted value is linear in the weight, so the ends are exact.
 
@@ -154,7 +154,7 @@ def _shift(region: Polytope, weights: Array) -> tuple[Array, Array] | None:
 
 
 def _first_loss(base: Array, slope: Array, start: float, *, towards: float) -> tuple[float, NDArray[np.intp]]:
-    """Where the first lead becomes negative on the way, and whose it is; the end if none does."""
+    """Point at which the first lead becomes negative on the way, and whose it is; the end if none does."""
     direction = 1.0 if towards > start else -1.0
     lead = base + start * slope
     # An equal one that gains on the way beats the chosen one at once; rounding must not hide it.

@@ -70,7 +70,7 @@ class KeptAlternative:
 
     @property
     def is_kept(self) -> bool:
-        """Whether it is worth keeping."""
+        """True if it is worth keeping."""
         return self.reason not in (KeptFor.DOMINATED, KeptFor.MIXTURE)
 
 

@@ -26,7 +26,7 @@ def admitted_weights(preferences: Preferences) -> WeightSet:
 
 
 def condition_masks(preferences: Preferences, table: EvidenceTable) -> list[Mask]:
-    """Which alternatives meet each of the conditions, in their order, shape (n,) each."""
+    """Masks of the alternatives that meet each of the conditions, in their order, shape (n,) each."""
     return [
         keeps(condition.sense, condition_column(condition, table), condition.limit)
         for condition in preferences.conditions

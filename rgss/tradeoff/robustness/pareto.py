@@ -16,7 +16,7 @@ SMALLEST_WEIGHT = 1e-6
 
 
 class Support(str, Enum):
-    """How an alternative stands to the weighted sums, after Könen and Stiglmayr.
+    """Kind of Pareto optimality with respect to weighted sums, after Könen and Stiglmayr.
 
     "On supportedness in multi-objective combinatorial optimization", 2025, separates what their
     predecessors mix: weights that are all positive, and weights of which some may be zero.

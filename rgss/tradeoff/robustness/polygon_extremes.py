@@ -99,7 +99,7 @@ def lowest_separable(
 
 
 def _inside(points: Points, polygon: Points) -> NDArray[np.bool_]:
-    """Which points lie inside a convex polygon in counter-clockwise order; none in a segment."""
+    """Mask of the points inside a convex polygon in counter-clockwise order; none in a segment."""
     if len(polygon) < 3:
         return np.zeros(len(points), dtype=np.bool_)
     ends = np.roll(polygon, -1, axis=0)

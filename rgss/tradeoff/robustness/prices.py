@@ -1,4 +1,4 @@
-"""What a requirement costs: how the best value and the feasible set change with its threshold."""
+"""Price of a requirement: the best value and the feasible set as functions of its threshold."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ _PAIRS_AT_ONCE = 4_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RankReversal:
-    """What the removal of one alternative changes among the others.
+    """Changes among the others when one alternative is removed.
 
     Attributes:
         removed: The alternative that is taken away.
@@ -98,7 +98,7 @@ def sample_anchored(quantities: Array, more_is_better: NDArray[np.bool_], weight
 
 
 def _swaps(old: Array, new: Array) -> int:
-    """How many pairs change their order, a block of rows at a time, for all pairs at once need much memory."""
+    """Number of pairs that change their order, by blocks of rows, since all pairs at once need much memory."""
     count = len(old)
     step = max(1, _PAIRS_AT_ONCE // count)
     swapped = 0

@@ -70,7 +70,7 @@ class ResampledTables:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ResampledOutcomes:
-    """What the evidence may say: every alternative valued and judged in each resample of the replicates.
+    """Outcomes under resampled evidence: every alternative valued and judged in each resample of the replicates.
 
     Conditions on replicates are judged by those of the resample.
 

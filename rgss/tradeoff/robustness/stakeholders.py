@@ -35,7 +35,7 @@ class StakeholderView:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class StakeholderAgreement:
-    """What several stakeholders agree on.
+    """Agreement of several stakeholders.
 
     Attributes:
         views: One for each stakeholder, in the order given.

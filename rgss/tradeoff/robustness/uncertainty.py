@@ -47,7 +47,7 @@ class Rival:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ChoiceUncertainty:
-    """What the evidence leaves open of a choice at the stated weights.
+    """Uncertainty of a choice at the stated weights, given the evidence.
 
     Attributes:
         chosen: Row of the choice.

@@ -60,7 +60,7 @@ class Observed:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SequentialEvidence:
-    """What is known of n alternatives.
+    """Evidence on n alternatives.
 
     Attributes:
         table: The alternatives, by ascending id.
@@ -147,7 +147,7 @@ class SequentialEvidence:
         )
 
     def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:
-        """Whether no replicate can show that an alternative is worth more than a rival by a margin.
+        """True if no replicate can show that an alternative is worth more than a rival by a margin.
 
         So it is where both have the same trials whatever the seed, and no measure tells them apart in those that
         were run: then they differ by their designs alone, which are known.

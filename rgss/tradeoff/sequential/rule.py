@@ -12,7 +12,7 @@ from rgss.tradeoff.sequential.evidence import SequentialEvidence
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SequentialRule:
-    """When to go on and when to stop.
+    """Stopping rule of sequential replication.
 
     Attributes:
         error_rate: α: probability that the decision is called decided and is wrong; and, of each
@@ -40,7 +40,9 @@ class SequentialRule:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.error_rate < 1.0:
-            raise TradeoffError(f"an error rate of {self.error_rate:g} is none", hint="give one such as 0.05")
+            raise TradeoffError(
+                f"error rate must be between 0 and 1, got {self.error_rate:g}", hint="give one such as 0.05"
+            )
         for name, number in (("margin", self.margin), ("slack", self.slack)):
             if not (math.isfinite(number) and 0.0 <= number < 1.0):
                 raise TradeoffError(f"the {name} is {number:g}", hint="give a number from 0 to 1, such as 0.05")

@@ -144,7 +144,7 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
 
 
 def _is_spent(evidence: SequentialEvidence, wanted: Mapping[int, int]) -> bool:
-    """Whether it is the budget that leaves alternatives without the replicates that they should have."""
+    """True if it is the budget that leaves alternatives without the replicates that they should have."""
     ran = {variant: evidence.replicates[evidence.table.row_of(variant)] for variant in wanted}
     return bool(evidence.observed) and any(ran[variant] < most for variant, most in wanted.items())
 
@@ -201,7 +201,7 @@ def _best(rows: list[int], values: list[float]) -> list[int]:
 
 
 def _shares_trials(evidence: SequentialEvidence, row: int, other: int) -> bool:
-    """Whether some mean is the same in every replicate: the two share plans, or executions."""
+    """True if some mean is the same in every replicate: the two share plans, or executions."""
     return any(
         np.array_equal(one.values[row], one.values[other], equal_nan=True)
         for one in evidence.observed
@@ -230,7 +230,7 @@ def _dropped(evidence: SequentialEvidence, rule: SequentialRule, progress: Progr
 
 
 def _is_beaten(evidence: SequentialEvidence, rule: SequentialRule, row: int, rivals: Mapping[int, float]) -> bool:
-    """Whether the rivals together prove that an alternative is not worth more than each of them.
+    """True if the rivals together prove that an alternative is not worth more than each of them.
 
     The smallest level at which a rival's test rejects is one over an e-value; were the alternative
     the best, each would have an expectation of at most 1, and so would their weighted mean.

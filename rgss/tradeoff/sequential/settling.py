@@ -65,7 +65,7 @@ def unsettled(
 
 
 def is_accepted(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress, chosen: int) -> bool:
-    """Whether the choice is proven to violate no threshold by more than the slack.
+    """True if the choice is proven to violate no threshold by more than the slack.
 
     Args:
         evidence: The evidence.
@@ -83,7 +83,7 @@ def is_accepted(evidence: SequentialEvidence, rule: SequentialRule, progress: Pr
 def beats(
     evidence: SequentialEvidence, rule: SequentialRule, row: int, rival: int, level: float, *, lead: float, after: int
 ) -> bool:
-    """Whether an alternative is proven not to be worth choosing before a rival; as `is_beaten`.
+    """True if an alternative is proven not to be worth choosing before a rival; as `is_beaten`.
 
     Args:
         evidence: The evidence.

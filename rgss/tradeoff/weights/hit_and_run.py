@@ -70,7 +70,7 @@ def walked_weights(polytope: Polytope, inside: Array, count: int, generator: np.
 
 
 def _walked(points: Array, slopes: Array, gaps: Array, shape: Array, generator: np.random.Generator) -> Array:
-    """Where walks from some points end, shape (n, d).
+    """End points of walks from some points, shape (n, d).
 
     Args:
         points: The starts, shape (n, d).

@@ -17,7 +17,7 @@ MOST_TRIES = 40
 
 
 class Drawing(str, Enum):
-    """How weights were drawn."""
+    """Method by which weights were drawn."""
 
     INDEPENDENT = "independent"
     HIT_AND_RUN = "hit_and_run"

@@ -31,7 +31,7 @@ _MOST_WORTHS = 4_000_000
 
 
 class ShareBy(str, Enum):
-    """How the share of a region was found: from the volume of its corners, or by counting drawn weights."""
+    """Method of a region's share: from the volume of its corners, or by counting drawn weights."""
 
     VOLUME = "volume"
     INDEPENDENT = Drawing.INDEPENDENT.value
@@ -39,7 +39,7 @@ class ShareBy(str, Enum):
 
 
 class RegionKind(str, Enum):
-    """How much of the weights an alternative wins."""
+    """Share of the weights for which an alternative is best."""
 
     EMPTY = "empty"
     TIES = "ties"
@@ -103,7 +103,7 @@ def rivals_of(values: Array) -> Array | None:
 
 
 def never_best(values: Array, rivals: Array | None) -> Mask:
-    """Which alternatives a rival beats clearly in every measure, so that no weights make them best, shape (n,).
+    """Mask of the alternatives that a rival clearly dominates, so that no weights make them best, shape (n,).
 
     Args:
         values: The single values of distinct alternatives, shape (n, m).

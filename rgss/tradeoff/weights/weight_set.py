@@ -80,7 +80,7 @@ class WeightSet:
 
     @property
     def is_simplex(self) -> bool:
-        """Whether non-negativity and the sum are the only bounds."""
+        """True if non-negativity and the sum are the only bounds."""
         return not len(self.limits) and not len(self.equals)
 
     def conditions(self) -> tuple[Array, Array]:

@@ -127,7 +127,7 @@ class TestRefusals:
         path = tmp_path / name
         line = refused(capsys, f"--{option}", str(path))
 
-        assert line == f"--{option}: {path} is no {suffix} file (give a name that ends in {suffix})"
+        assert line == f"--{option}: {path} must be a {suffix} file (give a name that ends in {suffix})"
 
     def test_a_folder_that_is_not_there(self, capsys, tmp_path):
         path = tmp_path / "none" / "film.gif"
@@ -153,7 +153,7 @@ class TestRefusals:
     def test_sizes_that_are_none(self, capsys, tmp_path, size):
         line = refused(capsys, "--gif", str(tmp_path / "a.gif"), f"--size={size}")
 
-        assert line == f"--size: {size!r} is no size (write width and height, such as 640x480)"
+        assert line == f"--size must be WIDTHxHEIGHT in pixels, got {size!r} (write width and height, such as 640x480)"
 
     @pytest.mark.parametrize("size", ["199x480", "640x199", "2001x480", "640x2001", "0x0"])
     def test_sizes_out_of_range(self, capsys, tmp_path, size):
@@ -174,7 +174,7 @@ class TestRefusals:
         line = refused(capsys, "--filmstrip", str(tmp_path / "a.png"), f"--camera=hand+{view}")
 
         assert line == (
-            f"--camera: there is no view {view!r} "
+            f"--camera: unknown view {view!r} "
             "(choose overview, hand, side, or azimuth,elevation,distance such as 215,30,2.5)"
         )
 

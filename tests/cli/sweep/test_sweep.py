@@ -120,14 +120,17 @@ def test_a_worker_that_has_no_memory_to_start_is_one_line(sweep):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        (["--jobs", "0"], "rgss: --jobs must be at least 1 (leave it away for one process a core)"),
+        (["--jobs", "0"], "rgss: --jobs must be at least 1 (omit it for one process a core)"),
         (["--time-limit", "5"], "rgss: --time-limit: '5' has no unit (write it as '5 min')"),
         (
             ["--time-limit", "5 kg"],
             "rgss: --time-limit: unit 'kg' does not measure what 's' measures (write it as '5 min')",
         ),
-        (["--time-limit", "0 s"], "rgss: --time-limit: '0 s' is no limit (write it as '5 min')"),
-        (["--memory-limit", "-1 GB"], "rgss: --memory-limit: '-1 GB' is no limit (write it as '4 GB')"),
+        (["--time-limit", "0 s"], "rgss: --time-limit must be greater than zero, got '0 s' (write it as '5 min')"),
+        (
+            ["--memory-limit", "-1 GB"],
+            "rgss: --memory-limit must be greater than zero, got '-1 GB' (write it as '4 GB')",
+        ),
     ],
 )
 def test_a_limit_that_is_none_is_refused(rgss, untouched, words, complaint):

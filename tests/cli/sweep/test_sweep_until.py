@@ -183,7 +183,7 @@ def test_what_is_open_in_words(found, words):
         (["--budget", "40"], "--budget needs --until decided (--replicates is the fixed number of trials)"),
         (
             ["--until", "decided", "--budget", "0"],
-            "--budget must be at least 1 trial, got 0 (leave it away for the study's)",
+            "--budget must be at least 1 trial, got 0 (omit it for the study's)",
         ),
     ],
 )

@@ -184,7 +184,7 @@ def test_one_replicate_is_said(rgss, with_evidence):
     told = rgss("trade", "--replicates", 1, "--project", with_evidence)
 
     assert (told.status, told.errors) == (0, "")
-    assert "Not analysed: noise: 1 replicate of each variant tell nothing of noise" in told.output
+    assert "Not analysed: noise: noise cannot be estimated from 1 replicate of each variant" in told.output
     assert "draws of all weights alone (without noise)" in told.output
 
 

@@ -118,7 +118,7 @@ def test_what_drops_variants(rgss, with_evidence):
         (
             "nonsense",
             (
-                "'nonsense' is no supposition (write weight.t_p=0.4, \"SYS-012.threshold=0.8 kg\" or "
+                "supposition must be NAME=VALUE, got 'nonsense' (write weight.t_p=0.4, \"SYS-012.threshold=0.8 kg\" or "
                 '"catalogue.kg-2-light.cost=4500 USD")'
             ),
         ),

@@ -38,5 +38,5 @@ def test_a_range_of_an_input_that_is_not_there_is_found_at_its_place(rgss, folde
 
     assert told.status == 1
     place = place_of(STUDY, "weight.P_maxx")
-    assert f"{place}: error: 'weight.P_maxx' is no input of this decision (did you mean weight.P_max" in told.output
-    assert told.output.count("is no input of this decision") == 1
+    assert f"{place}: error: unknown input 'weight.P_maxx' of the decision (did you mean weight.P_max" in told.output
+    assert told.output.count("unknown input") == 1

@@ -55,7 +55,7 @@ def test_the_table_has_the_references(rgss, quick):
     [
         (["--only", "RTT"], "there is no planner 'RTT' (did you mean 'RRT'?"),
         (["--only", "SST"], "planner SST cannot be run: it goes on to its limit"),
-        (["--seeds", "0"], "--seeds must be from 1 to 10000 (leave it away for the study's number)"),
+        (["--seeds", "0"], "--seeds must be from 1 to 10000 (omit it for the study's number)"),
     ],
 )
 def test_planners_that_cannot_be_compared(rgss, untouched, more, expected):

@@ -204,7 +204,7 @@ def test_a_damaged_baseline_is_not_replaced_unseen(rgss, with_baseline):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        (("--jobs", "0"), "rgss: --jobs must be at least 1 (leave it away for one process a core)"),
+        (("--jobs", "0"), "rgss: --jobs must be at least 1 (omit it for one process a core)"),
         (("--reason", "x"), "rgss: --reason needs --update (without it nothing is changed)"),
         (("--update",), "rgss: --update needs a reason (say with --reason why the numbers may move)"),
         (("--update", "--reason", " "), "rgss: --update needs a reason (say with --reason why the numbers may move)"),

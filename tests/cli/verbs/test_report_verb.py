@@ -192,7 +192,10 @@ def test_too_little_evidence_names_the_sweep_that_is_missing(with_evidence, tmp_
 @pytest.mark.parametrize(
     ("options", "problem"),
     [
-        (("--film-size", "huge"), "--film-size: 'huge' is no size (write width and height, such as 640x480)"),
+        (
+            ("--film-size", "huge"),
+            "--film-size must be WIDTHxHEIGHT in pixels, got 'huge' (write width and height, such as 640x480)",
+        ),
         (("--film-size", "9x9"), "--film-size: 9x9 is out of range (give from 200 to 2000 pixels each way)"),
         (("--film-rate", "99"), "--film-rate: 99 is out of range (give from 1 to 50)"),
         (("--no-film", "--film-rate", "5"), "--film-rate is given with --no-film (leave one of them away)"),

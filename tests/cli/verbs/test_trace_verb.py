@@ -214,8 +214,8 @@ def test_results_of_tests_decide(rgss, folder, tmp_path):
         (["-o", "no/such/x.html"], "'no/such/x.html' cannot be written: there is no folder no/such"),
         (["--variant", "99"], "99"),
         (["--gaps", "--table", "verification-", "-o", "x.md"], "argument --table: invalid choice"),
-        (["--gaps", "--format", "md", "--table", "stakeholder-moe"], "there is no table 'stakeholder-moe' here"),
-        (["--junit", "nowhere.xml"], "--junit is given, but the project has no tests (leave it away)"),
+        (["--gaps", "--format", "md", "--table", "stakeholder-moe"], "unknown table 'stakeholder-moe'"),
+        (["--junit", "nowhere.xml"], "--junit is given, but the project has no tests (omit it)"),
     ],
 )
 def test_what_is_refused_in_one_line(rgss, untouched, tmp_path, monkeypatch, words, complaint):

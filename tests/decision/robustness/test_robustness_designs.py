@@ -34,7 +34,8 @@ def test_one_replicate_tells_nothing_of_noise(shipped, filled, record_of):
     found = analyse_robustness(project, single, choose(project, single))
 
     assert found.refused == {
-        "noise": "1 replicate of each variant tell nothing of noise (run 'rgss sweep' with at least 2 replicates)"
+        "noise": "noise cannot be estimated from 1 replicate of each variant "
+        "(run 'rgss sweep' with at least 2 replicates)"
     }
     assert not found.weighting.with_noise
     assert found.resamples == 0

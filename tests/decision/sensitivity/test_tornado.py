@@ -194,7 +194,7 @@ def test_stated_and_elicited_ranges_are_taken(analysed):
 @pytest.mark.parametrize(
     ("entry", "message"),
     [
-        ("{input: catalogue.rtt.cost, low: 0 USD, high: 1 USD}", "'catalogue.rtt.cost' is no input of this decision"),
+        ("{input: catalogue.rtt.cost, low: 0 USD, high: 1 USD}", "unknown input 'catalogue.rtt.cost' of the decision"),
         (
             "{input: weight.t_e_simulated, low: 0.4, high: 0.5}",
             "weight.t_e_simulated is 0.3, outside of its range 0.4 to 0.5",

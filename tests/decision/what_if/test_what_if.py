@@ -226,10 +226,10 @@ def test_variants_that_would_become_possible_have_no_trials(shipped):
         (["catalogue.ur10.cost=-3 USD"], "catalogue.ur10.cost is -3", "give a number from 0 on"),
         (["measures.d_g=3 mm"], "there is no 'measures.d_g'", "did you mean measures.d_f"),
         (["nonsense.of.all=3"], "there is no 'nonsense.of.all'", "such as weight, value, catalogue"),
-        (["nonsense"], "'nonsense' is no supposition", "write weight.t_p=0.4"),
-        (["=3"], "'=3' is no supposition", "write weight.t_p=0.4"),
-        (["weight.t_e="], "'weight.t_e=' is no supposition", "write weight.t_p=0.4"),
-        (["weight\n.t_e"], "is no supposition", "write weight.t_p=0.4"),
+        (["nonsense"], "must be NAME=VALUE, got 'nonsense'", "write weight.t_p=0.4"),
+        (["=3"], "must be NAME=VALUE, got '=3'", "write weight.t_p=0.4"),
+        (["weight.t_e="], "must be NAME=VALUE, got 'weight.t_e='", "write weight.t_p=0.4"),
+        (["weight\n.t_e"], "must be NAME=VALUE, got", "write weight.t_p=0.4"),
     ],
 )
 def test_what_cannot_be_supposed(shipped, measured, texts, message, hint):

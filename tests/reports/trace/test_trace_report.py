@@ -194,5 +194,5 @@ def test_the_lines_of_a_chain_and_of_an_impact(model, story):
 
 
 def test_a_table_that_is_not_there(report):
-    with pytest.raises(DefinitionError, match="there is no table 'nothing' here"):
+    with pytest.raises(DefinitionError, match="unknown table 'nothing'"):
         terminal_tables(report, table="nothing")

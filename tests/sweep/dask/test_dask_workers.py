@@ -276,7 +276,7 @@ def test_an_address_that_needs_certificates_is_refused_without_them():
     with pytest.raises(DefinitionError) as caught, dask_cluster("tls://127.0.0.1:1", **LIMITS, patience_s=0.2):
         pytest.fail("it was accepted")
     assert str(caught.value) == (
-        "tls://127.0.0.1:1 asks for TLS, and Dask's settings name no certificates for a client "
+        "tls://127.0.0.1:1 uses TLS, but Dask's settings name no certificates for a client "
         "(set distributed.comm.tls.ca-file, client.cert and client.key, as docs/scale-out.md shows)"
     )
 

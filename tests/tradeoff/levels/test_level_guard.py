@@ -236,7 +236,7 @@ def test_nothing_found_and_nothing_proved_is_no_decision(guard_cases, path, doct
     path("runs")
     doctored(no_answer, runs=len(RUNS))
     monkeypatch.setattr(rgss.tradeoff.levels.guard, "search_levels", lambda *arguments: None)
-    with pytest.raises(TradeoffError, match="no feasible design was found, and that there is none was not proved"):
+    with pytest.raises(TradeoffError, match="no feasible design was found, but infeasibility was not proven"):
         decide_levels(guard_cases.small_case(1, (3, 4, 3), "additive").problem)
 
 

@@ -263,10 +263,10 @@ def test_a_structure_that_does_not_fit(structured):
     assert decide(structured(whole)).chosen == 1
     assert decide(structured({key: whole[key] for key in (1, 2, 3)}, rules=(rule,))).chosen == 1
     for levels, rules, message in (
-        (whole, (rule,), "variant 4 is no combination of levels that the rules allow"),
-        ({**whole, 4: ("b", "z")}, (), "variant 4 is no combination of levels that the rules allow"),
+        (whole, (rule,), "variant 4 must be a combination of levels that the rules allow"),
+        ({**whole, 4: ("b", "z")}, (), "variant 4 must be a combination of levels that the rules allow"),
         ({**whole, 4: ("b", "x")}, (), "variants 3 and 4 have the same levels"),
-        ({key: whole[key] for key in (1, 2, 3)}, (), "the combination b, y is no alternative"),
+        ({key: whole[key] for key in (1, 2, 3)}, (), "the combination b, y has no alternative"),
     ):
         with pytest.raises(TradeoffError) as error:
             structured(levels, rules)

@@ -60,7 +60,9 @@ def test_what_replicates_share_stays_in_the_differences():
 def test_too_few_replicates(replicates, word):
     with pytest.raises(TradeoffError) as caught:
         bootstrap(replicates, draws=10, generator=np.random.default_rng(0))
-    assert str(caught.value) == (f"{word} variant tell nothing of noise (run 'rgss sweep' with at least 2 replicates)")
+    assert str(caught.value) == (
+        f"noise cannot be estimated from {word} variant (run 'rgss sweep' with at least 2 replicates)"
+    )
 
 
 def test_an_interval_counts_probability_and_not_rows():

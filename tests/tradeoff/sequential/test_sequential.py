@@ -303,7 +303,7 @@ def test_the_probability_is_that_of_a_population_of_two_betas(evidence_of):
 @pytest.mark.parametrize(
     ("numbers", "message"),
     [
-        ({"error_rate": 0.0}, "an error rate of 0 is none"),
+        ({"error_rate": 0.0}, "error rate must be between 0 and 1, got 0"),
         ({"margin": -0.1}, "the margin is -0.1"),
         ({"slack": 1.0}, "the slack is 1"),
         ({"pilot": 1}, "a pilot of 1 and batches of 4 replicates are too small"),

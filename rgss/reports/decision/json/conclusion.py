@@ -1,4 +1,4 @@
-"""What the evidence shows, as plain values for JSON; docs/robustness.md describes them."""
+"""Conclusion from the evidence as plain values for JSON; docs/robustness.md describes them."""
 
 from __future__ import annotations
 

@@ -72,12 +72,12 @@ def _front(found: Robustness) -> list[Plain]:
 
 
 def assumptions_to_json(found: Robustness) -> list[Plain]:
-    """How far each assumed number may move: a part of `robustness_to_json`, which is long for many variants."""
+    """Ranges of the assumed numbers: a part of `robustness_to_json`, which is long for many variants."""
     return [_assumption(found, one) for one in found.assumptions]
 
 
 def costs_to_json(found: Robustness) -> Plain | None:
-    """How far all costs may move together: a part of `robustness_to_json`."""
+    """Range of all costs together: a part of `robustness_to_json`."""
     return None if found.costs is None else _costs(found, found.costs)
 
 

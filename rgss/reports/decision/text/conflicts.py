@@ -14,7 +14,7 @@ MOST_LISTED = 6
 
 
 def conflict_lines(decision: Decision) -> Iterator[str]:
-    """What each requirement excludes, which cannot be met together, and the cheapest repairs.
+    """Lines on what each requirement excludes, on conflicts between requirements, and on the cheapest repairs.
 
     Args:
         decision: A decision by which nothing is chosen.

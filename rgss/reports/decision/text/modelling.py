@@ -22,7 +22,7 @@ def modelling_lines(made: StudyDecision) -> Iterator[str]:
 
 
 def drivers_lines(made: StudyDecision) -> Iterator[str]:
-    """Which draws go with which failures, and the success of each case; nothing where nothing was drawn.
+    """Lines on the draws that go with failures, and the success of each case; none where nothing was drawn.
 
     Args:
         made: The decision.

@@ -1,4 +1,4 @@
-"""What nearly won, and what would change the decision, for a terminal."""
+"""Runners-up, and what would change the decision, for a terminal."""
 
 from __future__ import annotations
 

@@ -54,5 +54,5 @@ class TraceFormat:
 
     @property
     def has_tables(self) -> bool:
-        """Whether one table alone can be written."""
+        """True if one table alone can be written."""
         return self.widest_grid > 0

@@ -30,7 +30,7 @@ class ValueFunction(Protocol):
 
     @property
     def more_is_better(self) -> bool | None:
-        """Whether the value rises with the quantity; None where it rises and falls."""
+        """True if the value rises with the quantity; None where it rises and falls."""
         ...
 
     @property
@@ -88,7 +88,7 @@ class MonotoneValue:
 
     @property
     def more_is_better(self) -> bool:
-        """Whether the value rises with the quantity."""
+        """True if the value rises with the quantity."""
         return self.best > self.worst
 
     @property
@@ -102,7 +102,7 @@ class MonotoneValue:
         return None
 
     def share(self, quantity: float) -> float:
-        """Where a quantity lies between the anchors: 0 at worst, 1 at best."""
+        """Position of a quantity between the anchors: 0 at worst, 1 at best."""
         return (quantity - self.worst) / (self.best - self.worst)
 
 

@@ -1,148 +1,18 @@
-"""What a study says of the guard of its metrics: which trials, which metrics, which margins."""
+"""Reader of the section ``regression`` of a study."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any, Literal
-
-from pydantic import BeforeValidator, Field, WithJsonSchema
-
-from rgss.documents import Dimensionless, Document, DocumentModel, Identifier, Text
+from rgss.documents import Document
 from rgss.errors import QuantityError
 from rgss.evidence import Fidelity, Phase
 from rgss.findings import Finding, shown
 from rgss.quantities import parse_quantity
 from rgss.regression import SUCCESS, WHOLE_TRIAL, Guard
+from rgss.studies.regression.document import RegressionEntry, RegressionMetricEntry, RegressionRunEntry
+from rgss.studies.regression.guard import GuardedMetric, RegressionGuard, WatchedRun
 from rgss.trials import METRICS, PHASE_METRICS
 
-MOST_SEEDS = 200
-"""Seeds of a variant that a guard may take."""
-
 _PHASES = tuple(phase.value for phase in Phase)
-
-
-def _margin_text(value: Any) -> Any:
-    return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
-
-
-MarginText = Annotated[
-    str,
-    BeforeValidator(_margin_text),
-    Field(min_length=1, max_length=60),
-    WithJsonSchema({"type": ["string", "number"], "minLength": 1, "description": "A quantity, such as 0.2 s."}),
-]
-
-
-GuardableName = Annotated[
-    Identifier,
-    Field(
-        json_schema_extra={
-            "oneOf": [
-                {"const": name, "description": f"{metric.meaning} [{metric.unit}]"}
-                for name, metric in sorted({**PHASE_METRICS, **METRICS}.items())
-                if metric.length is None or (name in PHASE_METRICS and metric.length_in_phase is None)
-            ]
-        }
-    ),
-]
-"""A metric that is a single number, of the trial or of phases."""
-
-
-class RegressionRunEntry(DocumentModel):
-    """Trials that are watched."""
-
-    id: Identifier
-    fidelity: Literal["kinematic", "dynamic", "contact"]
-    variants: Text
-    replicates: Annotated[int, Field(ge=2, le=MOST_SEEDS)]
-    batch: Annotated[int, Field(ge=1, le=MOST_SEEDS)] | None = None
-    cap: Annotated[int, Field(ge=2, le=MOST_SEEDS)] | None = None
-
-
-class RegressionMetricEntry(DocumentModel):
-    """A metric that is guarded."""
-
-    metric: GuardableName
-    runs: Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
-    phases: Literal["all"] | Annotated[tuple[Identifier, ...], Field(min_length=1)] | None = None
-    better: Literal["higher", "lower", "neither"]
-    margin: MarginText
-    at_least: MarginText | None = None
-
-
-class RegressionEntry(DocumentModel):
-    """The guard of a study's metrics."""
-
-    error_rate: Dimensionless = 0.05
-    runs: Annotated[tuple[RegressionRunEntry, ...], Field(min_length=1)]
-    metrics: Annotated[tuple[RegressionMetricEntry, ...], Field(min_length=1)]
-    decision: Identifier | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WatchedRun:
-    """Trials that are watched.
-
-    Attributes:
-        id: Their name.
-        fidelity: How much physics they have.
-        variants: Which variants, as ``--only`` takes it.
-        replicates: Seeds at the first look.
-        batch: Seeds that each further look adds.
-        cap: The most seeds.
-    """
-
-    id: str
-    fidelity: Fidelity
-    variants: str
-    replicates: int
-    batch: int
-    cap: int
-
-    @property
-    def looks(self) -> int:
-        """How often is looked at most."""
-        return 1 + -(-(self.cap - self.replicates) // self.batch)
-
-    def seeds_at(self, look: int) -> int:
-        """How many seeds there are at a look, from 1."""
-        return min(self.cap, self.replicates + (look - 1) * self.batch)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GuardedMetric:
-    """A metric that is guarded.
-
-    Attributes:
-        metric: Its name.
-        guard: How it may move.
-        runs: The runs in which it is compared.
-        phases: The phases, or ``trial``.
-        wherever: Whether it is compared in those of the phases alone that observe it.
-    """
-
-    metric: str
-    guard: Guard
-    runs: tuple[str, ...]
-    phases: tuple[str, ...]
-    wherever: bool
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RegressionGuard:
-    """What is guarded.
-
-    Attributes:
-        error_rate: The probability of any false alarm.
-        runs: The trials.
-        metrics: The metrics.
-        decision: The run among whose variants is decided; None if no decision is guarded.
-    """
-
-    error_rate: float
-    runs: tuple[WatchedRun, ...]
-    metrics: tuple[GuardedMetric, ...]
-    decision: str | None
 
 
 def read_regression(
@@ -168,7 +38,7 @@ class _Reader:
 
     def read(self, entry: RegressionEntry) -> RegressionGuard:
         if not 0.0 < entry.error_rate < 0.5:
-            message = f"an error rate of {entry.error_rate:g} is none"
+            message = f"error rate must be between 0 and 0.5, got {entry.error_rate:g}"
             self._report(message, ("error_rate",), "give a share between 0 and 0.5, such as 0.05")
         runs = [self._run(one, place) for place, one in enumerate(entry.runs)]
         names = [one.id for one in entry.runs]
@@ -193,7 +63,7 @@ class _Reader:
         cap = entry.replicates if entry.cap is None else entry.cap
         if cap < entry.replicates:
             message = f"the cap of {cap} seeds is below the {entry.replicates} of the first look"
-            self._report(message, ("runs", place, "cap"), "raise it, or leave it away")
+            self._report(message, ("runs", place, "cap"), "raise it, or omit it")
         return WatchedRun(
             id=entry.id,
             fidelity=Fidelity(entry.fidelity),
@@ -218,7 +88,7 @@ class _Reader:
         for number, phase in enumerate(phases):
             if phase not in (*_PHASES, WHOLE_TRIAL):
                 hint = f"phases: {', '.join(_PHASES)}"
-                self._report(f"there is no phase {phase!r}", (*at, "phases", number), hint)
+                self._report(f"unknown phase {phase!r}", (*at, "phases", number), hint)
         return GuardedMetric(
             metric=entry.metric,
             guard=Guard(
@@ -257,7 +127,7 @@ class _Reader:
             self._report(f"of success, {entry.better} is not better", (*at, "better"), "write 'better: higher'")
         if not (_is_share(entry.margin) and unit != "1"):
             if entry.at_least is not None:
-                hint = "leave it away, or give the margin in per cent of the baseline's mean"
+                hint = "omit it, or give the margin in per cent of the baseline's mean"
                 self._report("at_least belongs to a margin in per cent", (*at, "at_least"), hint)
             return self._margin(entry, entry.margin, unit, (*at, "margin")), 0.0
         relative = self._margin(entry, entry.margin, "1", (*at, "margin"))
@@ -285,7 +155,7 @@ class _Reader:
         return margin
 
     def _unknown_run(self, name: str, at: tuple[str | int, ...], runs: list[str]) -> None:
-        self._report(f"there is no run {name!r}", at, f"runs: {', '.join(runs)}")
+        self._report(f"unknown run {name!r}", at, f"runs: {', '.join(runs)}")
 
     def _report(self, message: str, at: tuple[str | int, ...], hint: str) -> None:
         self._findings.append(self._document.finding("study.regression", message, ("regression", *at), hint=hint))
