@@ -10,9 +10,11 @@ import pybullet
 import pytest
 
 from rgss.cli.main import main
+from rgss.findings import Severity
 from rgss.kinematics import Arm, ArmDynamics, inverse_kinematics
 from rgss.physics.engine import load_urdf_text
 from rgss.scenes import Pose, load_robot
+from rgss.studies.robot_project.description import unchecked_pairs
 
 ROBOTS = Path(__file__).resolve().parents[2] / "scenes" / "robots"
 ARMS = ("lite6", "yumi_right_arm")
@@ -139,3 +141,30 @@ def test_torques_are_those_of_another_engine(name):
 def test_nothing_is_wrong_with_its_description(name, ending, capsys):
     assert main(["robot", str(ROBOTS / f"{name}.{ending}")]) == 0
     assert "Reach:" in capsys.readouterr().out
+
+
+@pytest.fixture
+def thick(tmp_path):
+    """A Lite6 whose flange is so long that it always touches the link before the wrist."""
+    for ending in ("urdf", "yaml"):
+        text = (ROBOTS / f"lite6.{ending}").read_text(encoding="utf-8")
+        (tmp_path / f"lite6.{ending}").write_text(text.replace('length="0.018"', 'length="0.2"'), encoding="utf-8")
+    return load_robot(tmp_path / "lite6.yaml", base=Pose(), project=tmp_path), tmp_path / "lite6.urdf"
+
+
+def test_links_that_always_touch_are_noted(thick):
+    (finding,) = unchecked_pairs(*thick, "scenes/robots/lite6.urdf")
+
+    assert (finding.rule, finding.severity) == ("robot.unchecked-pair", Severity.INFO)
+    assert finding.message.startswith("link4 and link6 touch however the arm stands, and are not checked")
+    assert finding.line == 1 + thick[1].read_text(encoding="utf-8").splitlines().index('  <link name="link4">')
+    for name in ARMS:
+        assert unchecked_pairs(robot_of(name), ROBOTS / f"{name}.urdf", name) == ()
+
+
+def test_without_engines_no_pair_is_noted(thick, monkeypatch):
+    def missing(robot):
+        raise ImportError("No module named 'coal'", name="coal")
+
+    monkeypatch.setattr("rgss.studies.robot_project.description.lasting_contacts", missing)
+    assert unchecked_pairs(*thick, "scenes/robots/lite6.urdf") == ()

@@ -184,8 +184,8 @@ def _text_digest(path: Path) -> bytes:
 def _tested(project: Path) -> list[Path]:
     found = [project / name for name in TESTED_FILES if (project / name).is_file()]
     # Those of the default set, and those of each set in a folder of its own.
-    for folder in (project / "requirements", *(project / "requirements").glob("*/")):
-        found += [path for path in (folder / MEASURES_FILE,) if path.is_file()]
+    default = project / "requirements"
+    found += [path for path in (default / MEASURES_FILE, *default.glob(f"*/{MEASURES_FILE}")) if path.is_file()]
     for folder in TESTED_FOLDERS:
         found += [path for path in (project / folder).rglob("*") if path.suffix in _SUFFIXES and path.is_file()]
     return sorted(found)
