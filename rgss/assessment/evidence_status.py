@@ -88,7 +88,7 @@ def trial_verdicts(
 def project_marks(folder: Path, requirement_folder: str = REQUIREMENTS) -> tuple[MarkedTest, ...] | None:
     """The marks on a project's own tests for one set of requirements; None if it has no tests of its own.
 
-    A mark names a requirement of a set other than the default by the folder's name and its id: ``yumi/SYS-001``.
+    A mark names a requirement of a set other than the default by the folder's name and its id: ``bench/SYS-001``.
 
     Args:
         folder: The project's folder.

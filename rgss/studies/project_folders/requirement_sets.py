@@ -27,7 +27,7 @@ def measures_of(folder: str) -> str:
 
 
 def qualifier_of(folder: str) -> str:
-    """What stands before an id of a set where ids of several sets meet, such as ``yumi/``; empty for the default.
+    """What stands before an id of a set where ids of several sets meet, such as ``bench/``; empty for the default.
 
     Args:
         folder: The set, relative to the project.
