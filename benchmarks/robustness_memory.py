@@ -32,8 +32,9 @@ from rgss.evidence import (
     Provenance,
     TrialRecord,
 )
+from rgss.studies import FOLDERS
 from rgss.studies.expansion import trial_specs
-from rgss.studies.project import FOLDERS, Project, load_project
+from rgss.studies.project import Project, load_project
 from rgss.sweep.trial_keys import key_of
 from rgss.trials.metrics import METRICS
 from rgss.trials.trial_spec import TrialSpec

@@ -80,10 +80,14 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         return
     from rgss.errors import RgssError
     from rgss.requirements import load_requirements
+    from rgss.studies import named_sets, qualifier_of
     from rgss.trace.evidence.software import run_properties
 
     try:
         noted = run_properties(PROJECT, load_requirements(PROJECT / "requirements").system)
+        for folder in named_sets(PROJECT):
+            requirements = load_requirements(PROJECT / folder, label_root=folder).system
+            noted = {**noted, **run_properties(PROJECT, requirements, qualifier=qualifier_of(folder))}
     except RgssError:
         # A broken project has tests of its own; a run without the note is taken as it is.
         return

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
 from rgss.assessment.measuring import VariantMeasures, requirements_with_criteria
 from rgss.assessment.recorded_verdicts import VerdictRecord, study_key
 from rgss.requirements import RequirementSet
-from rgss.studies import Project
+from rgss.studies import REQUIREMENTS, Project, named_sets, qualifier_of
 from rgss.trace.evidence import (
     JUNIT_FILE,
     EvidenceState,
@@ -45,10 +46,13 @@ def evidence_state(
     Raises:
         EvidenceError: Files of tests or their result cannot be read.
     """
-    marked = project_marks(project.folder)
+    folder = project.study.requirements
+    marked = project_marks(project.folder, folder)
     return EvidenceState(
         trials=trial_verdicts(project, measured, recorded=recorded),
-        software=None if marked is None else project_tests(project.folder, project.requirements, marked, junit=junit),
+        software=None
+        if marked is None
+        else project_tests(project.folder, project.requirements, marked, requirement_folder=folder, junit=junit),
     )
 
 
@@ -81,20 +85,39 @@ def trial_verdicts(
     )
 
 
-def project_marks(folder: Path) -> tuple[MarkedTest, ...] | None:
-    """The marks on a project's own tests; None if it has none of its own.
+def project_marks(folder: Path, requirement_folder: str = REQUIREMENTS) -> tuple[MarkedTest, ...] | None:
+    """The marks on a project's own tests for one set of requirements; None if it has no tests of its own.
+
+    A mark names a requirement of a set other than the default by the folder's name and its id: ``bench/SYS-001``.
 
     Args:
         folder: The project's folder.
+        requirement_folder: The set, relative to the project.
 
     Raises:
         EvidenceError: A file of tests cannot be read.
     """
-    return marked_tests(folder, folder=TESTS) if (folder / TESTS).is_dir() else None
+    if not (folder / TESTS).is_dir():
+        return None
+    own = qualifier_of(requirement_folder)
+    others = tuple(qualifier_of(name) for name in named_sets(folder) if name != requirement_folder)
+    kept = []
+    for mark in marked_tests(folder, folder=TESTS):
+        names = tuple(
+            name.removeprefix(own) for name in mark.requirements if name.startswith(own) and not name.startswith(others)
+        )
+        if names:
+            kept.append(replace(mark, requirements=names))
+    return tuple(kept)
 
 
 def project_tests(
-    folder: Path, requirements: RequirementSet, marked: Sequence[MarkedTest], *, junit: Path | None = None
+    folder: Path,
+    requirements: RequirementSet,
+    marked: Sequence[MarkedTest],
+    *,
+    requirement_folder: str = REQUIREMENTS,
+    junit: Path | None = None,
 ) -> MappingProxyType[str, SoftwareEvidence]:
     """What a project's own tests say of each requirement that is verified by test.
 
@@ -102,6 +125,7 @@ def project_tests(
         folder: The project's folder.
         requirements: Its requirements.
         marked: The marks on its tests.
+        requirement_folder: The set that they are of, relative to the project.
         junit: The result of a run; the file that ``make test`` writes by default, which need not be there.
 
     Raises:
@@ -112,5 +136,13 @@ def project_tests(
     if junit is not None:
         report = read_junit(path)
     return MappingProxyType(
-        dict(software_evidence(requirements.system, marked, report, software=software_digest(folder)))
+        dict(
+            software_evidence(
+                requirements.system,
+                marked,
+                report,
+                software=software_digest(folder),
+                qualifier=qualifier_of(requirement_folder),
+            )
+        )
     )

@@ -17,6 +17,7 @@ from rgss.exchange.comparison import ChangeKind, ElementChange
 from rgss.exchange.content import part_of
 from rgss.exchange.files import read_bytes
 from rgss.requirements import RequirementSet
+from rgss.studies import REQUIREMENT_PARTS
 
 _KEYS: Mapping[Part, str] = {
     Part.STAKEHOLDER: "requirements",
@@ -158,8 +159,12 @@ def _emptied(requirements: RequirementSet, edits: Mapping[str, Sequence[Edit]]) 
 
 
 def _folder_of(name: str) -> str:
-    """The folder of a part that a file lies in, as ``requirements/system``; the file itself if it is the whole part."""
-    return "/".join(PurePosixPath(name).parts[:2])
+    """The folder of a part that a file lies in, as ``requirements/system``; the file itself if it is the whole part.
+
+    Of a set of its own this is ``requirements/NAME/system``.
+    """
+    folders = PurePosixPath(name).parts
+    return "/".join(folders[: 2 if folders[1] in REQUIREMENT_PARTS else 3])
 
 
 def _file_change(folder: Path, name: str, edits: Sequence[Edit]) -> FileChange:

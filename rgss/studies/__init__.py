@@ -13,14 +13,18 @@ if TYPE_CHECKING:
     from rgss.studies.impact_check import impact_findings
     from rgss.studies.input_names import CODE, named_inputs
     from rgss.studies.planning import PlanningChoice, planner_problem, read_parameter
-    from rgss.studies.project import (
+    from rgss.studies.project import EVIDENCE, Project, load_project
+    from rgss.studies.project_folders import (
         DEFAULT_STUDY,
-        EVIDENCE,
         FOLDERS,
-        Project,
+        REQUIREMENT_PARTS,
+        REQUIREMENTS,
         find_project,
-        load_project,
+        named_sets,
         project_of_study,
+        qualifier_of,
+        requirements_of_study,
+        studies_by_set,
     )
     from rgss.studies.promotion import Promotion, Screening
     from rgss.studies.regression import GuardedMetric, RegressionGuard, WatchedRun

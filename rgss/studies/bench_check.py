@@ -10,9 +10,13 @@ from rgss.findings import Finding, Severity
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 
+_BENCH_PAYLOAD = "trial.bench_payload_kg"
+
 
 def bench_findings(project: Project) -> Iterator[Finding]:
-    """Warn of every quantity of the study's designs for which the payload bench gives no answer.
+    """Tell of every quantity of the study's designs for which the payload bench gives no answer.
+
+    It is a warning where a measure takes the payload from the bench, and only noted where none does.
 
     Args:
         project: The project with its study.
@@ -29,12 +33,13 @@ def bench_findings(project: Project) -> Iterator[Finding]:
         for sentence in known[spec.gripper]:
             strange.setdefault(sentence, []).append(spec.variant)
     document = read_document(project.folder / project.study.label, label=project.study.label)
+    is_measured = any(symbol.source == _BENCH_PAYLOAD for symbol in project.measures.inputs)
     for sentence, variants in strange.items():
         yield document.finding(
             "study.bench-range",
             f"the payload bench gives no answer for {variants_text(variants)}: {sentence}",
             ("design_space",),
-            severity=Severity.WARNING,
+            severity=Severity.WARNING if is_measured else Severity.INFO,
             hint="bench_payload_kg is then missing, and with it every measure that depends on it",
         )
 

@@ -91,6 +91,7 @@ class StudyDocument(DocumentModel):
     """A study file; other files are named relative to the project."""
 
     study: Identifier
+    requirements: Text = "requirements"
     design_space: Text
     catalogue: Text
     scene: Text

@@ -16,6 +16,7 @@ from rgss.measures import MeasuresDocument
 from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.scenes import CalibrationDocument, GripperDocument, RobotDocument, SceneDocument
 from rgss.studies.document import StudyDocument
+from rgss.studies.project_folders import REQUIREMENT_PARTS, SINGLE_FILES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +82,7 @@ DOCUMENT_KINDS = (
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
 
-_OF_REQUIREMENTS = ("stakeholder", "system", "architecture", "measures", "rules", "reviews")
+_OF_REQUIREMENTS = (*REQUIREMENT_PARTS, *SINGLE_FILES)
 _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
     "designs": (("components", "catalogue"), ("parameters", "design-space")),
     "scenes": (("bodies", "scene"), ("joints", "robot"), ("azimuths", "gripper"), ("servos", "calibration")),
@@ -111,7 +112,9 @@ def kind_of(name: str, data: Any) -> DocumentKind | None:
     """
     folder, *rest = PurePosixPath(name).parts
     if folder == "requirements" and rest:
-        part = rest[0].removesuffix(".yaml")
+        # A file of a set of its own, as requirements/NAME/system.yaml, is what it would be in the default set.
+        inner = rest[1:] if len(rest) > 1 and rest[0] not in REQUIREMENT_PARTS else rest
+        part = inner[0].removesuffix(".yaml")
         return document_kind(part) if part in _OF_REQUIREMENTS else None
     keys = data if isinstance(data, dict) else {}
     found = next((kind for key, kind in _BY_KEY.get(folder, ()) if key in keys), None)

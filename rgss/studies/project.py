@@ -22,13 +22,11 @@ from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import source_findings
 from rgss.studies.measure_traces import measure_traces
 from rgss.studies.motion import motion_findings
+from rgss.studies.project_folders import DEFAULT_STUDY, REQUIREMENTS, measures_of, requirements_named
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings
 from rgss.trace import MeasureTrace, check_trace
 
-FOLDERS = ("requirements", "designs", "scenes", "studies")
-DEFAULT_STUDY = "studies/pick_place.yaml"
-MEASURES = "requirements/measures.yaml"
 EVIDENCE = ".rgss/evidence.sqlite"
 
 _UNDECIDABLE = ("trace.unknown-measure", "trace.criterion-unit")
@@ -42,7 +40,7 @@ class Project:
 
     Attributes:
         folder: The project's folder.
-        requirements: Needs, requirements, architecture.
+        requirements: Needs, requirements, architecture of the set that the study verifies.
         measures: The measures.
         designs: The design space with its catalogue.
         scene: The scene.
@@ -101,59 +99,6 @@ class Project:
         return replace(self, study=replace(self.study, replicates=replicates, is_sequential=False))
 
 
-def find_project(folder: Path | None) -> Path:
-    """The project's folder: the one given, or the nearest above this one that looks like a project.
-
-    Raises:
-        DefinitionError: There is none.
-    """
-    if folder is not None:
-        missing = [name for name in FOLDERS if not _is_folder(folder / name)]
-        if missing:
-            raise DefinitionError(
-                f"{str(folder)!r} is not a project: it has no folder {missing[0]}/",
-                hint=f"a project has {', '.join(f'{name}/' for name in FOLDERS)}",
-            )
-        return folder
-    here = Path.cwd()
-    for candidate in (here, *here.parents):
-        if all(_is_folder(candidate / name) for name in FOLDERS):
-            return candidate
-    raise DefinitionError("no project here or above", hint="go into a project or name it with --project DIR")
-
-
-def project_of_study(study: Path) -> tuple[Path, str]:
-    """The project that a study file lies in: the nearest folder above it that looks like one.
-
-    Args:
-        study: The file.
-
-    Returns:
-        The project's folder, and the file relative to it.
-
-    Raises:
-        DefinitionError: There is none.
-    """
-    try:
-        path = study.resolve()
-    except (OSError, ValueError, RuntimeError):  # a name that no file can have, a circle of links
-        path = study
-    for candidate in path.parents:
-        if all(_is_folder(candidate / name) for name in FOLDERS):
-            return candidate, path.relative_to(candidate).as_posix()
-    raise DefinitionError(
-        f"the study {str(study)!r} lies in no project",
-        hint=f"a project has {', '.join(f'{name}/' for name in FOLDERS)}",
-    )
-
-
-def _is_folder(path: Path) -> bool:
-    try:
-        return path.is_dir()
-    except OSError:  # a name that is too long, a folder that may not be searched
-        return False
-
-
 def load_project(folder: Path, study: str | None = None) -> Project:
     """Read a project and one of its studies, reporting the problems of all files at once.
 
@@ -187,9 +132,15 @@ class _Reader:
 
     def read(self, study_name: str | None) -> Project:
         folder = self._folder
-        requirements = self._try(lambda: load_requirements(folder / "requirements"))
-        measures = self._try(lambda: load_measures(folder / MEASURES, label=MEASURES))
         path, label = self._study_file(study_name)
+        try:
+            named_set = requirements_named(folder, read_document(path, label=label).data)
+        except DocumentError:
+            named_set = REQUIREMENTS  # so that what is wrong with those is told, too
+        requirements, measures = None, None
+        if named_set is not None:
+            requirements = self._try(lambda: load_requirements(folder / named_set, label_root=named_set))
+            measures = self._try(lambda: load_measures(folder / measures_of(named_set), label=measures_of(named_set)))
         study = self._try(lambda: read_study(path, measures, project=folder, label=label))
         # What the study names is read even if something else in the study is wrong.
         named = self._named_files(path, label)
@@ -207,11 +158,12 @@ class _Reader:
                 self._findings += uncertainty_findings(scene, study, written, grippers)
                 self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
                 self._findings += motion_findings(study.motion, study.rate_hz, written, designs, document, scene.robot)
-            if measures is not None:
-                document = read_document(folder / MEASURES, label=MEASURES)
+            if measures is not None and named_set is not None:
+                document = read_document(folder / measures_of(named_set), label=measures_of(named_set))
                 self._findings.extend(source_findings(measures.inputs, designs.source_units(), document))
         if (
-            requirements is None
+            named_set is None
+            or requirements is None
             or measures is None
             or study is None
             or designs is None
@@ -227,7 +179,9 @@ class _Reader:
             scene=scene,
             grippers=grippers,
             study=study,
-            measure_traces=measure_traces(measures, read_document(folder / MEASURES, label=MEASURES)),
+            measure_traces=measure_traces(
+                measures, read_document(folder / measures_of(named_set), label=measures_of(named_set))
+            ),
         )
         undecidable = _undecidable(project)
         if undecidable:

@@ -77,7 +77,8 @@ class _Places:
         self.at: dict[str, tuple[str | int, ...]] = {
             body.id: ("bodies", index, "foot") for index, body in enumerate(project.scene.bodies)
         }
-        self.at[project.scene.workpiece.id] = ("workpiece", "at")
+        self._workpiece = project.scene.workpiece.id
+        self.at[self._workpiece] = ("workpiece", "at")
 
     def finding(self, problem: SceneProblem, grippers: Sequence[str]) -> Finding:
         """A problem at the place of its first body, with the place of the other in the message."""
@@ -95,6 +96,9 @@ class _Places:
             of = f" with {', '.join(grippers)}" if grippers else ""
             message = f"no configuration of the arm{of} serves {problem.waypoint.value}: {problem.reason}{other}"
             hint = _remedy(problem)
+            if grippers and self._workpiece in pair:
+                # The object does not fit between its fingers, but does between another's: a result, not a mistake.
+                severity, hint = Severity.INFO, "designs with this gripper fail there, and the others do not"
         elif problem.kind is SceneProblemKind.HOME_COLLISION:
             message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"
             hint = "change 'home' in the robot's file, or move the body or the robot's base"

@@ -11,7 +11,7 @@ from rgss.documents import read_document, replaced_file
 from rgss.errors import DefinitionError, DocumentError
 from rgss.findings import Finding
 from rgss.studies.document_kinds import DOCUMENT_KINDS, DocumentKind, kind_of
-from rgss.studies.project import FOLDERS
+from rgss.studies.project_folders import FOLDERS
 
 SCHEMAS = "schemas"
 """The folder of a project that has its schemas."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePath
 
@@ -26,6 +26,7 @@ from rgss.studies.assumptions_section import StudyAssumption, read_assumptions
 from rgss.studies.document import StudyDocument
 from rgss.studies.motion import MotionChoice, read_motion
 from rgss.studies.planning import PlanningChoice, read_planning
+from rgss.studies.project_folders import folder_problem, normal_folder
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
@@ -59,6 +60,7 @@ class StudyDefinition:
     Attributes:
         id: Its name.
         label: Its file, relative to the project.
+        requirements: The folder of the requirements that it verifies, relative to the project.
         design_space: The design-space file, relative to the project, as are the next two.
         catalogue: The catalogue file.
         scene: The scene file.
@@ -84,6 +86,7 @@ class StudyDefinition:
 
     id: str
     label: str
+    requirements: str
     design_space: str
     catalogue: str
     scene: str
@@ -133,7 +136,7 @@ def read_study(
             and then what it says of them is not looked at.
         project: The project's folder, which the files that it names are relative to.
         label: The file's name in messages.
-        requirements: The project's requirements; read from its folder if the file names one and
+        requirements: The requirements that it verifies; read from their folder if the file names one and
             they are not given.
 
     Raises:
@@ -141,11 +144,7 @@ def read_study(
     """
     loaded = load_document(path, StudyDocument, label=label)
     entry, document = loaded.value, loaded.document
-    findings = list(
-        _file_findings(
-            document, {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}, project
-        )
-    )
+    findings = _file_findings(document, entry, project)
     if entry.physics.rate <= 0:
         findings.append(_not_positive(document, ("physics", "rate")))
     elif "contact" in entry.fidelity:
@@ -158,7 +157,9 @@ def read_study(
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings)
     workload = read_workload(entry.workload, document, findings)
     places = TradeOffPlaces(
-        document, measures, lambda: _requirements(project) if requirements is None else requirements
+        document,
+        measures,
+        lambda: _requirements(project / entry.requirements) if requirements is None else requirements,
     )
     trade_off = read_trade_off(entry.trade_off, places)
     findings.extend(places.findings)
@@ -167,6 +168,7 @@ def read_study(
     return StudyDefinition(
         id=entry.study,
         label=label,
+        requirements=normal_folder(entry.requirements),
         design_space=entry.design_space,
         catalogue=entry.catalogue,
         scene=entry.scene,
@@ -202,8 +204,12 @@ def named_file(project: Path, name: str) -> Path | None:
     return (project / name).resolve() if place_of(project / name, project) is FilePlace.INSIDE else None
 
 
-def _file_findings(document: Document, named: Mapping[str, str], project: Path) -> list[Finding]:
+def _file_findings(document: Document, entry: StudyDocument, project: Path) -> list[Finding]:
     findings = []
+    problem = folder_problem(project, entry.requirements)
+    if problem is not None:
+        findings.append(document.finding("study.requirements", problem[0], ("requirements",), hint=problem[1]))
+    named = {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}
     for key, name in named.items():
         place = place_of(project / name, project)
         if PurePath(name).is_absolute() or ".." in PurePath(name).parts or place is FilePlace.OUTSIDE:
@@ -224,10 +230,10 @@ def _file_findings(document: Document, named: Mapping[str, str], project: Path) 
     return findings
 
 
-def _requirements(project: Path) -> RequirementSet | None:
-    """The project's requirements; None if they cannot be read, which has a finding of its own."""
+def _requirements(folder: Path) -> RequirementSet | None:
+    """The requirements of a folder; None if they cannot be read, which has a finding of its own."""
     try:
-        return load_requirements(project / "requirements")
+        return load_requirements(folder)
     except DocumentError:
         return None
 

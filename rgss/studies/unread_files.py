@@ -15,10 +15,8 @@ from rgss.documents import DATA_FOLDERS, LARGEST_FILE_BYTES, open_regular, read_
 from rgss.errors import DocumentError
 from rgss.findings import Finding, Severity, shown
 from rgss.studies.document_kinds import document_kind
+from rgss.studies.project_folders import REQUIREMENT_PARTS, REQUIREMENTS, SINGLE_FILES, named_sets
 
-_REQUIREMENTS = "requirements"
-_PARTS = ("stakeholder", "system", "architecture")
-_SINGLE = ("measures", "rules", "reviews")
 _ENDINGS = (".yaml", ".yml")
 # Top-level keys by which a kind of document is recognised.
 _KIND_OF_KEY: Mapping[str, str] = {
@@ -69,22 +67,40 @@ def unread_findings(project: Path) -> tuple[Finding, ...]:
 
 
 def _of_requirements(project: Path) -> Iterator[Finding]:
-    folder = project / _REQUIREMENTS
-    for path in _documents(folder):
-        within = path.relative_to(folder)
-        first, *rest = within.parts
-        is_part = first in _PARTS and rest and (folder / first).is_dir()
-        is_file = not rest and path.suffix == ".yaml" and path.stem in (*_PARTS, *_SINGLE)
-        if is_part or is_file:
+    default, sets = project / REQUIREMENTS, named_sets(project)
+    complete = all(_data(study) is not None for study in _documents(project / "studies") if study.suffix == ".yaml")
+    for path in _documents(default):
+        folder = project / next((name for name in sets if path.is_relative_to(project / name)), REQUIREMENTS)
+        if _is_read(folder, path):
             continue  # `rgss.requirements` reads it, or says why not
-        yield _unread(project, path, _meant(project, path))
+        above = default / path.relative_to(default).parts[0]
+        meant = _meant(project, folder, path)
+        if folder == default and _is_set(above, path) and meant.count("/") < 2:
+            if complete:  # else the study that cannot be read may well name it
+                hint = f"name its folder in a study: 'requirements: {above.relative_to(project).as_posix()}'"
+                yield _finding(path.relative_to(project).as_posix(), Severity.WARNING, "nothing reads this file", hint)
+        else:
+            yield _unread(project, path, meant)
 
 
-def _meant(project: Path, path: Path) -> str:
+def _is_read(folder: Path, path: Path) -> bool:
+    """Whether a document is one of a set of requirements, by where it lies."""
+    first, *rest = path.relative_to(folder).parts
+    is_part = first in REQUIREMENT_PARTS and bool(rest) and (folder / first).is_dir()
+    return is_part or (not rest and path.suffix == ".yaml" and path.stem in (*REQUIREMENT_PARTS, *SINGLE_FILES))
+
+
+def _is_set(above: Path, path: Path) -> bool:
+    """Whether a document lies in a folder that could be a set of its own, were there a study that names it."""
+    return above.is_dir() and above != path and above.name not in REQUIREMENT_PARTS and _is_read(above, path)
+
+
+def _meant(project: Path, folder: Path, path: Path) -> str:
     """The name that a file of requirements should have; empty if that is anybody's guess."""
-    within = path.relative_to(project / _REQUIREMENTS)
+    place = folder.relative_to(project).as_posix()
+    within = path.relative_to(folder)
     first = within.parts[0] if len(within.parts) > 1 else _stem(within.name)
-    near = difflib.get_close_matches(first.lower(), (*_PARTS, *_SINGLE), n=1, cutoff=0.6)
+    near = difflib.get_close_matches(first.lower(), (*REQUIREMENT_PARTS, *SINGLE_FILES), n=1, cutoff=0.6)
     name = near[0] if near else ""
     if not name:
         kind = _kind(path)
@@ -93,19 +109,19 @@ def _meant(project: Path, path: Path) -> str:
         name = kind
     if not name:
         return ""
-    if name in _PARTS and (project / _REQUIREMENTS / name).is_dir():
-        return f"{_REQUIREMENTS}/{name}/{_stem(within.name)}.yaml"
-    return f"{_REQUIREMENTS}/{name}.yaml"
+    if name in REQUIREMENT_PARTS and (folder / name).is_dir():
+        return f"{place}/{name}/{_stem(within.name)}.yaml"
+    return f"{place}/{name}.yaml"
 
 
 def _of_other_folders(project: Path) -> Iterator[Finding]:
     named, complete = _named(project)
     for folder in DATA_FOLDERS:
-        if folder == _REQUIREMENTS:
+        if folder == REQUIREMENTS:
             continue
         for path in _documents(project / folder):
             kind = _kind(path)
-            home = _FOLDER_OF_KIND.get(kind, _REQUIREMENTS if kind else "")
+            home = _FOLDER_OF_KIND.get(kind, REQUIREMENTS if kind else "")
             if path.resolve() in named or (folder == "studies" == home and path.suffix == ".yaml"):
                 continue
             if path.suffix == ".yaml" and _data(path) is None:
@@ -117,8 +133,8 @@ def _of_other_folders(project: Path) -> Iterator[Finding]:
                 yield _finding(label, Severity.INFO, f"is a {kind} that no study names", "name it in a study")
             elif home == folder:
                 yield _unread(project, path, f"{folder}/{_stem(path.name)}.yaml")
-            elif home == _REQUIREMENTS:
-                yield _unread(project, path, f"{_REQUIREMENTS}/{kind}.yaml")
+            elif home == REQUIREMENTS:
+                yield _unread(project, path, f"{REQUIREMENTS}/{kind}.yaml")
             else:
                 yield _unread(project, path, f"{home}/{_stem(path.name)}.yaml" if home else "")
 
@@ -167,8 +183,8 @@ def _beside_folders(project: Path) -> Iterator[Finding]:
             first = next(iter(_documents(path)), None) if near else None
             if first is not None:
                 yield _unread(project, first, f"{near[0]}/{first.relative_to(path).as_posix()}")
-        elif path.suffix.lower() in _ENDINGS and path.stem.lower() in (*_PARTS, *_SINGLE):
-            yield _unread(project, path, f"{_REQUIREMENTS}/{path.stem.lower()}.yaml")
+        elif path.suffix.lower() in _ENDINGS and path.stem.lower() in (*REQUIREMENT_PARTS, *SINGLE_FILES):
+            yield _unread(project, path, f"{REQUIREMENTS}/{path.stem.lower()}.yaml")
 
 
 def _documents(folder: Path) -> Iterator[Path]:
@@ -259,9 +275,9 @@ def _unread(project: Path, path: Path, meant: str) -> Finding:
 
 
 def _places(label: str) -> str:
-    if label.startswith(f"{_REQUIREMENTS}/"):
-        parts = ", ".join(document_kind(name).id for name in (*_PARTS, *_SINGLE))
-        return f"{_REQUIREMENTS}/ has {parts}, each with the ending .yaml"
+    if label.startswith(f"{REQUIREMENTS}/"):
+        parts = ", ".join(document_kind(name).id for name in (*REQUIREMENT_PARTS, *SINGLE_FILES))
+        return f"{REQUIREMENTS}/ has {parts}, each with the ending .yaml"
     return "name it in a study, or remove it"
 
 

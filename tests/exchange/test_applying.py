@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rgss.errors import DefinitionError, DocumentError, StorageError
-from rgss.exchange.applying import rehearsed, written
+from rgss.exchange.applying import _folder_of, rehearsed, written
 from rgss.exchange.comparison import ChangeKind
 from rgss.exchange.content import Row
 from rgss.requirements import load_requirements
@@ -225,3 +225,16 @@ def test_the_last_file_of_a_part_stays(project):
     (file,) = [each for each in files if each.name == "requirements/system.yaml"]
     assert file.new is not None
     assert b"requirements: []" in file.new
+
+
+@pytest.mark.parametrize(
+    ("name", "folder"),
+    [
+        ("requirements/system/a.yaml", "requirements/system"),
+        ("requirements/system.yaml", "requirements/system.yaml"),
+        ("requirements/own/system/a.yaml", "requirements/own/system"),
+        ("requirements/own/system.yaml", "requirements/own/system.yaml"),
+    ],
+)
+def test_the_part_of_a_file_is_that_of_its_set(name, folder):
+    assert _folder_of(name) == folder

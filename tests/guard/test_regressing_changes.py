@@ -12,8 +12,8 @@ from rgss.guard import compare_with_baseline, make_baseline
 from rgss.physics import world
 from rgss.regression.comparing import Outcome
 from rgss.regression.input_changes import InputKind
-from rgss.studies import expansion
-from rgss.studies.project import FOLDERS, load_project
+from rgss.studies import FOLDERS, expansion
+from rgss.studies.project import load_project
 from rgss.sweep.running import sweep
 from rgss.trials.code import piece_versions as versions_module
 from rgss.trials.plants.control import ControlSettings

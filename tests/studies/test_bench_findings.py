@@ -53,3 +53,9 @@ def test_trials_without_contact_have_no_bench(folder):
     change(folder, "studies/pick_place.yaml", "fidelity: contact", "fidelity: kinematic")
     project = load_project(folder)
     assert tuple(bench_findings(project)) == ()
+
+
+def test_it_is_only_noted_where_no_measure_takes_the_payload_from_the_bench():
+    (finding,) = bench_findings(load_project(REPOSITORY, "studies/yumi_widget.yaml"))
+    assert finding.severity is Severity.INFO
+    assert "mass of a finger of 0.02 kg" in finding.message

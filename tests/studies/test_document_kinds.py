@@ -14,8 +14,8 @@ from pydantic import ValidationError
 from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.quantities import parse_quantity
+from rgss.studies import FOLDERS
 from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind, key_texts, kind_of
-from rgss.studies.project import FOLDERS
 from rgss.studies.scaffolding import write_scaffold
 from tests.fixtures.document_keys import possible_keys
 

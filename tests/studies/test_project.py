@@ -6,7 +6,8 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.findings import Severity
-from rgss.studies.project import find_project, load_project
+from rgss.studies import find_project
+from rgss.studies.project import load_project
 
 STUDY = "studies/pick_place.yaml"
 

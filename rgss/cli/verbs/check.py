@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -56,33 +57,74 @@ def _check(options: argparse.Namespace) -> int:
     from rgss.cli.command_parser import BAD_INPUT
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json
+    from rgss.findings import Severity
+    from rgss.studies import find_project, invisible_findings, unread_findings
+
+    folder = find_project(options.project)
+    checked = [_checked(folder, study, options) for study in _studies(folder, options)]
+    found = [finding for one in checked for finding in one.findings]
+    # A file that cannot be read may be one that something names.
+    broken = {finding.file for one in checked if one.project is None for finding in one.findings}
+    of_files = [*unread_findings(folder), *invisible_findings(folder)]
+    kept = [finding for finding in of_files if finding.file not in broken]
+    # Two studies may share a scene or a robot, and what is wrong with it is told once.
+    findings = list(dict.fromkeys([*found, *kept] if broken else [*kept, *found]))
+    grave = [finding for finding in findings if finding.severity is not Severity.INFO]
+    skipped = list(dict.fromkeys(one.skipped for one in checked if one.skipped))
+    if options.json:
+        print_json({"findings": [_as_json(finding) for finding in findings], "skipped": skipped})
+    else:
+        for finding in findings if options.all else grave:
+            print(finding)
+        for reason in skipped:
+            print(f"Skipped: {reason}.")
+        if not broken:
+            notes = 0 if options.all else len(findings) - len(grave)
+            print(_summary([one.project for one in checked if one.project is not None], len(grave), notes))
+    if broken:
+        return BAD_INPUT
+    return FINDINGS if grave else CLEAN
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Checked:
+    """What was found in one study: its project, or None if files of it cannot be used."""
+
+    project: Project | None
+    findings: tuple[Finding, ...]
+    skipped: str = ""
+
+
+def _studies(folder: Path, options: argparse.Namespace) -> tuple[str | None, ...]:
+    """The studies to check: the one that is named, else the default and one for each further set of requirements."""
+    from rgss.studies import DEFAULT_STUDY, REQUIREMENTS, studies_by_set
+
+    if options.study is not None:
+        return (options.study,)
+    by_set = studies_by_set(folder)
+    # The default study is loaded in any case: where it cannot be read, what is wrong with it is told.
+    told = {DEFAULT_STUDY} if DEFAULT_STUDY in by_set.values() else {by_set.get(REQUIREMENTS)}
+    return (None, *(study for study in by_set.values() if study not in told))
+
+
+def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _Checked:
     from rgss.decision.assumptions import assumption_findings
     from rgss.errors import DocumentError
-    from rgss.findings import Severity
     from rgss.guard import guard_findings
     from rgss.studies import (
         bench_findings,
         check_scene,
-        find_project,
         impact_findings,
-        invisible_findings,
         load_project,
         uncounted_mass_findings,
-        unread_findings,
         unused_findings,
     )
     from rgss.studies.robot_project import robot_findings
 
-    skipped = ""
-    folder = find_project(options.project)
-    of_files = (*unread_findings(folder), *invisible_findings(folder))
-    project: Project | None = None
     try:
-        project = load_project(folder, options.study)
+        project = load_project(folder, study)
         scene = check_scene(project)
-        skipped = scene.skipped
-        findings: Sequence[Finding] = (
-            *of_files,
+        findings = (
             *guard_findings(project),
             *unused_findings(project),
             *uncounted_mass_findings(project),
@@ -94,23 +136,8 @@ def _check(options: argparse.Namespace) -> int:
             *_findings(project, options),
         )
     except DocumentError as error:
-        # A file that cannot be read may be one that something names.
-        broken = {finding.file for finding in error.findings}
-        findings = (*error.findings, *(finding for finding in of_files if finding.file not in broken))
-    grave = [finding for finding in findings if finding.severity is not Severity.INFO]
-    if options.json:
-        print_json({"findings": [_as_json(finding) for finding in findings], "skipped": [skipped] if skipped else []})
-    else:
-        for finding in findings if options.all else grave:
-            print(finding)
-        if skipped:
-            print(f"Skipped: {skipped}.")
-        if project is not None:
-            notes = 0 if options.all else len(findings) - len(grave)
-            print(_summary(project, len(grave), notes))
-    if project is None:
-        return BAD_INPUT
-    return FINDINGS if grave else CLEAN
+        return _Checked(project=None, findings=tuple(error.findings))
+    return _Checked(project=project, findings=findings, skipped=scene.skipped)
 
 
 def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, ...]:
@@ -118,7 +145,7 @@ def _findings(project: Project, options: argparse.Namespace) -> tuple[Finding, .
     from rgss.cli.measured import measured_state
     from rgss.trace import check_trace
 
-    marked = project_marks(project.folder)
+    marked = project_marks(project.folder, project.study.requirements)
     if not options.evidence:
         return check_trace(project.requirements, project.measure_traces, marked=marked)
     # Without a store it is a finding of each requirement that its evidence is missing.
@@ -153,12 +180,14 @@ def _review(options: argparse.Namespace) -> int:
     from rgss.cli.output import print_json, shown_path
     from rgss.errors import DocumentError
     from rgss.requirements import load_requirements
-    from rgss.studies import find_project, without_consequences
+    from rgss.studies import find_project, requirements_of_study, without_consequences
     from rgss.trace.rules import expanded, stamped, write_reviews
 
-    folder = find_project(options.project) / "requirements"
+    project = find_project(options.project)
+    name = requirements_of_study(project, options.study)
+    folder = project / name
     try:
-        requirements = load_requirements(folder)
+        requirements = load_requirements(folder, label_root=name)
     except DocumentError as error:
         raise DocumentError(without_consequences(error.findings)) from error
     ids = expanded(requirements, options.review)
@@ -201,11 +230,17 @@ def _login_name() -> str:
         raise DefinitionError("the login name is not known", hint="give --reviewer NAME") from error
 
 
-def _summary(project: Project, grave: int, notes: int) -> str:
-    return (
+def _summary(projects: Sequence[Project], grave: int, notes: int) -> str:
+    held = [
         f"{len(project.requirements.stakeholder)} stakeholder and {len(project.requirements.system)} system "
-        f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants: "
-        f"{grave} finding{'' if grave == 1 else 's'}"
+        f"requirements, {len(project.measures.measures)} measures, {len(project.designs.expand())} variants"
+        for project in projects
+    ]
+    if len(projects) > 1:
+        held = [f"{project.study.label}: {one}" for project, one in zip(projects, held, strict=True)]
+    return (
+        "\n".join(held)
+        + f": {grave} finding{'' if grave == 1 else 's'}"
         + (f", {notes} note{'' if notes == 1 else 's'} (--all shows {'it' if notes == 1 else 'them'})" if notes else "")
     )
 

@@ -12,6 +12,7 @@ import numpy as np
 from rgss.documents import read_document
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
+from rgss.kinematics import lasting_contacts
 from rgss.scenes import Robot, mesh_summary
 from rgss.studies.motion import calibrated_at
 from rgss.studies.project import Project
@@ -32,7 +33,9 @@ def robot_findings(project: Project) -> tuple[Finding, ...]:
     scene = PurePosixPath(project.study.scene)
     robot = scene.parent / read_document(project.folder / scene, label=str(scene)).data["robot"]["description"]
     urdf = robot.parent / read_document(project.folder / robot, label=str(robot)).data["description"]
-    return (*description_findings(project.scene.robot, project.folder / urdf, str(urdf)), *_misfit_findings(project))
+    path = project.folder / urdf
+    found = description_findings(project.scene.robot, path, str(urdf))
+    return (*found, *unchecked_pairs(project.scene.robot, path, str(urdf)), *_misfit_findings(project))
 
 
 def _misfit_findings(project: Project) -> Iterator[Finding]:
@@ -48,6 +51,35 @@ def _misfit_findings(project: Project) -> Iterator[Finding]:
         message = f"the servo of joint {joint!r} misses part of the motion that it was calibrated on"
         hint = "record slower speeds, so that no torque limit is met"
         yield where.finding("study.misfit", message, place, hint=hint, severity=Severity.WARNING)
+
+
+def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
+    """Notes of the pairs of links that touch however the arm stands, and so are not checked against each other.
+
+    None without the engines, which find them.
+
+    Args:
+        robot: The arm.
+        urdf: Its URDF.
+        label: The URDF's name in messages.
+    """
+    try:
+        pairs = sorted(sorted(pair) for pair in lasting_contacts(robot))
+    except (ImportError, DefinitionError):
+        return ()
+    lines = urdf.read_text(encoding="utf-8-sig").splitlines()
+    return tuple(
+        Finding(
+            file=label,
+            line=next((at for at, line in enumerate(lines, start=1) if "<link" in line and f'"{first}"' in line), 1),
+            column=1,
+            rule="robot.unchecked-pair",
+            severity=Severity.INFO,
+            message=f"{first} and {second} touch however the arm stands, and are not checked against each other",
+            hint="make the collision shape of one of them smaller if they should be",
+        )
+        for first, second in pairs
+    )
 
 
 def description_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:

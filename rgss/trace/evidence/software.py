@@ -27,7 +27,8 @@ REQUIREMENT_PREFIX = "rgss.requirement."
 
 _LARGEST_BYTES = 256 * 1024 * 1024
 TESTED_FOLDERS = ("rgss", "tests", "designs", "scenes", "studies")
-TESTED_FILES = ("requirements.lock", "pyproject.toml", "requirements/measures.yaml")
+TESTED_FILES = ("requirements.lock", "pyproject.toml")
+MEASURES_FILE = "measures.yaml"
 _SUFFIXES = frozenset({".py", ".yaml", ".csv", ".urdf", ".json"})
 
 
@@ -86,6 +87,7 @@ def software_evidence(
     report: JUnitReport | None,
     *,
     software: str,
+    qualifier: str = "",
 ) -> Mapping[str, SoftwareEvidence]:
     """Join marks and results.
 
@@ -97,6 +99,7 @@ def software_evidence(
         marked: The marks in the source.
         report: The result of the last run; None if there is none.
         software: `software_digest` of the project as it is now.
+        qualifier: What stood before the ids when their digests were recorded, as in `run_properties`.
 
     Returns:
         The evidence of each requirement that is verified by test, or is inspected or demonstrated
@@ -119,7 +122,7 @@ def software_evidence(
                     for test, end in runs.get(mark.id, [(mark.id, None)])
                 ),
                 marks=tuple(marks.get(requirement.id, ())),
-                causes=() if report is None else tuple(_causes(requirement, report, software)),
+                causes=() if report is None else tuple(_causes(requirement, report, software, qualifier)),
             )
             for requirement in requirements
             if _is_tested(requirement, marks)
@@ -127,19 +130,20 @@ def software_evidence(
     )
 
 
-def run_properties(project: Path, requirements: Iterable[Requirement]) -> Mapping[str, str]:
+def run_properties(project: Path, requirements: Iterable[Requirement], *, qualifier: str = "") -> Mapping[str, str]:
     """Digests that a test run records, by which a later reader finds whether it still holds.
 
     Args:
         project: The project's folder.
-        requirements: Its system requirements.
+        requirements: System requirements of one set.
+        qualifier: What tells them from those of the default set, such as ``bench/``; empty for the default.
 
     Raises:
         EvidenceError: A file of the project cannot be read.
     """
     return {
         SOFTWARE: software_digest(project),
-        **{f"{REQUIREMENT_PREFIX}{one.id}": verification_digest(one) for one in requirements},
+        **{f"{REQUIREMENT_PREFIX}{qualifier}{one.id}": verification_digest(one) for one in requirements},
     }
 
 
@@ -179,6 +183,9 @@ def _text_digest(path: Path) -> bytes:
 
 def _tested(project: Path) -> list[Path]:
     found = [project / name for name in TESTED_FILES if (project / name).is_file()]
+    # Those of the default set, and those of each set in a folder of its own.
+    default = project / "requirements"
+    found += [path for path in (default / MEASURES_FILE, *default.glob(f"*/{MEASURES_FILE}")) if path.is_file()]
     for folder in TESTED_FOLDERS:
         found += [path for path in (project / folder).rglob("*") if path.suffix in _SUFFIXES and path.is_file()]
     return sorted(found)
@@ -193,9 +200,9 @@ def _is_tested(requirement: Requirement, marks: Mapping[str, object]) -> bool:
     return by_hand and requirement.criterion is None and requirement.id in marks
 
 
-def _causes(requirement: Requirement, report: JUnitReport, software: str) -> Iterable[StaleCause]:
+def _causes(requirement: Requirement, report: JUnitReport, software: str, qualifier: str) -> Iterable[StaleCause]:
     """Changes since the run; a run without recorded digests counts as current."""
-    noted = report.properties.get(f"{REQUIREMENT_PREFIX}{requirement.id}")
+    noted = report.properties.get(f"{REQUIREMENT_PREFIX}{qualifier}{requirement.id}")
     if noted is not None and noted != verification_digest(requirement):
         yield StaleCause.REQUIREMENT
     if report.properties.get(SOFTWARE, software) != software:

@@ -12,6 +12,7 @@ import pytest
 from rgss.errors import EvidenceError
 from rgss.measures import StaleCause, Verdict
 from rgss.requirements import load_requirements
+from rgss.studies import named_sets, qualifier_of
 from rgss.trace.evidence.digest import verification_digest
 from rgss.trace.evidence.evidence_state import EvidenceState
 from rgss.trace.evidence.junit_file import JUnitReport, RunTest, TestEnd, read_junit
@@ -174,7 +175,11 @@ def test_a_run_notes_its_marks_and_what_it_ran_on(tmp_path):
 
     report = read_junit(result)
     requirements = load_requirements(ROOT / "requirements").system
-    expected = run_properties(ROOT, requirements)
+    expected = dict(run_properties(ROOT, requirements))
+    for folder in named_sets(ROOT):
+        further = load_requirements(ROOT / folder).system
+        expected |= run_properties(ROOT, further, qualifier=qualifier_of(folder))
+    assert "rgss.requirement.yumi/SYS-01" in expected
     assert report.properties.keys() == expected.keys()
     assert {name: value for name, value in report.properties.items() if name != SOFTWARE}.items() <= expected.items()
     marked = {test.id: test.requirements for test in marked_tests(ROOT)}
