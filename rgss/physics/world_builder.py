@@ -20,6 +20,7 @@ from rgss.scenes import Gripper, PadLayout, Pose, Scene, assembled_urdf, finger_
 
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
+_LEAST_FRICTION = 1.0e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,6 +103,15 @@ class WorldBuilder:
             activationState=self.engine.ACTIVATION_STATE_DISABLE_SLEEPING,
             physicsClientId=self.client,
         )
+        if workpiece.rolling_resistance_m:
+            # The engine multiplies the length by the friction of the other body.
+            beneath = next(body.friction for body in self.scene.bodies if body.id == self.scene.support)
+            self.engine.changeDynamics(
+                body,
+                -1,
+                rollingFriction=workpiece.rolling_resistance_m / max(beneath, _LEAST_FRICTION),
+                physicsClientId=self.client,
+            )
         return body, principal
 
     @property

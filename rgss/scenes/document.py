@@ -113,6 +113,7 @@ class WorkpieceEntry(DocumentModel):
     density: KilogramsPerCubicMetre | None = None
     centre_of_mass: Point | None = None
     inertia: Inertia | None = None
+    rolling_resistance: Metres | None = None
     grasps: tuple[GivenGraspEntry, ...] = ()
     friction: Dimensionless
     force_limit: Newtons

@@ -118,6 +118,7 @@ def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, top_m: float, col
         centre_of_mass_m=z,
         centre_of_mass_across_m=(x, y),
         gyration_m2=solid.gyration_m2,
+        rolling_resistance_m=entry.rolling_resistance or 0.0,
         grasps=tuple(_given(grasp, solid.from_file) for grasp in entry.grasps),
         pose=pose,
         colour=colour,
@@ -150,6 +151,7 @@ def object_lengths(entry: WorkpieceEntry) -> Iterator[tuple[Location, float]]:
         ("workpiece", "mass"): entry.mass,
         ("workpiece", "density"): entry.density,
         ("workpiece", "scale"): entry.scale,
+        ("workpiece", "rolling_resistance"): entry.rolling_resistance,
     }
     if entry.cylinder is not None:
         values["workpiece", "cylinder", "radius"] = entry.cylinder.radius
@@ -179,6 +181,14 @@ def _form_findings(entry: WorkpieceEntry, document: Document) -> Iterable[Findin
     if entry.mesh is None and (entry.scale != 1.0 or entry.collision is not None):
         key = "scale" if entry.scale != 1.0 else "collision"
         yield document.finding("scene.shape", f"{key!r} is of a mesh alone", ("workpiece", key), hint="take it out")
+    is_round = entry.cylinder is not None or entry.radius is not None
+    if is_round and entry.rests is Rest.LYING and entry.rolling_resistance is None:
+        yield document.finding(
+            "scene.rolling",
+            f"object {entry.id!r} lies and would roll away",
+            ("workpiece", "rests"),
+            hint="give 'rolling_resistance', a length: 0.5 mm on wood or laminate",
+        )
     if entry.inertia is not None and entry.centre_of_mass is None:
         yield document.finding(
             "scene.mass", "'inertia' is about the centre of mass", ("workpiece", "inertia"), hint="add centre_of_mass"

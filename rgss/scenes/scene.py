@@ -60,6 +60,7 @@ class Workpiece:
         centre_of_mass_m: Height of its centre of mass above the centre of its shape.
         centre_of_mass_across_m: The same along the two other axes.
         gyration_m2: Its inertia about the centre of mass over its mass; None for that of the homogeneous shape.
+        rolling_resistance_m: Torque that resists its rolling on a surface over the normal force.
         grasps: The grasps that its file gives.
         pose: Transform of its shape's frame to the world at the start.
         colour: Colour in pictures.
@@ -75,6 +76,7 @@ class Workpiece:
     centre_of_mass_m: float = 0.0
     centre_of_mass_across_m: tuple[float, float] = (0.0, 0.0)
     gyration_m2: Gyration | None = None
+    rolling_resistance_m: float = 0.0
     grasps: tuple[GivenGrasp, ...] = ()
     pose: Pose
     colour: ColourRgba

@@ -8,6 +8,7 @@ from dataclasses import replace
 from rgss.evidence import Fidelity, Phase
 from rgss.physics import TorqueArm, open_world
 from rgss.scenes import grasp_opening_m
+from rgss.trials.chosen_grasp import with_chosen_grasp
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.execution import Execution
 from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
@@ -131,7 +132,9 @@ def execution_of(
     Raises:
         SimulationError: The physics engine cannot build the world.
     """
-    return execute(spec, cell_of(spec), timing, observer=observer, checkpoint=checkpoint)
+    cell = cell_of(spec)
+    results = execute(spec, cell, timing, observer=observer, checkpoint=checkpoint)
+    return with_chosen_grasp(results, cell.scene.task.grasp)
 
 
 def _with_quality(results: tuple[PhaseResult, ...], timing: TaskTiming) -> tuple[PhaseResult, ...]:

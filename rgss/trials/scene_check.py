@@ -10,7 +10,7 @@ from enum import Enum
 from rgss.kinematics import Overlap, Solid, overlaps
 from rgss.scenes import Box, GripperGeometry, Pose, Scene, Shape, Waypoint
 from rgss.trials.planning import GoalReason, unserved_waypoints
-from rgss.trials.workcell import Workcell
+from rgss.trials.workcell import Workcell, grasp_search_of
 
 TOUCHING_M = 1e-3
 """Bodies that overlap by no more are meant to touch: what a file states is rounded to millimetres."""
@@ -35,6 +35,7 @@ class SceneProblemKind(str, Enum):
     PLACE_UNSUPPORTED = "place_unsupported"
     HOME_COLLISION = "home_collision"
     UNSERVED = "unserved"
+    NO_GRASP = "no_grasp"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,6 +50,7 @@ class SceneProblem:
             where neither.
         waypoint: The waypoint that has no configuration; None for other problems.
         reason: Why it has none; None for other problems.
+        detail: Which filter rejected how many grasp candidates; empty for other problems.
     """
 
     kind: SceneProblemKind
@@ -57,6 +59,7 @@ class SceneProblem:
     distance_m: float = math.nan
     waypoint: Waypoint | None = None
     reason: GoalReason | None = None
+    detail: str = ""
 
 
 def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
@@ -68,19 +71,27 @@ def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
     return (*_furniture(scene), *_object(scene))
 
 
-def reach_problems(scene: Scene, geometry: GripperGeometry, *, clearance_m: float) -> tuple[SceneProblem, ...]:
+def reach_problems(
+    scene: Scene, geometry: GripperGeometry, *, clearance_m: float, friction: float = 0.0
+) -> tuple[SceneProblem, ...]:
     """Problems of the arm with a gripper: a collision at home, or a waypoint without a valid configuration.
 
     Args:
         scene: The scene.
         geometry: The gripper's shape.
         clearance_m: Distance that planned paths keep from everything.
+        friction: Coefficient of the pads, by which grasp candidates are chosen; not used where the grasp is stated.
 
     Raises:
         DefinitionError: The robot is ill defined.
     """
-    cell = Workcell(scene, geometry, clearance_m=clearance_m)
     found = []
+    if scene.task.candidates is not None:
+        search = grasp_search_of(scene, geometry, friction=friction, clearance_m=clearance_m)
+        scene = search.scene
+        if search.taken is None:
+            found.append(SceneProblem(kind=SceneProblemKind.NO_GRASP, first=scene.workpiece.id, detail=search.reasons))
+    cell = Workcell(scene, geometry, clearance_m=clearance_m)
     model = next(iter(cell.planning.values()))
     pair = model.nearest_pair(scene.robot.home_rad)
     if pair is not None and pair.distance_m < 0.0:
@@ -89,6 +100,8 @@ def reach_problems(scene: Scene, geometry: GripperGeometry, *, clearance_m: floa
                 kind=SceneProblemKind.HOME_COLLISION, first=pair.first, second=pair.second, distance_m=-pair.distance_m
             )
         )
+    if any(problem.kind is SceneProblemKind.NO_GRASP for problem in found):
+        return tuple(found)
     found += [
         SceneProblem(kind=SceneProblemKind.UNSERVED, first=scene.workpiece.id, waypoint=waypoint, reason=reason)
         for waypoint, reason in unserved_waypoints(cell).items()

@@ -170,13 +170,15 @@ class _Builder:
         frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction * workpiece.friction))
         for own, (name, friction) in itertools.product(names, frictions.items()):
             sliding = _number(friction)
+            rolls = workpiece.rolling_resistance_m > 0.0 and name.startswith("scene:")
+            rolling = _number(workpiece.rolling_resistance_m) if rolls else "0"
             pair = {
                 "geom1": name,
                 "geom2": own,
                 # Sliding friction alone: nothing in a scene has coefficients of spinning and rolling. A twist is
                 # withstood by the two ends of each line of contact.
-                "condim": "3",
-                "friction": f"{sliding} {sliding} 0 0 0",
+                "condim": "6" if rolls else "3",
+                "friction": f"{sliding} {sliding} 0 {rolling} {rolling}",
                 **self._stiffness,
                 # The fastest that the engine allows.
                 "solreffriction": f"{_number(2 * self._settings.step_s)} 1",

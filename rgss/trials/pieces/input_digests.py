@@ -139,9 +139,10 @@ def physics_inputs(scene: Scene) -> dict[str, Any]:
 
 def _stated_inertia(workpiece: Workpiece) -> dict[str, Any]:
     """Mass properties other than those of a homogeneous shape."""
-    if workpiece.gyration_m2 is None and not any(workpiece.centre_of_mass_across_m):
+    if workpiece.gyration_m2 is None and not any((*workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m)):
         return {}
-    return {"inertia": [workpiece.gyration_m2, workpiece.centre_of_mass_across_m]}
+    stated = [workpiece.gyration_m2, workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m]
+    return {"inertia": stated}
 
 
 def _choice_digest(conditions: Conditions) -> tuple[str, ...]:
