@@ -209,7 +209,9 @@ def _clipped(triangle: Array, window: tuple[float, float, float, float]) -> Arra
 
 def rotation_of(pose: Pose) -> Array:
     """Rotation matrix of a pose, shape (3, 3)."""
-    return np.array([pose.rotate(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]).T
+    columns = [pose.rotate(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    axes: Array = np.array(columns).T
+    return axes
 
 
 @lru_cache(maxsize=64)

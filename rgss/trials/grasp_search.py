@@ -10,7 +10,7 @@ from enum import Enum
 from typing import Protocol
 
 from rgss.evidence import Phase
-from rgss.grasping.candidates import RankedGrasp, RankedGrasps, Unfit, ranked_grasps, symmetric_turns
+from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, symmetric_turns
 from rgss.kinematics import Arm, CollisionModel, inverse_kinematics, straight_line
 from rgss.scenes import GraspCandidates, GripperGeometry, Scene, TakenGrasp, Waypoint, waypoint_poses
 
@@ -66,8 +66,9 @@ class GraspSearch:
     @property
     def reasons(self) -> str:
         """What rejected how many, in one line."""
-        counts: dict[Unfit | Rejection, int] = {**self.ranked.unfit, **self.rejected}
-        return ", ".join(f"{reason.value}: {count}" for reason, count in counts.items())
+        counts = [(reason.value, count) for reason, count in self.ranked.unfit.items()]
+        counts += [(reason.value, count) for reason, count in self.rejected.items()]
+        return ", ".join(f"{reason}: {count}" for reason, count in counts)
 
 
 def search_grasp(
