@@ -12,6 +12,8 @@ from rgss.documents.fields import (
     JointQuantity,
     JointSpeed,
     Kilograms,
+    KilogramsPerCubicMetre,
+    KilogramSquareMetres,
     Metres,
     MetresPerSecond,
     MetresPerSecondSquared,

@@ -107,6 +107,8 @@ def _check_unit(text: str) -> str:
 
 Metres = Annotated[float, BeforeValidator(_reader_of("m")), _schema("m")]
 Kilograms = Annotated[float, BeforeValidator(_reader_of("kg")), _schema("kg")]
+KilogramsPerCubicMetre = Annotated[float, BeforeValidator(_reader_of("kg/m**3")), _schema("kg/m**3")]
+KilogramSquareMetres = Annotated[float, BeforeValidator(_reader_of("kg*m**2")), _schema("kg*m**2")]
 Seconds = Annotated[float, BeforeValidator(_reader_of("s")), _schema("s")]
 Newtons = Annotated[float, BeforeValidator(_reader_of("N")), _schema("N")]
 NewtonMetres = Annotated[float, BeforeValidator(_reader_of("N*m")), _schema("N*m")]

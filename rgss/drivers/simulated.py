@@ -10,7 +10,7 @@ from rgss.drivers.driver import Estimate, GripperState, SetPoint
 from rgss.errors import DriverError
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene
+from rgss.scenes import Gripper, Scene, grasp_opening_m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,8 +79,10 @@ class SimulatedDriver:
         self._machine = TorqueArm(scene.robot, gripper, self._settings, gravity_m_s2=scene.gravity_m_s2)
         self._machine.reset(self._start_rad, 0.0)
         opening_m = gripper.geometry.largest_opening_m
-        held = workpiece_load(scene.workpiece, gripper.geometry.grasp_centre)
-        loaded = gripper_loads(gripper, scene.workpiece.shape.radius_m)
+        self._held = None if scene.grasp_in_object is None else scene.grasp_in_object.inverse()
+        centre = gripper.geometry.grasp_centre if self._held is None else gripper.geometry.grasp_centre @ self._held
+        held = workpiece_load(scene.workpiece, centre)
+        loaded = gripper_loads(gripper, grasp_opening_m(scene, gripper.geometry))
         self._empty = ArmDynamics(scene.robot, gripper_loads(gripper, opening_m), gravity_m_s2=scene.gravity_m_s2)
         self._loaded = ArmDynamics(scene.robot, (*loaded, held), gravity_m_s2=scene.gravity_m_s2)
 
@@ -100,9 +102,9 @@ class SimulatedDriver:
         if point.gripper is not was:
             if point.gripper is GripperState.CLOSED:
                 geometry = self._gripper.geometry
-                travel_m = geometry.largest_opening_m - self._scene.workpiece.shape.radius_m
+                travel_m = geometry.largest_opening_m - grasp_opening_m(self._scene, geometry)
                 machine.hold_fingers(min(geometry.stroke_m, travel_m))
-                machine.attach(self._scene.workpiece)
+                machine.attach(self._scene.workpiece, self._held)
             elif was is GripperState.CLOSED:
                 machine.detach()
                 machine.hold_fingers(0.0)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.kinematics.description import build_model, transform
-from rgss.scenes import Box, Cylinder, Gripper, Pose, Robot, Workpiece
+from rgss.scenes import Cylinder, Gripper, Pose, Robot, Workpiece, principal_frame, solid_moments
 
 Vector = NDArray[np.float64]
 
@@ -39,13 +39,13 @@ def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
     geometry = gripper.geometry
     base = Load(
         mass_kg=gripper.base_mass_kg,
-        moments_kg_m2=_solid_cylinder(geometry.base, gripper.base_mass_kg),
+        moments_kg_m2=solid_moments(geometry.base, gripper.base_mass_kg),
         pose=geometry.base_pose,
     )
     fingers = (
         Load(
             mass_kg=gripper.finger_mass_kg,
-            moments_kg_m2=_solid_box(geometry.finger, gripper.finger_mass_kg),
+            moments_kg_m2=solid_moments(geometry.finger, gripper.finger_mass_kg),
             pose=geometry.finger_pose(finger, opening_m),
         )
         for finger in range(geometry.fingers)
@@ -60,7 +60,13 @@ def workpiece_load(workpiece: Workpiece, pose: Pose) -> Load:
         workpiece: What is held.
         pose: Transform of its shape's frame to the flange.
     """
-    return Load(mass_kg=workpiece.mass_kg, moments_kg_m2=_solid_cylinder(workpiece.shape, workpiece.mass_kg), pose=pose)
+    if isinstance(workpiece.shape, Cylinder) and workpiece.gyration_m2 is None:
+        # What an arm's controller believes of a cylinder has its centre of mass in the middle.
+        return Load(
+            mass_kg=workpiece.mass_kg, moments_kg_m2=solid_moments(workpiece.shape, workpiece.mass_kg), pose=pose
+        )
+    frame, moments = principal_frame(workpiece)
+    return Load(mass_kg=workpiece.mass_kg, moments_kg_m2=moments, pose=pose @ frame)
 
 
 class ArmDynamics:
@@ -117,13 +123,3 @@ class ArmDynamics:
             q: Joint positions, shape (n,).
         """
         return float(self._engine.computePotentialEnergy(self._model, self._data, np.asarray(q, dtype=float)))
-
-
-def _solid_cylinder(shape: Cylinder, mass_kg: float) -> tuple[float, float, float]:
-    across = mass_kg * (3 * shape.radius_m**2 + shape.height_m**2) / 12
-    return across, across, mass_kg * shape.radius_m**2 / 2
-
-
-def _solid_box(shape: Box, mass_kg: float) -> tuple[float, float, float]:
-    x, y, z = shape.size_m
-    return mass_kg * (y**2 + z**2) / 12, mass_kg * (x**2 + z**2) / 12, mass_kg * (x**2 + y**2) / 12

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +17,10 @@ from rgss.scenes import (
     Box,
     ConvexPart,
     GripperGeometry,
+    LyingCylinder,
+    MeshShape,
+    ObjectShape,
+    Pose,
     Robot,
     Scene,
     Shape,
@@ -80,9 +86,16 @@ def collision_parts(
         parts.append(held(finger_link(finger), transform(pose), gripper.finger))
     workpiece = scene.workpiece
     if situation.carried is not None:
-        parts.append(held(workpiece.id, transform(gripper.grasp_centre @ situation.carried), workpiece.shape))
+        carried = gripper.grasp_centre @ situation.carried
+        parts += [
+            Part(name=workpiece.id, chain=joint, joint=joint, placement=to_joint * transform(carried @ at), shape=solid)
+            for solid, at in object_solids(workpiece.shape)
+        ]
     if situation.standing is not None:
-        parts.append(fixed(workpiece.id, transform(situation.standing), workpiece.shape))
+        parts += [
+            Part(name=workpiece.id, chain=None, joint=0, placement=transform(situation.standing @ at), shape=solid)
+            for solid, at in object_solids(workpiece.shape)
+        ]
     parts.extend(fixed(body.id, transform(body.pose), body.shape) for body in scene.bodies)
     return tuple(parts)
 
@@ -121,20 +134,39 @@ def arm_parts(model: Any, robot: Robot) -> list[Part]:
 
 
 def _convex_part(model: Any, part: ConvexPart) -> Part:
-    import coal
     import pinocchio
 
     frame = model.frames[model.getFrameId(part.link, pinocchio.FrameType.BODY)]
-    corners = coal.StdVec_Vec3s()
-    for vertex in part.vertices_m:
-        corners.append(np.array(vertex))
     return Part(
         name=part.link,
         chain=frame.parentJoint,
         joint=frame.parentJoint,
         placement=frame.placement * transform(part.pose),
-        shape=coal.ConvexBase.convexHull(corners, _KEEP_TRIANGLES, "Qt"),
+        shape=_hull(part.vertices_m),
     )
+
+
+def _hull(vertices_m: Iterable[tuple[float, float, float]]) -> Any:
+    import coal
+
+    corners = coal.StdVec_Vec3s()
+    for vertex in vertices_m:
+        corners.append(np.array(vertex))
+    return coal.ConvexBase.convexHull(corners, _KEEP_TRIANGLES, "Qt")
+
+
+def object_solids(shape: ObjectShape) -> tuple[tuple[Any, Pose], ...]:
+    """The collision engine's solids of the object, each with its place in the object's frame.
+
+    Args:
+        shape: The object's shape.
+    """
+    if isinstance(shape, MeshShape):
+        return tuple((_hull(part), Pose()) for part in shape.parts_m)
+    if isinstance(shape, LyingCylinder):
+        along_x = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
+        return ((solid_of(shape.upright), along_x),)
+    return ((solid_of(shape), Pose()),)
 
 
 def solid_of(shape: Shape) -> Any:

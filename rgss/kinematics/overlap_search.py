@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rgss.kinematics.description import transform
-from rgss.kinematics.geometry import solid_of
-from rgss.scenes import Pose, Shape
+from rgss.kinematics.geometry import object_solids
+from rgss.scenes import ObjectShape, Pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,7 +22,7 @@ class Solid:
     """
 
     name: str
-    shape: Shape
+    shape: ObjectShape
     pose: Pose
 
 
@@ -52,10 +52,13 @@ def overlaps(solids: Sequence[Solid], *, deeper_than_m: float) -> tuple[Overlap,
 
     placed = []
     for one in solids:
-        placement = transform(one.pose)
-        placed.append((one.name, solid_of(one.shape), coal.Transform3s(placement.rotation, placement.translation)))
+        for solid, at in object_solids(one.shape):
+            placement = transform(one.pose @ at)
+            placed.append((one.name, solid, coal.Transform3s(placement.rotation, placement.translation)))
     found = []
     for (first, shape, place), (second, other, there) in itertools.combinations(placed, 2):
+        if first == second:
+            continue
         result = coal.DistanceResult()
         depth = -float(coal.distance(shape, place, other, there, coal.DistanceRequest(), result))
         if depth > deeper_than_m:

@@ -1,4 +1,4 @@
-"""Bodies of one primitive shape in a physics client."""
+"""Bodies of a physics client: fixed ones of one primitive shape, and the object."""
 
 from __future__ import annotations
 
@@ -6,7 +6,22 @@ import math
 from typing import Any
 
 from rgss.errors import SimulationError
-from rgss.scenes import Box, Pose, Shape
+from rgss.physics.engine import load_urdf_text
+from rgss.scenes import (
+    Box,
+    Cylinder,
+    LyingCylinder,
+    MeshShape,
+    Pose,
+    Shape,
+    Workpiece,
+    convex_link_urdf,
+    principal_frame,
+)
+
+_MARGIN_M = 1.0e-5
+_HALF_TURN = math.sqrt(0.5)
+_ALONG_X = (0.0, _HALF_TURN, 0.0, _HALF_TURN)
 
 
 def add_body(
@@ -43,6 +58,69 @@ def add_body(
     if body < 0:
         raise SimulationError("the physics engine refused a body", hint="check its sizes")
     return body
+
+
+def add_object(engine: Any, client: int, workpiece: Workpiece) -> tuple[int, Pose]:
+    """Add the object with its mass properties.
+
+    Args:
+        engine: The engine's module.
+        client: The physics client.
+        workpiece: The object.
+
+    Returns:
+        The engine's number of it, and the transform of its principal axes, whose pose the engine reports, to the frame
+        of its shape.
+
+    Raises:
+        SimulationError: The engine refuses it.
+    """
+    shape, mass_kg, pose = workpiece.shape, workpiece.mass_kg, workpiece.pose
+    at_m = (*workpiece.centre_of_mass_across_m, workpiece.centre_of_mass_m)
+    if isinstance(shape, Cylinder) and workpiece.gyration_m2 is None and not any(at_m[:2]):
+        body = add_body(engine, client, shape, pose, mass_kg, centre_of_mass_m=at_m[2])
+        return body, Pose(position_m=at_m)
+    frame, moments = principal_frame(workpiece)
+    if isinstance(shape, MeshShape):
+        body = load_urdf_text(
+            client,
+            convex_link_urdf(workpiece.id, shape.parts_m, mass_kg=mass_kg, moments_kg_m2=moments, principal=frame),
+            position=pose.position_m,
+            orientation=pose.quaternion_xyzw,
+            flags=engine.URDF_USE_INERTIA_FROM_FILE,
+            is_fixed=False,
+        )
+        engine.changeDynamics(body, -1, collisionMargin=_MARGIN_M, physicsClientId=client)
+    else:
+        solid = _lying(engine, client, shape) if isinstance(shape, LyingCylinder) else _shape(engine, client, shape)
+        body = int(
+            engine.createMultiBody(
+                mass_kg,
+                solid,
+                -1,
+                pose.position_m,
+                pose.quaternion_xyzw,
+                baseInertialFramePosition=frame.position_m,
+                baseInertialFrameOrientation=frame.quaternion_xyzw,
+                physicsClientId=client,
+            )
+        )
+    if body < 0:
+        raise SimulationError("the physics engine refused the object", hint="check its sizes")
+    engine.changeDynamics(body, -1, localInertiaDiagonal=moments, physicsClientId=client)
+    return body, frame
+
+
+def _lying(engine: Any, client: int, shape: LyingCylinder) -> int:
+    return int(
+        engine.createCollisionShape(
+            engine.GEOM_CYLINDER,
+            radius=shape.radius_m,
+            height=shape.length_m,
+            collisionFrameOrientation=_ALONG_X,
+            physicsClientId=client,
+        )
+    )
 
 
 def _shape(engine: Any, client: int, shape: Shape) -> int:

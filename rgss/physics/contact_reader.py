@@ -23,7 +23,7 @@ class ContactReader:
         finger_links: Sequence[int],
         link_names: Mapping[int, str],
         scene_names: Mapping[int, str],
-        centre_of_mass_m: float = 0.0,
+        principal: Pose | None = None,
     ) -> None:
         """Register the engine's numbers of bodies and links.
 
@@ -35,10 +35,11 @@ class ContactReader:
             finger_links: The link of each finger.
             link_names: Names of the robot's links.
             scene_names: Names of the scene's bodies.
-            centre_of_mass_m: Height of the workpiece's centre of mass, which the engine knows, above the centre of
-                its shape, from which positions are told.
+            principal: Transform of the workpiece's principal axes, whose pose the engine reports, to the frame of its
+                shape, in which positions are given; None where they are the same.
         """
-        self._centre_of_mass_m = centre_of_mass_m
+        self._principal = Pose() if principal is None else principal
+        self._is_turned = self._principal.quaternion_xyzw != Pose().quaternion_xyzw
         self._engine = engine
         self._client = client
         self._robot = robot
@@ -120,8 +121,12 @@ class ContactReader:
         found = []
         transform = self._workpiece_pose_before(step_s).inverse()
         tx, ty, tz = transform.position_m
-        if self._centre_of_mass_m:
-            tz += self._centre_of_mass_m
+        cx, cy, cz = self._principal.position_m
+        if self._is_turned:
+            transform = self._principal @ transform
+            tx, ty, tz = transform.position_m
+        elif cx or cy or cz:
+            tx, ty, tz = tx + cx, ty + cy, tz + cz
         for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
             bodies = (point[1], point[2])
             if self._workpiece not in bodies or self._robot not in bodies or point[9] <= 0.0:

@@ -71,8 +71,10 @@ class ClientOwner:
             self._client = -1
 
 
-def load_urdf_text(client: int, text: str, *, position: Any, orientation: Any, flags: int) -> int:
-    """Load a fixed-base URDF from its text; the engine itself reads files only.
+def load_urdf_text(
+    client: int, text: str, *, position: Any, orientation: Any, flags: int, is_fixed: bool = True
+) -> int:
+    """Load a URDF, with a fixed base by default, from its text; the engine itself reads files only.
 
     Raises:
         SimulationError: The engine could not read the description.
@@ -90,7 +92,7 @@ def load_urdf_text(client: int, text: str, *, position: Any, orientation: Any, f
         with _engine_output() as output:
             try:
                 body = module.loadURDF(
-                    name, position, orientation, useFixedBase=True, flags=flags, physicsClientId=client
+                    name, position, orientation, useFixedBase=is_fixed, flags=flags, physicsClientId=client
                 )
             except module.error as error:
                 reasons = _reported_errors(output) or str(error)

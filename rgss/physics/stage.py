@@ -21,6 +21,9 @@ from rgss.scenes import (
     Box,
     Cylinder,
     Gripper,
+    LyingCylinder,
+    MeshShape,
+    ObjectShape,
     Pose,
     Scene,
     Shape,
@@ -87,8 +90,11 @@ class Stage:
             workpiece = scene.workpiece
             self._half_sizes: dict[int, tuple[float, float, float]] = {}
             self._poses: dict[int, Pose] = {}
-            self._workpiece = self._add(self.moving, cup_surface(workpiece.shape), workpiece.pose, workpiece.colour)
-            self._half_sizes[self._workpiece] = _half_size(workpiece.shape)
+            self._workpiece = []
+            for surface, at, half in _object_surfaces(workpiece.shape):
+                part = self._add(self.moving, surface, workpiece.pose @ at, workpiece.colour)
+                self._workpiece.append((part, at))
+                self._half_sizes[part] = half
             self._add_robot()
         except BaseException:
             self.close()
@@ -105,7 +111,8 @@ class Stage:
         joints = (*self._arm_joints, *self._finger_joints)
         for joint, position in zip(joints, (*posture.joints_rad, *posture.finger_travel_m), strict=True):
             engine.resetJointState(self._robot, joint, position, physicsClientId=self._machine)
-        self._place(self._workpiece, posture.workpiece)
+        for part, at in self._workpiece:
+            self._place(part, posture.workpiece @ at)
         for part, link, pose in self._parts:
             self._place(part, self._link_pose(link) @ pose)
 
@@ -212,6 +219,18 @@ class Stage:
             return self._scene.robot.base
         state = self._engine.getLinkState(self._robot, link, computeForwardKinematics=1, physicsClientId=self._machine)
         return Pose(position_m=tuple(state[4]), quaternion_xyzw=tuple(state[5]))
+
+
+def _object_surfaces(shape: ObjectShape) -> list[tuple[Surface, Pose, tuple[float, float, float]]]:
+    """Surfaces of the object, each with its place in the object's frame and its half sizes; a cylinder is a cup."""
+    if isinstance(shape, MeshShape):
+        return [(hull_surface(part), Pose(), _half_extent(part)) for part in shape.parts_m]
+    if isinstance(shape, LyingCylinder):
+        along_x = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
+        return [(cylinder_surface(shape.upright), along_x, _half_size(shape.upright))]
+    if isinstance(shape, Box):
+        return [(box_surface(shape), Pose(), _half_size(shape))]
+    return [(cup_surface(shape), Pose(), _half_size(shape))]
 
 
 def _surface(shape: Shape) -> Surface:

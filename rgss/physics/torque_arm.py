@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from rgss.errors import SimulationError
+from rgss.physics.bodies import add_object
 from rgss.physics.engine import ClientOwner, load_urdf_text
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Gripper, Pose, Robot, Workpiece, assembled_urdf, finger_joint
@@ -59,21 +61,22 @@ class TorqueArm(ClientOwner):
             physicsClientId=self._client,
         )
 
-    def attach(self, workpiece: Workpiece) -> None:
-        """Fix a workpiece to the flange, its centre on the grasp centre; it has mass but no shape to touch."""
+    def attach(self, workpiece: Workpiece, held: Pose | None = None) -> None:
+        """Fix a workpiece to the flange; it has mass but no shape to touch.
+
+        Args:
+            workpiece: The workpiece.
+            held: Transform of it to the grasp-centre frame; None for its centre on the grasp centre.
+        """
         flange = self._engine.getLinkState(
             self._body, self._flange, computeForwardKinematics=1, physicsClientId=self._client
         )
-        pose = Pose(position_m=tuple(flange[4]), quaternion_xyzw=tuple(flange[5])) @ self._grasp_centre
-        shape = self._engine.createCollisionShape(
-            self._engine.GEOM_CYLINDER,
-            radius=workpiece.shape.radius_m,
-            height=workpiece.shape.height_m,
-            physicsClientId=self._client,
-        )
-        self._held = self._engine.createMultiBody(
-            workpiece.mass_kg, shape, -1, pose.position_m, pose.quaternion_xyzw, physicsClientId=self._client
-        )
+        centre = self._grasp_centre if held is None else self._grasp_centre @ held
+        pose = Pose(position_m=tuple(flange[4]), quaternion_xyzw=tuple(flange[5])) @ centre
+        # In the hand as the controller believes it, a cylinder has its centre of mass in the middle.
+        placed = replace(workpiece, centre_of_mass_m=0.0) if held is None else workpiece
+        self._held, principal = add_object(self._engine, self._client, replace(placed, pose=pose))
+        bonded = centre @ principal
         self._engine.setCollisionFilterGroupMask(self._held, -1, 0, 0, physicsClientId=self._client)
         self._engine.changeDynamics(self._held, -1, linearDamping=0.0, angularDamping=0.0, physicsClientId=self._client)
         self._bond = self._engine.createConstraint(
@@ -83,8 +86,9 @@ class TorqueArm(ClientOwner):
             -1,
             self._engine.JOINT_FIXED,
             [0, 0, 0],
-            self._grasp_centre.position_m,
+            bonded.position_m,
             [0, 0, 0],
+            *((bonded.quaternion_xyzw,) if held is not None else ()),
             physicsClientId=self._client,
         )
 

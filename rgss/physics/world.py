@@ -64,7 +64,9 @@ class World(ClientOwner):
             )
             builder.set_parameters()
             self._scene_names = builder.add_scene()
-            self._workpiece = builder.add_workpiece()
+            self._workpiece, self._principal = builder.add_workpiece()
+            self._is_offset = self._principal != Pose()
+            self._shape_in_principal = self._principal.inverse()
             self._robot = builder.add_robot()
             self._index_robot(builder)
         except self._engine.error as error:
@@ -243,9 +245,9 @@ class World(ClientOwner):
     def _workpiece_at(self) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
         """Position and orientation of the workpiece's shape; the engine knows its centre of mass."""
         found, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
-        height_m = self.scene.workpiece.centre_of_mass_m
-        if height_m:
-            found = (Pose(position_m=found, quaternion_xyzw=turned) @ Pose(position_m=(0.0, 0.0, -height_m))).position_m
+        if self._is_offset:
+            pose = Pose(position_m=found, quaternion_xyzw=turned) @ self._shape_in_principal
+            return pose.position_m, pose.quaternion_xyzw
         return found, turned
 
     def _rediscover(self, body: int, link: int) -> None:
@@ -269,6 +271,6 @@ class World(ClientOwner):
             finger_links=self._finger_joints,
             link_names=index.link_names,
             scene_names=self._scene_names,
-            centre_of_mass_m=self.scene.workpiece.centre_of_mass_m,
+            principal=self._principal,
         )
         builder.set_robot_dynamics(self._robot, index)

@@ -13,13 +13,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from rgss.errors import SimulationError
-from rgss.physics.bodies import add_body
+from rgss.physics.bodies import add_body, add_object
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import RIBS, Gripper, Scene, assembled_urdf, finger_joint, pad_ribs
+from rgss.scenes import Gripper, PadLayout, Pose, Scene, assembled_urdf, finger_joint, most_elements, pad_layouts
 
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
+_LEAST_FRICTION = 1.0e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,18 +84,15 @@ class WorldBuilder:
             names[number] = body.id
         return names
 
-    def add_workpiece(self) -> int:
-        """Add the workpiece; the result is its number."""
+    def add_workpiece(self) -> tuple[int, Pose]:
+        """Add the workpiece; its number, and the transform of its principal axes to its shape."""
         workpiece = self.scene.workpiece
         if not 0.0 < workpiece.mass_kg < math.inf:
             # A body without mass would be static.
             raise SimulationError(
                 f"the workpiece cannot have the mass {workpiece.mass_kg} kg", hint="give a mass greater than zero"
             )
-        body = add_body(
-            *(self.engine, self.client, workpiece.shape, workpiece.pose, workpiece.mass_kg),
-            centre_of_mass_m=workpiece.centre_of_mass_m,
-        )
+        body, principal = add_object(self.engine, self.client, workpiece)
         self.engine.changeDynamics(
             body,
             -1,
@@ -105,7 +103,21 @@ class WorldBuilder:
             activationState=self.engine.ACTIVATION_STATE_DISABLE_SLEEPING,
             physicsClientId=self.client,
         )
-        return body
+        if workpiece.rolling_resistance_m:
+            # The engine multiplies the length by the friction of the other body.
+            beneath = next(body.friction for body in self.scene.bodies if body.id == self.scene.support)
+            self.engine.changeDynamics(
+                body,
+                -1,
+                rollingFriction=workpiece.rolling_resistance_m / max(beneath, _LEAST_FRICTION),
+                physicsClientId=self.client,
+            )
+        return body, principal
+
+    @property
+    def pads(self) -> tuple[PadLayout, ...]:
+        """The elements of the pad of each finger."""
+        return pad_layouts(self.gripper.geometry, self.scene.workpiece.shape, self.scene.grasp_in_object)
 
     def add_robot(self) -> int:
         """Add the robot with its gripper; the result is its number."""
@@ -115,7 +127,7 @@ class WorldBuilder:
             assembled_urdf(
                 self.scene.robot,
                 self.gripper,
-                ribs=pad_ribs(self.gripper.geometry, self.scene.workpiece.shape),
+                pads=self.pads,
             ),
             position=base.position_m,
             orientation=base.quaternion_xyzw,
@@ -149,7 +161,8 @@ class WorldBuilder:
             engine.changeDynamics(
                 robot, link, linearDamping=0.0, angularDamping=0.0, jointDamping=0.0, physicsClientId=client
             )
-        stiffness_n_m = self.settings.pad_stiffness_n_m / RIBS
+        elements = most_elements(self.pads)
+        stiffness_n_m = self.settings.pad_stiffness_n_m / elements
         for joint in index.finger_joints:
             engine.changeDynamics(
                 robot,
@@ -157,7 +170,7 @@ class WorldBuilder:
                 lateralFriction=self.gripper.friction,
                 frictionAnchor=1,
                 contactStiffness=stiffness_n_m,
-                contactDamping=self.settings.pad_damping_n_s_m / RIBS,
+                contactDamping=self.settings.pad_damping_n_s_m / elements,
                 physicsClientId=client,
             )
         if len(index.finger_joints) == 2:

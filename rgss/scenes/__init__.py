@@ -1,11 +1,23 @@
 """Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
 
 from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
-from rgss.scenes.convex_shapes import ConvexPart, convex_parts, vertices_of, with_mesh_files
+from rgss.scenes.convex_shapes import ConvexPart, convex_link_urdf, convex_parts, vertices_of, with_mesh_files
 from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
+from rgss.scenes.grasp_choice import Approach, GivenGrasp, GraspCandidates, TakenGrasp
 from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
+from rgss.scenes.mass_properties import (
+    Gyration,
+    centre_of_mass,
+    inertia_kg_m2,
+    principal_frame,
+    quaternion_of,
+    solid_moments,
+)
 from rgss.scenes.mesh_shapes import MeshSummary, mesh_summary
+from rgss.scenes.opening import grasp_opening_m
+from rgss.scenes.pad_contact import PadPatch, pad_patches, rotation_of, settled_grasp, surface_of
+from rgss.scenes.pad_layout import PadElement, PadLayout, most_elements, pad_layouts
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS, pad_ribs
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
@@ -13,6 +25,17 @@ from rgss.scenes.robot_file import load_robot
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
 from rgss.scenes.scene_file import load_scene
 from rgss.scenes.servos import Calibration, CalibrationDocument, JointServo, ServoControl, load_calibration
-from rgss.scenes.shapes import Box, Cylinder, Shape
+from rgss.scenes.shapes import (
+    Box,
+    Cylinder,
+    LyingCylinder,
+    MeshShape,
+    ObjectShape,
+    Shape,
+    corners_of,
+    girth_radius_m,
+    half_extents_m,
+    least_height_m,
+)
 from rgss.scenes.urdf_chain import UrdfChain, chain_to, kind_of
 from rgss.scenes.waypoints import Waypoint, waypoint_poses

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from rgss.scenes.gripper import Gripper
+from rgss.scenes.pad_layout import PadLayout
 from rgss.scenes.pose import Pose
-from rgss.scenes.rib_geometry import PadRibs
 from rgss.scenes.robot import Robot
 from rgss.scenes.shapes import Box
 
@@ -30,7 +30,7 @@ def finger_joint(finger: int) -> str:
 
 
 @lru_cache(maxsize=16)
-def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = None) -> str:
+def assembled_urdf(robot: Robot, gripper: Gripper, *, pads: tuple[PadLayout, ...] = ()) -> str:
     """The arm's URDF with the gripper on its flange.
 
     The base is a solid cylinder and each finger a solid box of the design's masses; each finger
@@ -39,7 +39,8 @@ def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = Non
     Args:
         robot: The arm; its URDF was checked when it was read.
         gripper: The gripper as the design has it.
-        ribs: What the pads consist of for an engine of contact, flat if not given; what is seen stays flat.
+        pads: What the pad of each finger consists of for an engine of contact, flat if not given; what is seen stays
+            flat.
     """
     root = ET.fromstring(robot.urdf)  # noqa: S314 - entities and document types are refused on reading
     geometry = gripper.geometry
@@ -62,7 +63,7 @@ def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = Non
             mass_kg=mass,
             inertia=(mass * (y**2 + z**2) / 12, mass * (x**2 + z**2) / 12, mass * (x**2 + y**2) / 12),
             seen=_box(0.0, x, y, z),
-            touched=_ribbed(geometry.finger, ribs) if ribs else (),
+            touched=_padded(geometry.finger, pads[finger]) if pads else (),
         )
         joint = _add_joint(
             root,
@@ -91,20 +92,16 @@ def _box(along_m: float, x: float, y: float, z: float) -> _Part:
     return Pose(position_m=(along_m, 0.0, 0.0)), 0.0, "box", {"size": f"{_number(x)} {_number(y)} {_number(z)}"}
 
 
-def _ribbed(finger: Box, ribs: PadRibs) -> tuple[_Part, ...]:
+def _padded(finger: Box, pad: PadLayout) -> tuple[_Part, ...]:
     x, y, z = finger.size_m
-    return (
-        _box(ribs.proud_m / 2, x - ribs.proud_m, y, z),
-        *(
-            (
-                Pose(position_m=(ribs.radius_m - x / 2, 0.0, height)),
-                math.pi / 2,
-                "capsule",
-                {"radius": _number(ribs.radius_m), "length": _number(y - 2 * ribs.radius_m)},
-            )
-            for height in ribs.heights_m
-        ),
-    )
+    parts = [_box(pad.proud_m / 2, x - pad.proud_m, y, z)]
+    for element in pad.elements:
+        at = Pose(position_m=(pad.radius_m - x / 2, element.across_m, element.height_m))
+        sizes = {"radius": _number(pad.radius_m)}
+        if element.length_m > 0.0:
+            sizes["length"] = _number(element.length_m)
+        parts.append((at, math.pi / 2 if element.is_across else 0.0, "capsule" if len(sizes) > 1 else "sphere", sizes))
+    return tuple(parts)
 
 
 def _add_link(

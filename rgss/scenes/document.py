@@ -16,6 +16,8 @@ from rgss.documents import (
     JointPosition,
     JointSpeed,
     Kilograms,
+    KilogramsPerCubicMetre,
+    KilogramSquareMetres,
     Metres,
     MetresPerSecond,
     MetresPerSecondSquared,
@@ -24,6 +26,7 @@ from rgss.documents import (
     Seconds,
     Text,
 )
+from rgss.scenes.grasp_choice import Approach, GraspCandidates
 from rgss.scenes.robot import MOST_JOINTS
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, LARGEST_DRAG_M, LARGEST_DROP_M
 from rgss.scenes.uncertainty import CorrelationEntry, DistributionEntry, QuantityName
@@ -31,6 +34,14 @@ from rgss.scenes.uncertainty import CorrelationEntry, DistributionEntry, Quantit
 Colour = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}$")]
 Point = tuple[Metres, Metres, Metres]
 PointOnTop = tuple[Metres, Metres]
+Inertia = tuple[
+    KilogramSquareMetres,
+    KilogramSquareMetres,
+    KilogramSquareMetres,
+    KilogramSquareMetres,
+    KilogramSquareMetres,
+    KilogramSquareMetres,
+]
 
 
 class AssumptionEntry(DocumentModel):
@@ -59,13 +70,51 @@ class BodyEntry(DocumentModel):
     colour: Colour
 
 
-class WorkpieceEntry(DocumentModel):
-    """The object to carry, standing on a body."""
+class CollisionShapes(str, Enum):
+    """Convex shapes that stand for a mesh in contact and collision checks."""
+
+    HULL = "hull"
+    DECOMPOSE = "decompose"
+    BOXES = "boxes"
+
+
+class Rest(str, Enum):
+    """How an object rests on its support: as its shape is described, or tipped over by 90 deg about its y axis."""
+
+    UPRIGHT = "upright"
+    LYING = "lying"
+
+
+class GivenGraspEntry(DocumentModel):
+    """A grasp of an object: the frame of the grasp centre in the frame of the shape, and the distance of the pads."""
 
     id: Identifier
-    radius: Metres
-    height: Metres
-    mass: Kilograms
+    at: Point
+    roll: Radians = 0.0
+    pitch: Radians = 0.0
+    yaw: Radians = 0.0
+    width: Metres
+
+
+class WorkpieceEntry(DocumentModel):
+    """The object to carry; a shape is a box, a cylinder, a mesh, or the radius and height of a cylinder."""
+
+    id: Identifier
+    radius: Metres | None = None
+    height: Metres | None = None
+    box: Point | None = None
+    cylinder: CylinderEntry | None = None
+    mesh: Text | None = None
+    scale: Dimensionless = 1.0
+    collision: CollisionShapes | None = None
+    rests: Rest = Rest.UPRIGHT
+    yaw: Radians = 0.0
+    mass: Kilograms | None = None
+    density: KilogramsPerCubicMetre | None = None
+    centre_of_mass: Point | None = None
+    inertia: Inertia | None = None
+    rolling_resistance: Metres | None = None
+    grasps: tuple[GivenGraspEntry, ...] = ()
     friction: Dimensionless
     force_limit: Newtons
     force_window: Seconds = FORCE_WINDOW_S
@@ -86,6 +135,28 @@ class PlaceRegionEntry(DocumentModel):
     largest_drag: Metres = LARGEST_DRAG_M
 
 
+class GraspRule(str, Enum):
+    """The grasp that is taken: the stated one from above, or the best of the candidates that are tried by default."""
+
+    AS_STATED = "as_stated"
+    AUTOMATIC = "automatic"
+
+
+class CandidatesEntry(DocumentModel):
+    """Which grasps of the object are tried."""
+
+    approaches: Annotated[tuple[Approach, ...], Field(min_length=1)] = GraspCandidates().approaches
+    heights: Annotated[int, Field(ge=1, le=9)] = GraspCandidates().heights
+    yaws: Annotated[int, Field(ge=1, le=36)] = GraspCandidates().yaws
+    samples: Annotated[int, Field(ge=0, le=1000)] = GraspCandidates().samples
+
+
+class GraspCandidatesEntry(DocumentModel):
+    """Candidates of which the best that can be reached is taken."""
+
+    candidates: CandidatesEntry
+
+
 class TaskEntry(DocumentModel):
     """Heights and turns of the waypoints."""
 
@@ -97,6 +168,7 @@ class TaskEntry(DocumentModel):
     largest_carry_tilt: Radians
     grasp_yaw: Radians
     place_yaw: Radians
+    grasp: GraspRule | GraspCandidatesEntry = GraspRule.AS_STATED
 
 
 class RobotPlacementEntry(DocumentModel):
@@ -132,14 +204,6 @@ class JointEntry(DocumentModel):
     speed: JointSpeed
     acceleration: JointAcceleration
     torque: JointEffort
-
-
-class CollisionShapes(str, Enum):
-    """Convex shapes that stand for a mesh in contact and collision checks."""
-
-    HULL = "hull"
-    DECOMPOSE = "decompose"
-    BOXES = "boxes"
 
 
 class RobotDocument(DocumentModel):

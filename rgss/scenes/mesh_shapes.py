@@ -82,6 +82,44 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
     )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MeshMass:
+    """Mass properties of a homogeneous mesh.
+
+    Attributes:
+        volume_m3: Its volume.
+        centre_m: Its centre of mass.
+        gyration_m2: Inertia about the centre of mass over the mass: xx, yy, zz, xy, xz, yz.
+    """
+
+    volume_m3: float
+    centre_m: tuple[float, float, float]
+    gyration_m2: tuple[float, float, float, float, float, float]
+
+
+def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
+    """Mass properties of a closed mesh of one density.
+
+    Args:
+        path: Its file.
+        scale: Factor of its lengths.
+
+    Raises:
+        DefinitionError: The file is no mesh, or encloses no volume.
+    """
+    mesh = _read(path, (scale, scale, scale))
+    if not mesh.is_watertight or not mesh.volume > 0.0:
+        raise DefinitionError(
+            f"{path.name} is not closed, so that it has no mass properties",
+            hint="close the mesh, or give centre_of_mass and inertia",
+        )
+    x, y, z = (float(value) for value in mesh.center_mass)
+    inertia = mesh.moment_inertia / mesh.mass
+    entries = [float(inertia[row, column]) for row, column in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    xx, yy, zz, xy, xz, yz = entries
+    return MeshMass(volume_m3=float(mesh.volume), centre_m=(x, y, z), gyration_m2=(xx, yy, zz, xy, xz, yz))
+
+
 @lru_cache(maxsize=256)
 def _shapes(path: Path, _sha256: str, scale: tuple[float, float, float], how: CollisionShapes) -> tuple[Vertices, ...]:
     mesh = _read(path, scale)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from rgss.scenes.grasp_choice import GivenGrasp, GraspCandidates, TakenGrasp
+from rgss.scenes.mass_properties import Gyration
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
-from rgss.scenes.shapes import Cylinder, Shape
+from rgss.scenes.shapes import Cylinder, ObjectShape, Shape
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, Uncertainty
 
 LARGEST_DROP_M = 0.01
@@ -47,7 +49,7 @@ class Workpiece:
 
     Attributes:
         id: Its name.
-        shape: Its solid, upright.
+        shape: Its solid; at rest the z axis of its frame is up.
         mass_kg: Its mass.
         friction: Its coefficient.
         force_limit_n: Normal force of a finger, averaged over the window, above which it counts as damaged.
@@ -56,18 +58,26 @@ class Workpiece:
             of ASTM D3332. An impact that is shorter than the response of the object damages by its velocity change, and
             not by its force, which at the same speed grows with the mass.
         centre_of_mass_m: Height of its centre of mass above the centre of its shape.
+        centre_of_mass_across_m: The same along the two other axes.
+        gyration_m2: Its inertia about the centre of mass over its mass; None for that of the homogeneous shape.
+        rolling_resistance_m: Torque that resists its rolling on a surface over the normal force.
+        grasps: The grasps that its file gives.
         pose: Transform of its shape's frame to the world at the start.
         colour: Colour in pictures.
     """
 
     id: str
-    shape: Cylinder
+    shape: ObjectShape
     mass_kg: float
     friction: float
     force_limit_n: float
     force_window_s: float = FORCE_WINDOW_S
     landing_limit_m_s: float = LANDING_LIMIT_M_S
     centre_of_mass_m: float = 0.0
+    centre_of_mass_across_m: tuple[float, float] = (0.0, 0.0)
+    gyration_m2: Gyration | None = None
+    rolling_resistance_m: float = 0.0
+    grasps: tuple[GivenGrasp, ...] = ()
     pose: Pose
     colour: ColourRgba
 
@@ -95,7 +105,7 @@ class PlaceRegion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Task:
-    """Predetermined waypoints of the pick-and-place task, all with the tool pointing down.
+    """Waypoints of the pick-and-place task; the tool points down unless a grasp is chosen from candidates.
 
     Attributes:
         approach_height_m: Height of the grasp approach above the grasp.
@@ -106,6 +116,8 @@ class Task:
         largest_carry_tilt_rad: Greatest angle between the carried workpiece's axis and the vertical.
         grasp_yaw_rad: Turn of the gripper about the vertical at the grasp.
         place_yaw_rad: Turn of the gripper about the vertical at the place.
+        candidates: Which grasps are tried; None for the grasp from above at the stated turn.
+        grasp: The grasp that is taken of them; None before one is chosen.
     """
 
     approach_height_m: float
@@ -116,6 +128,8 @@ class Task:
     largest_carry_tilt_rad: float
     grasp_yaw_rad: float
     place_yaw_rad: float
+    candidates: GraspCandidates | None = None
+    grasp: TakenGrasp | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,8 +162,10 @@ class Scene:
 
     @property
     def grasp(self) -> Pose:
-        """Transform of the grasp-centre frame to the world at the grasp: on the workpiece's centre, down its axis."""
-        stands = self.workpiece.pose
+        """Transform of the grasp-centre frame to the world at the grasp: as taken, or on the centre from above."""
+        stands, taken = self.workpiece.pose, self.task.grasp
+        if taken is not None:
+            return stands @ taken.tool_in_object
         if stands.quaternion_xyzw == _UPRIGHT:
             return _tool_down(stands.position_m, self.task.grasp_yaw_rad)
         return stands @ _tool_down((0.0, 0.0, 0.0), self.task.grasp_yaw_rad)
@@ -158,8 +174,29 @@ class Scene:
     def place_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world at the place, the workpiece just above the surface."""
         x, y, z = self.place.centre_m
+        taken = self.task.grasp
+        if taken is not None:
+            return self.placed_object.raised(self.task.place_clearance_m) @ taken.tool_in_object
         height = self.workpiece.shape.half_height_m + self.task.place_clearance_m
         return _tool_down((x, y, z + height), self.task.place_yaw_rad)
+
+    @property
+    def grasp_in_object(self) -> Pose | None:
+        """Transform of the grasp-centre frame to the object; None for a cylinder that is held down its axis."""
+        if self.task.grasp is not None:
+            return self.task.grasp.tool_in_object
+        if isinstance(self.workpiece.shape, Cylinder):
+            return None
+        return _tool_down((0.0, 0.0, 0.0), self.task.grasp_yaw_rad)
+
+    @property
+    def placed_object(self) -> Pose:
+        """Transform of the object to the world at its place, as the grasp that is taken puts it there."""
+        x, y, z = self.place.centre_m
+        taken = self.task.grasp
+        yaw = self.task.place_yaw_rad - self.task.grasp_yaw_rad if taken is None else taken.place_yaw_rad
+        height = self.workpiece.shape.half_height_m
+        return Pose.from_roll_pitch_yaw((x, y, z + height), (0.0, 0.0, yaw))
 
 
 def _tool_down(position_m: tuple[float, float, float], yaw_rad: float) -> Pose:

@@ -11,10 +11,11 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import BodyEntry, SceneDocument
 from rgss.scenes.findings import Location, named_file_findings, negative, not_positive
+from rgss.scenes.object_file import candidates_of, object_lengths, object_solid, workpiece_of
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
 from rgss.scenes.robot_file import load_robot
-from rgss.scenes.scene import ColourRgba, PlaceRegion, Scene, SceneBody, Task, Workpiece
+from rgss.scenes.scene import ColourRgba, PlaceRegion, Scene, SceneBody, Task
 from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.uncertainty import read_uncertainty
 
@@ -41,11 +42,11 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
     ]
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings, declared=())
     robot = _robot(path, entry, document, findings, path.parent if project is None else project)
-    if findings or robot is None:
+    solid = object_solid(path, entry.workpiece, document, findings, path.parent if project is None else project)
+    if findings or robot is None or solid is None:
         raise DocumentError(sorted(findings))
     tops = {body.id: _top(body) for body in entry.bodies}
     workpiece, place = entry.workpiece, entry.place_region
-    centre = (*workpiece.at, tops[workpiece.stands_on] + workpiece.height / 2)
     return Scene(
         id=entry.scene,
         gravity_m_s2=entry.gravity,
@@ -53,17 +54,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         bodies=tuple(_body(body) for body in entry.bodies),
         support=workpiece.stands_on,
         place_support=place.stands_on,
-        workpiece=Workpiece(
-            id=workpiece.id,
-            shape=Cylinder(radius_m=workpiece.radius, height_m=workpiece.height),
-            mass_kg=workpiece.mass,
-            friction=workpiece.friction,
-            force_limit_n=workpiece.force_limit,
-            force_window_s=workpiece.force_window,
-            landing_limit_m_s=workpiece.landing_limit,
-            pose=Pose(position_m=centre),
-            colour=_colour(workpiece.colour),
-        ),
+        workpiece=workpiece_of(workpiece, solid, top_m=tops[workpiece.stands_on], colour=_colour(workpiece.colour)),
         place=PlaceRegion(
             centre_m=(*place.at, tops[place.stands_on]),
             radius_m=place.radius,
@@ -80,6 +71,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
             largest_carry_tilt_rad=entry.task.largest_carry_tilt,
             grasp_yaw_rad=entry.task.grasp_yaw,
             place_yaw_rad=entry.task.place_yaw,
+            candidates=candidates_of(entry.task.grasp),
         ),
         uncertainty=uncertainty,
     )
@@ -165,9 +157,7 @@ def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:
             yield ("bodies", index, "cylinder", "height"), body.cylinder.height
     work, place, task = entry.workpiece, entry.place_region, entry.task
     yield ("gravity",), entry.gravity
-    yield ("workpiece", "radius"), work.radius
-    yield ("workpiece", "height"), work.height
-    yield ("workpiece", "mass"), work.mass
+    yield from object_lengths(work)
     yield ("workpiece", "force_limit"), work.force_limit
     yield ("workpiece", "force_window"), work.force_window
     yield ("workpiece", "landing_limit"), work.landing_limit

@@ -22,8 +22,11 @@ class Waypoint(str, Enum):
 def waypoint_poses(scene: Scene) -> dict[Waypoint, Pose]:
     """Transforms of the grasp-centre frame to the world at each waypoint."""
     task, grasp, place = scene.task, scene.grasp, scene.place_pose
+    approach = grasp.raised(task.approach_height_m)
+    if task.grasp is not None:
+        approach = grasp @ Pose(position_m=(0.0, 0.0, -task.approach_height_m))
     return {
-        Waypoint.GRASP_APPROACH: grasp.raised(task.approach_height_m),
+        Waypoint.GRASP_APPROACH: approach,
         Waypoint.GRASP: grasp,
         Waypoint.LIFT: grasp.raised(task.lift_height_m),
         Waypoint.GRASP_DEPARTURE: grasp.raised(task.departure_height_m),

@@ -10,8 +10,9 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import Waypoint
+from rgss.scenes import GripperGeometry, Waypoint
 from rgss.studies.design_settings import GRIPPER
+from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 
 if TYPE_CHECKING:
@@ -45,8 +46,12 @@ def check_scene(project: Project) -> SceneCheck:
         of_bodies = scene_problems(project.scene)
         of_reach: dict[SceneProblem, list[str]] = {}
         for file in _gripper_files(project):
+            geometry = project.grippers[file].geometry
             for problem in reach_problems(
-                project.scene, project.grippers[file].geometry, clearance_m=project.study.planning.clearance_m
+                project.scene,
+                geometry,
+                clearance_m=project.study.planning.clearance_m,
+                friction=_pad_friction(project, geometry),
             ):
                 of_reach.setdefault(problem, []).append(file)
     except ImportError as error:
@@ -67,6 +72,14 @@ def _gripper_files(project: Project) -> tuple[str, ...]:
     """The geometry file of every gripper that a design has."""
     used = {variant.components[GRIPPER].geometry for variant in project.designs.expand()}
     return tuple(file for file in project.grippers if file in used)
+
+
+def _pad_friction(project: Project, geometry: GripperGeometry) -> float:
+    """The least friction of the pads of a design with a gripper, on which its grasp candidates depend."""
+    if project.scene.task.candidates is None:
+        return 0.0
+    specs = trial_specs(project, seeds=[project.study.seed])
+    return min(spec.gripper.friction for spec in specs if spec.gripper.geometry == geometry)
 
 
 class _Places:
@@ -99,6 +112,11 @@ class _Places:
             if grippers and self._workpiece in pair:
                 # The object does not fit between its fingers, but does between another's: a result, not a mistake.
                 severity, hint = Severity.INFO, "designs with this gripper fail there, and the others do not"
+        elif problem.kind is SceneProblemKind.NO_GRASP:
+            of = f" with {', '.join(grippers)}" if grippers else ""
+            location = ("workpiece", "id")
+            message = f"no grasp candidate of {first}{of} can be carried out: {problem.detail}"
+            hint = "let the task try more approaches, turn or move the object, or take a gripper that opens wider"
         elif problem.kind is SceneProblemKind.HOME_COLLISION:
             message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"
             hint = "change 'home' in the robot's file, or move the body or the robot's base"

@@ -27,6 +27,6 @@ if TYPE_CHECKING:
     from rgss.trials.timing_settings import TimingProfile, TimingSettings
     from rgss.trials.tracing import run_traced_trial
     from rgss.trials.trial_spec import TrialSpec
-    from rgss.trials.workcell import Workcell, cell_of
+    from rgss.trials.workcell import Workcell, cell_of, grasp_search_of, with_grasp_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from types import MappingProxyType
 
+from rgss.errors import DefinitionError
 from rgss.scenes import Cylinder, Gripper, Pose, Scene, Workpiece
 from rgss.scenes.uncertainty import QUANTITIES, Application, Case, UncertainQuantity, draws_of, quantity_of
 from rgss.trials.trial_spec import TrialSpec
@@ -229,10 +230,17 @@ def _scene_of(scene: Scene, case: Case | None) -> Scene:
     if case is None:
         return scene
     own = scene.workpiece
-    shape = Cylinder(
-        radius_m=own.shape.radius_m if case.radius_m is None else case.radius_m,
-        height_m=own.shape.height_m if case.height_m is None else case.height_m,
-    )
+    shape = own.shape
+    if isinstance(shape, Cylinder):
+        shape = Cylinder(
+            radius_m=shape.radius_m if case.radius_m is None else case.radius_m,
+            height_m=shape.height_m if case.height_m is None else case.height_m,
+        )
+    elif case.radius_m is not None or case.height_m is not None:
+        raise DefinitionError(
+            f"case {case.id!r} of the workload has a radius or a height, and the object is no upright cylinder",
+            hint="let the cases of this object differ in mass and friction alone",
+        )
     # It has the position of the scene's object, on its own foot.
     rise_m = shape.half_height_m - own.shape.half_height_m
     workpiece = replace(

@@ -7,6 +7,8 @@ from dataclasses import replace
 
 from rgss.evidence import Fidelity, Phase
 from rgss.physics import TorqueArm, open_world
+from rgss.scenes import grasp_opening_m
+from rgss.trials.chosen_grasp import with_chosen_grasp
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.execution import Execution
 from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
@@ -16,7 +18,7 @@ from rgss.trials.program import run_program
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import TaskTiming
 from rgss.trials.trial_spec import TrialSpec
-from rgss.trials.workcell import Workcell, cell_of
+from rgss.trials.workcell import Workcell, cell_of, with_grasp_of
 
 
 def execute(
@@ -41,7 +43,7 @@ def execute(
         SimulationError: The physics engine cannot build the world.
     """
     conditions = conditions_of(spec)
-    physics, scene = spec.settings.physics, conditions.true_scene
+    physics, scene = spec.settings.physics, with_grasp_of(conditions.true_scene, cell)
     references = {}
     for phase in Phase:
         if phase in timing.trajectories:
@@ -50,7 +52,14 @@ def execute(
             )
     control, gripper = spec.settings.control, conditions.true_gripper
     if spec.fidelity is Fidelity.KINEMATIC:
-        model = KinematicPlant(cell.arm, scene.robot.joints, gripper, scene.workpiece, control, step_s=physics.step_s)
+        model = KinematicPlant(
+            cell.arm,
+            scene.robot.joints,
+            gripper,
+            grasp_opening_m(scene, gripper.geometry),
+            control,
+            step_s=physics.step_s,
+        )
         return _with_quality(run_program(model, references, checkpoint=checkpoint), timing)
     if spec.fidelity is Fidelity.DYNAMIC:
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
@@ -123,7 +132,9 @@ def execution_of(
     Raises:
         SimulationError: The physics engine cannot build the world.
     """
-    return execute(spec, cell_of(spec), timing, observer=observer, checkpoint=checkpoint)
+    cell = cell_of(spec)
+    results = execute(spec, cell, timing, observer=observer, checkpoint=checkpoint)
+    return with_chosen_grasp(results, cell.scene.task.grasp)
 
 
 def _with_quality(results: tuple[PhaseResult, ...], timing: TaskTiming) -> tuple[PhaseResult, ...]:

@@ -12,6 +12,7 @@ from rgss.physics import Camera, Picture, Posture, View
 from rgss.scenes import Pose
 from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces import TrialSpec
+from rgss.trials.workcell import cell_of, with_grasp_of
 
 _INSET_SHARE = 0.35
 _INSET_MARGIN_SHARE = 0.02
@@ -65,6 +66,8 @@ class Film:
         self._rate_hz = rate_hz
         self._inset: Camera | None = None
         scene = conditions_of(spec).true_scene
+        if scene.task.candidates is not None:
+            scene = with_grasp_of(scene, cell_of(spec))
         with ExitStack() as cameras:  # closes the first camera should the second fail
             self._camera = cameras.enter_context(Camera(scene, spec.gripper, view, width=width, height=height))
             if inset is not None:

@@ -8,9 +8,19 @@ from dataclasses import dataclass
 from enum import Enum
 
 from rgss.kinematics import Overlap, Solid, overlaps
-from rgss.scenes import Box, GripperGeometry, Pose, Scene, Shape, Waypoint
+from rgss.scenes import (
+    Box,
+    Cylinder,
+    GripperGeometry,
+    ObjectShape,
+    Pose,
+    Scene,
+    Waypoint,
+    corners_of,
+    half_extents_m,
+)
 from rgss.trials.planning import GoalReason, unserved_waypoints
-from rgss.trials.workcell import Workcell
+from rgss.trials.workcell import Workcell, grasp_search_of
 
 TOUCHING_M = 1e-3
 """Bodies that overlap by no more are meant to touch: what a file states is rounded to millimetres."""
@@ -35,6 +45,7 @@ class SceneProblemKind(str, Enum):
     PLACE_UNSUPPORTED = "place_unsupported"
     HOME_COLLISION = "home_collision"
     UNSERVED = "unserved"
+    NO_GRASP = "no_grasp"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,6 +60,7 @@ class SceneProblem:
             where neither.
         waypoint: The waypoint that has no configuration; None for other problems.
         reason: Why it has none; None for other problems.
+        detail: Which filter rejected how many grasp candidates; empty for other problems.
     """
 
     kind: SceneProblemKind
@@ -57,6 +69,7 @@ class SceneProblem:
     distance_m: float = math.nan
     waypoint: Waypoint | None = None
     reason: GoalReason | None = None
+    detail: str = ""
 
 
 def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
@@ -68,19 +81,27 @@ def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
     return (*_furniture(scene), *_object(scene))
 
 
-def reach_problems(scene: Scene, geometry: GripperGeometry, *, clearance_m: float) -> tuple[SceneProblem, ...]:
+def reach_problems(
+    scene: Scene, geometry: GripperGeometry, *, clearance_m: float, friction: float = 0.0
+) -> tuple[SceneProblem, ...]:
     """Problems of the arm with a gripper: a collision at home, or a waypoint without a valid configuration.
 
     Args:
         scene: The scene.
         geometry: The gripper's shape.
         clearance_m: Distance that planned paths keep from everything.
+        friction: Coefficient of the pads, by which grasp candidates are chosen; not used where the grasp is stated.
 
     Raises:
         DefinitionError: The robot is ill defined.
     """
-    cell = Workcell(scene, geometry, clearance_m=clearance_m)
     found = []
+    if scene.task.candidates is not None:
+        search = grasp_search_of(scene, geometry, friction=friction, clearance_m=clearance_m)
+        scene = search.scene
+        if search.taken is None:
+            found.append(SceneProblem(kind=SceneProblemKind.NO_GRASP, first=scene.workpiece.id, detail=search.reasons))
+    cell = Workcell(scene, geometry, clearance_m=clearance_m)
     model = next(iter(cell.planning.values()))
     pair = model.nearest_pair(scene.robot.home_rad)
     if pair is not None and pair.distance_m < 0.0:
@@ -89,6 +110,8 @@ def reach_problems(scene: Scene, geometry: GripperGeometry, *, clearance_m: floa
                 kind=SceneProblemKind.HOME_COLLISION, first=pair.first, second=pair.second, distance_m=-pair.distance_m
             )
         )
+    if any(problem.kind is SceneProblemKind.NO_GRASP for problem in found):
+        return tuple(found)
     found += [
         SceneProblem(kind=SceneProblemKind.UNSERVED, first=scene.workpiece.id, waypoint=waypoint, reason=reason)
         for waypoint, reason in unserved_waypoints(cell).items()
@@ -114,10 +137,13 @@ def _object(scene: Scene) -> Iterator[SceneProblem]:
     workpiece = scene.workpiece
     bodies = [Solid(name=body.id, shape=body.shape, pose=body.pose) for body in scene.bodies]
     x, y, z = scene.place.centre_m
+    placed = scene.placed_object
+    if isinstance(workpiece.shape, Cylinder):
+        placed = Pose(position_m=(x, y, z + workpiece.shape.half_height_m))
     ends = (
         (workpiece.pose, scene.support, SceneProblemKind.OBJECT_OVERLAP, SceneProblemKind.OBJECT_UNSUPPORTED),
         (
-            Pose(position_m=(x, y, z + workpiece.shape.half_height_m)),
+            placed,
             scene.place_support,
             SceneProblemKind.PLACE_OVERLAP,
             SceneProblemKind.PLACE_UNSUPPORTED,
@@ -144,11 +170,11 @@ def _beyond_edge(support: Solid, pose: Pose) -> float:
     if isinstance(support.shape, Box):
         beyond = (abs(x) - support.shape.size_m[0] / 2, abs(y) - support.shape.size_m[1] / 2)
         return math.hypot(max(0.0, beyond[0]), max(0.0, beyond[1]))
-    return max(0.0, math.hypot(x, y) - support.shape.radius_m)
+    return max(0.0, math.hypot(x, y) - half_extents_m(support.shape)[0])
 
 
-def _least_extent(shape: Shape) -> float:
-    return min(shape.size_m) if isinstance(shape, Box) else min(2.0 * shape.radius_m, shape.height_m)
+def _least_extent(shape: ObjectShape) -> float:
+    return 2.0 * min(half_extents_m(shape))
 
 
 def _holds(outer: Solid, inner: Solid) -> bool:
@@ -160,18 +186,17 @@ def _holds(outer: Solid, inner: Solid) -> bool:
             half = [size / 2 + TOUCHING_M for size in outer.shape.size_m]
             inside = abs(x) <= half[0] and abs(y) <= half[1] and abs(z) <= half[2]
         else:
-            inside = math.hypot(x, y) <= outer.shape.radius_m + TOUCHING_M
+            inside = math.hypot(x, y) <= half_extents_m(outer.shape)[0] + TOUCHING_M
             inside = inside and abs(z) <= outer.shape.half_height_m + TOUCHING_M
         if not inside:
             return False
     return True
 
 
-def _extreme_points(shape: Shape) -> list[tuple[float, float, float]]:
+def _extreme_points(shape: ObjectShape) -> list[tuple[float, float, float]]:
     """The corners of a box; of a cylinder, points of its rims."""
-    if isinstance(shape, Box):
-        x, y, z = (size / 2 for size in shape.size_m)
-        return [(a * x, b * y, c * z) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
+    if not isinstance(shape, Cylinder):
+        return [corner for part in corners_of(shape) for corner in part]
     turns = [2.0 * math.pi * place / _RIM for place in range(_RIM)]
     radius, half = shape.radius_m, shape.half_height_m
     return [(radius * math.cos(t), radius * math.sin(t), z) for t in turns for z in (-half, half)]

@@ -8,8 +8,9 @@ from functools import lru_cache
 
 from rgss.evidence import Phase
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
-from rgss.scenes import GripperGeometry, Scene
+from rgss.scenes import GripperGeometry, Scene, grasp_opening_m
 from rgss.trials.conditions import conditions_of
+from rgss.trials.grasp_search import GraspSearch, search_grasp
 from rgss.trials.trial_spec import TrialSpec
 
 _SHARE_KEPT = 0.25
@@ -63,7 +64,44 @@ def cell_of(spec: TrialSpec) -> Workcell:
     Args:
         spec: The trial.
     """
-    return workcell_of(conditions_of(spec).perceived_scene, spec.gripper.geometry, spec.settings.planning.clearance_m)
+    perceived, clearance_m = conditions_of(spec).perceived_scene, spec.settings.planning.clearance_m
+    if perceived.task.candidates is not None:
+        perceived = grasp_search_of(
+            perceived, spec.gripper.geometry, friction=spec.gripper.friction, clearance_m=clearance_m
+        ).scene
+    return workcell_of(perceived, spec.gripper.geometry, clearance_m)
+
+
+@lru_cache(maxsize=16)
+def grasp_search_of(scene: Scene, geometry: GripperGeometry, *, friction: float, clearance_m: float) -> GraspSearch:
+    """The grasp that is taken of the candidates that a scene states.
+
+    Args:
+        scene: The scene as it is perceived.
+        geometry: The gripper's shape.
+        friction: Coefficient of the pads.
+        clearance_m: Distance that planned paths keep from everything.
+    """
+    if scene.task.candidates is None:
+        raise AssertionError("asked before: the task states candidates")
+    return search_grasp(
+        scene,
+        geometry,
+        scene.task.candidates,
+        friction=friction,
+        build=lambda tried: Workcell(tried, geometry, clearance_m=clearance_m),
+    )
+
+
+def with_grasp_of(scene: Scene, cell: Workcell) -> Scene:
+    """A scene with the grasp that was taken for the perceived one.
+
+    Args:
+        scene: The scene as it is.
+        cell: The workcell of the perceived one.
+    """
+    taken = cell.scene.task.grasp
+    return scene if taken is None else replace(scene, task=replace(scene.task, grasp=taken))
 
 
 def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, CollisionContext]:
@@ -72,7 +110,7 @@ def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, Collision
     opening = geometry.largest_opening_m
     held = scene.grasp.inverse() @ workpiece.pose
     carrying = CollisionContext(
-        opening_m=workpiece.shape.radius_m,
+        opening_m=grasp_opening_m(scene, geometry),
         carried=held,
         largest_tilt_rad=scene.task.largest_carry_tilt_rad,
     )

@@ -13,6 +13,8 @@ from rgss.documents import fields
 QUANTITIES = {
     "Metres": ("120 mm", 0.12),
     "Kilograms": ("300 g", 0.3),
+    "KilogramsPerCubicMetre": ("2700 kg/m^3", 2700.0),
+    "KilogramSquareMetres": ("2 kg*m^2", 2.0),
     "Seconds": ("2 min", 120.0),
     "Newtons": ("1.5 kN", 1500.0),
     "NewtonMetres": ("330 N*m", 330.0),

@@ -7,7 +7,7 @@ import pytest
 
 from rgss.physics.engine import pybullet
 from rgss.scenes.assembly import assembled_urdf, finger_link
-from rgss.scenes.rib_geometry import pad_ribs
+from rgss.scenes.pad_layout import pad_layouts
 
 pytestmark = pytest.mark.engine
 
@@ -46,8 +46,8 @@ def test_the_cup_has_the_inertia_of_a_solid_cylinder(three_fingers):
 
 def test_links_are_the_primitive_solids_of_the_description(cell):
     """Without its flag the engine makes a hull of facets of a cylinder."""
-    ribs = pad_ribs(cell.gripper.geometry, cell.scene.workpiece.shape)
-    root = ET.fromstring(assembled_urdf(cell.scene.robot, cell.gripper, ribs=ribs))  # noqa: S314 - our own text
+    pads = pad_layouts(cell.gripper.geometry, cell.scene.workpiece.shape, None)
+    root = ET.fromstring(assembled_urdf(cell.scene.robot, cell.gripper, pads=pads))  # noqa: S314 - our own text
     with cell.world() as world:
         engine = world._engine
         kinds = {engine.GEOM_CYLINDER: "cylinder", engine.GEOM_BOX: "box", engine.GEOM_CAPSULE: "capsule"}

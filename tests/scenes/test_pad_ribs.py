@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from rgss.scenes import Box, Cylinder, Gripper, load_gripper, load_scene
 from rgss.scenes.assembly import assembled_urdf
+from rgss.scenes.pad_layout import pad_layouts
 from rgss.scenes.rib_geometry import pad_ribs
 
 
@@ -68,8 +69,8 @@ def test_the_fronts_of_the_ribs_are_where_the_flat_pad_was(shipped, fingers):
     scene = load_scene(shipped / "restaurant.yaml")
     ribs = pad_ribs(gripper.geometry, scene.workpiece.shape)
     flat, ribbed = (
-        ET.fromstring(assembled_urdf(scene.robot, gripper, ribs=given))  # noqa: S314 - our own text
-        for given in (None, ribs)
+        ET.fromstring(assembled_urdf(scene.robot, gripper, pads=given))  # noqa: S314 - our own text
+        for given in ((), pad_layouts(gripper.geometry, scene.workpiece.shape, None))
     )
     thickness, width, length = gripper.geometry.finger.size_m
     for finger in range(fingers):

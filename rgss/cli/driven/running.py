@@ -77,13 +77,12 @@ def _driver(
 ) -> tuple[Driver, StreamClock]:
     """The driver that the options name, not connected, and the clock that it runs on."""
     from rgss.drivers import MonotonicClock, SimulatedDriver, UrDriver, UrSettings, XarmDriver
-    from rgss.trials import conditions_of
+    from rgss.trials import cell_of, conditions_of, with_grasp_of
 
     if options.driver == "simulated":
         conditions = conditions_of(spec)
-        simulated = SimulatedDriver(
-            conditions.true_scene, conditions.true_gripper, spec.settings.physics, start_rad=task.start_rad
-        )
+        scene = with_grasp_of(conditions.true_scene, cell_of(spec))
+        simulated = SimulatedDriver(scene, conditions.true_gripper, spec.settings.physics, start_rad=task.start_rad)
         return simulated, simulated
     address = options.address or ""
     if options.driver == "xarm":

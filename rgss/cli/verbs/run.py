@@ -131,6 +131,7 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
     controlled = f", control {control}" if control else ""
     print(f"Variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity{controlled}")
     print_drawn(record.workload, drawn)
+    _print_chosen_grasp(record)
     titles = ["", "phase", "outcome", "time [s]", "checks", "planning [s]", "path [m]", "grip margin", "slip [mm]"]
     print_table(titles, rows, right=(3, 4, 5, 6, 7, 8))
     metrics = record.metrics
@@ -141,3 +142,20 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
     else:
         print(f"Failed at {record.failed_phase.value}: {record.failure.value}: {record.failure_detail}")
     print(f"digest {digest}")
+
+
+def _print_chosen_grasp(record: Any) -> None:
+    """Print the grasp that was chosen of candidates, where one was."""
+    from rgss.cli.output import number
+
+    metrics = next((phase.metrics for phase in record.phases if "chosen_grasp_rank" in phase.metrics), None)
+    if metrics is None:
+        return
+    at, opening = metrics["chosen_grasp_position_m"], metrics["chosen_grasp_opening_m"]
+    place = ", ".join(number(value * 1e3, 1) for value in at if value is not None) if isinstance(at, tuple) else ""
+    width = number(2e3 * opening, 1) if isinstance(opening, float) else ""
+    print(
+        f"Grasp: candidate {metrics['chosen_grasp_rank']} of {metrics['chosen_grasp_candidates']}, centre at "
+        f"({place}) mm in the object, pads {width} mm apart, smallest maximum wrench "
+        f"{number(metrics['chosen_grasp_smw_1'], 3)} N per N"
+    )

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.physics.contacts import Contacts, FingerContact
-from rgss.physics.mujoco.model import WORKPIECE, WorldModel
+from rgss.physics.mujoco.model import WorldModel
 from rgss.scenes import Pose
 
 Vector3 = tuple[float, float, float]
@@ -59,7 +59,7 @@ class MujocoContactReader:
             model: The model with the names of its parts.
         """
         self._data = data
-        self._workpiece = int(compiled.geom(WORKPIECE).id)
+        self._workpiece = frozenset(int(compiled.geom(name).id) for name in model.workpiece_shapes)
         self._finger_of = {int(compiled.geom(name).id): index for name, index in model.finger_shapes.items()}
         self._fingers = len(model.fingers)
         self._body_of = {int(compiled.geom(name).id): body for name, body in model.scene_bodies.items()}
@@ -131,9 +131,9 @@ class MujocoContactReader:
         pairs, rows = contact.geom.tolist(), contact.efc_address.tolist()
         for index, ((one, other), row) in enumerate(zip(pairs, rows, strict=True)):
             # The engine's normal points from the first shape to the second.
-            if other == self._workpiece:
+            if other in self._workpiece:
                 points.append(_Point(index, one, 1.0, row))
-            elif one == self._workpiece:
+            elif one in self._workpiece:
                 points.append(_Point(index, other, -1.0, row))
             else:
                 link, body = (one, other) if one in self._link_of else (other, one)

@@ -13,6 +13,7 @@ near the limit sinks by 1 µm/s, at 10 by 12 µm/s. The second solver that it of
 
 from __future__ import annotations
 
+import itertools
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
@@ -23,9 +24,9 @@ from numpy.typing import NDArray
 
 from rgss.errors import SimulationError
 from rgss.physics.mujoco.robot_links import Corners, RobotLink, read_links
-from rgss.physics.mujoco.solids import Capsule, Solid, finger_solids
+from rgss.physics.mujoco.solids import Capsule, Solid, finger_solids, object_solids
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene
+from rgss.scenes import Box, Cylinder, Gripper, Pose, Scene, centre_of_mass, inertia_kg_m2, pad_layouts
 
 WORKPIECE = "workpiece"
 
@@ -47,6 +48,7 @@ class WorldModel:
         finger_shapes: Index of the finger by the name of a shape of it.
         scene_bodies: Id of the scene's body by the name of its shape.
         links: Name of the robot's link by the name of a shape, the fingers' left out.
+        workpiece_shapes: Names of the workpiece's shapes.
     """
 
     text: str
@@ -54,6 +56,7 @@ class WorldModel:
     finger_shapes: Mapping[str, int]
     scene_bodies: Mapping[str, str]
     links: Mapping[str, str]
+    workpiece_shapes: tuple[str, ...]
 
 
 def world_model(
@@ -80,6 +83,7 @@ def world_model(
         finger_shapes=builder.finger_shapes,
         scene_bodies=builder.scene_bodies,
         links=builder.links,
+        workpiece_shapes=builder.workpiece_shapes,
     )
 
 
@@ -98,6 +102,7 @@ class _Builder:
         self.finger_shapes: dict[str, int] = {}
         self.scene_bodies: dict[str, str] = {}
         self.links: dict[str, str] = {}
+        self.workpiece_shapes: tuple[str, ...] = ()
         self.root = ET.Element("mujoco", {"model": "rgss"})
         ET.SubElement(self.root, "compiler", {"angle": "radian", "autolimits": "true"})
         option = {
@@ -138,7 +143,7 @@ class _Builder:
         self._add_hand(parents[robot.flange])
 
     def add_workpiece(self) -> None:
-        """Add the workpiece, a solid cylinder that is free to move, with a contact pair for each shape.
+        """Add the workpiece, a solid that is free to move, with a contact pair for each shape.
 
         The engine would take the greater one of both bodies' coefficients, where the trials take the product; a pair
         has a coefficient of its own.
@@ -150,24 +155,30 @@ class _Builder:
             )
         body = _add_body(self._world, WORKPIECE, workpiece.pose)
         ET.SubElement(body, "freejoint")
-        _add_inertial(
-            *(body, workpiece.mass_kg, _cylinder_inertia(workpiece.shape, workpiece.mass_kg)),
-            centre_m=(0.0, 0.0, workpiece.centre_of_mass_m),
-        )
-        _add_geom(body, WORKPIECE, workpiece.shape, Pose(), touches=_ALONE)
+        _add_inertial(*(body, workpiece.mass_kg, inertia_kg_m2(workpiece)), centre_m=centre_of_mass(workpiece))
+        names = []
+        for index, (shape, at) in enumerate(object_solids(workpiece.shape)):
+            names.append(f"{WORKPIECE}:{index}" if index else WORKPIECE)
+            if isinstance(shape, tuple):
+                corners = " ".join(_numbers(corner) for corner in shape)
+                ET.SubElement(self._asset, "mesh", {"name": names[-1], "vertex": corners})
+            _add_geom(body, names[-1], shape, at, touches=_ALONE)
+        self.workpiece_shapes = tuple(names)
         frictions = {f"scene:{one.id}": one.friction * workpiece.friction for one in self._scene.bodies}
         # What else of the machine touches the workpiece ends the trial, so that its friction does not matter.
         frictions.update(dict.fromkeys(self.links, 0.0))
         frictions.update(dict.fromkeys(self.finger_shapes, self._gripper.friction * workpiece.friction))
-        for name, friction in frictions.items():
+        for own, (name, friction) in itertools.product(names, frictions.items()):
             sliding = _number(friction)
+            rolls = workpiece.rolling_resistance_m > 0.0 and name.startswith("scene:")
+            rolling = _number(workpiece.rolling_resistance_m) if rolls else "0"
             pair = {
                 "geom1": name,
-                "geom2": WORKPIECE,
+                "geom2": own,
                 # Sliding friction alone: nothing in a scene has coefficients of spinning and rolling. A twist is
                 # withstood by the two ends of each line of contact.
-                "condim": "3",
-                "friction": f"{sliding} {sliding} 0 0 0",
+                "condim": "6" if rolls else "3",
+                "friction": f"{sliding} {sliding} 0 {rolling} {rolling}",
                 **self._stiffness,
                 # The fastest that the engine allows.
                 "solreffriction": f"{_number(2 * self._settings.step_s)} 1",
@@ -206,12 +217,13 @@ class _Builder:
         x, y, z = geometry.finger.size_m
         inertia = np.diag([y**2 + z**2, x**2 + z**2, x**2 + y**2]) * gripper.finger_mass_kg / 12
         force = _number(gripper.finger_force_n)
+        pads = pad_layouts(geometry, self._scene.workpiece.shape, self._scene.grasp_in_object)
         gain = gripper.finger_force_n / (_SATURATING_SHARE * gripper.finger_velocity_m_s)
         for index, name in enumerate(self.fingers):
             open_pose = geometry.base_pose.inverse() @ geometry.finger_pose(index, geometry.largest_opening_m)
             finger = _add_body(base, name, open_pose)
             _add_inertial(finger, gripper.finger_mass_kg, inertia)
-            for part, (shape, at) in enumerate(finger_solids(geometry, self._scene.workpiece.shape)):
+            for part, (shape, at) in enumerate(finger_solids(geometry, pads[index])):
                 self.finger_shapes[f"{name}:{part}"] = index
                 _add_geom(finger, f"{name}:{part}", shape, at, touches=_MACHINE)
             slide = {

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rgss.scenes import Box, Cylinder, GripperGeometry, Pose, Shape, pad_ribs
+from rgss.physics.mujoco.robot_links import Corners
+from rgss.scenes import Box, GripperGeometry, LyingCylinder, MeshShape, ObjectShape, PadLayout, Pose, Shape
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,8 +26,8 @@ Solid = Shape | Capsule | float
 """A solid of the engine; a number is the radius (m) of a sphere."""
 
 
-def finger_solids(geometry: GripperGeometry, workpiece: Cylinder) -> tuple[tuple[Solid, Pose], ...]:
-    """The solids of a finger in its frame: a rib at each end of the line that its pad touches, and the rest.
+def finger_solids(geometry: GripperGeometry, pad: PadLayout) -> tuple[tuple[Solid, Pose], ...]:
+    """The solids of a finger in its frame: the elements of its pad, and the rest.
 
     A flat box touches a round wall along a line, of which the engine finds both ends. Where the box's edge touches
     the wall, because the object stands off the hand's plane by more than half of the finger's width, it finds one
@@ -34,16 +35,30 @@ def finger_solids(geometry: GripperGeometry, workpiece: Cylinder) -> tuple[tuple
 
     Args:
         geometry: The gripper's shape.
-        workpiece: What it grasps.
+        pad: The elements of the pad.
     """
-    ribs = pad_ribs(geometry, workpiece)
     x, y, z = geometry.finger.size_m
-    rest = Box(size_m=(x - ribs.proud_m, y, z))
-    rib = Capsule(radius_m=ribs.radius_m, half_length_m=y / 2 - ribs.radius_m)
-    return (
-        (rest, Pose(position_m=(ribs.proud_m / 2, 0.0, 0.0))),
-        *(
-            (rib, Pose.from_roll_pitch_yaw((ribs.radius_m - x / 2, 0.0, height_m), (math.pi / 2, 0.0, 0.0)))
-            for height_m in ribs.heights_m
-        ),
-    )
+    solids: list[tuple[Solid, Pose]] = [
+        (Box(size_m=(x - pad.proud_m, y, z)), Pose(position_m=(pad.proud_m / 2, 0.0, 0.0)))
+    ]
+    for element in pad.elements:
+        solid: Solid = pad.radius_m
+        if element.length_m > 0.0:
+            solid = Capsule(radius_m=pad.radius_m, half_length_m=element.length_m / 2)
+        at = (pad.radius_m - x / 2, element.across_m, element.height_m)
+        roll = math.pi / 2 if element.is_across else 0.0
+        solids.append((solid, Pose.from_roll_pitch_yaw(at, (roll, 0.0, 0.0))))
+    return tuple(solids)
+
+
+def object_solids(shape: ObjectShape) -> tuple[tuple[Solid | Corners, Pose], ...]:
+    """The solids of the object in its frame.
+
+    Args:
+        shape: Its shape.
+    """
+    if isinstance(shape, MeshShape):
+        return tuple((part, Pose()) for part in shape.parts_m)
+    if isinstance(shape, LyingCylinder):
+        return ((shape.upright, Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))),)
+    return ((shape, Pose()),)

@@ -24,7 +24,7 @@ from rgss.grasping import (
     velocity_norm_m_s,
 )
 from rgss.physics import ContactWorld, FingerContact
-from rgss.scenes import RIBS, Cylinder, Pose
+from rgss.scenes import RIBS, Cylinder, ObjectShape, Pose, centre_of_mass, girth_radius_m
 from rgss.trials.metrics import CARRY_METRICS, GRASP_METRICS, Aggregation, Direction
 from rgss.trials.monitors.in_hand_motion import HandMotion
 
@@ -71,8 +71,8 @@ def grasp_metrics(
 ) -> dict[str, Metric]:
     """Analyse the contacts between fingers and workpiece, and the workpiece in the hand, as they are now.
 
-    The contacts are hard points with friction, in the workpiece's frame; torques are divided by
-    the workpiece's radius, so that grasps of one object can be compared; the load is its weight.
+    The contacts are hard points with friction, in the workpiece's frame; torques are divided by the workpiece's
+    greatest distance from its vertical axis, so that grasps of one object can be compared; the load is its weight.
 
     Args:
         world: The world after a step.
@@ -86,7 +86,7 @@ def grasp_metrics(
     """
     workpiece, gripper = world.scene.workpiece, world.gripper
     contacts = world.finger_contacts()
-    moved = _motion_in_the_hand(motion, held_at, workpiece.shape.radius_m)
+    moved = _motion_in_the_hand(motion, held_at, girth_radius_m(workpiece.shape))
     if not contacts:
         return {**_APART, **moved}
     closing = [
@@ -98,10 +98,10 @@ def grasp_metrics(
     weight_n = workpiece.mass_kg * world.scene.gravity_m_s2
     found = analyse_grasp(
         points,
-        centre_of_mass_m=(0.0, 0.0, workpiece.centre_of_mass_m),
+        centre_of_mass_m=centre_of_mass(workpiece),
         finger_force_limit_n=gripper.finger_force_n,
         grasp_axis=(0.0, 0.0, 1.0),
-        characteristic_length_m=workpiece.shape.radius_m,
+        characteristic_length_m=girth_radius_m(workpiece.shape),
         external_wrench=Wrench(force_n=world.workpiece_pose().inverse_rotate((0.0, 0.0, -weight_n))),
         cone_edges=_CONE_EDGES,
         with_margins=False,
@@ -128,7 +128,7 @@ def worst_of(samples: Iterable[Mapping[str, Metric]]) -> dict[str, Metric]:
 
 
 def _point(
-    contact: FingerContact, shape: Cylinder, friction: float, motion: HandMotion, closing_m_s: Vector3
+    contact: FingerContact, shape: ObjectShape, friction: float, motion: HandMotion, closing_m_s: Vector3
 ) -> ContactPoint:
     normal = _wall_normal(contact, shape)
     nx, ny, nz = contact.normal
@@ -151,8 +151,10 @@ def _point(
     )
 
 
-def _wall_normal(contact: FingerContact, shape: Cylinder) -> Vector3:
+def _wall_normal(contact: FingerContact, shape: ObjectShape) -> Vector3:
     """The normal of the wall where that is what is touched; the engine's may be of an earlier moment."""
+    if not isinstance(shape, Cylinder):
+        return contact.normal
     x, y, z = contact.position_m
     radius = math.hypot(x, y)
     if radius < shape.radius_m - _WALL_M or abs(z) > shape.half_height_m:

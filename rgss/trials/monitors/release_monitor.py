@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 from rgss.evidence import Failure, Metric
 from rgss.grasping import configuration_distance_m
 from rgss.physics import Contacts, ContactWorld
-from rgss.scenes import Cylinder, Pose
+from rgss.scenes import ObjectShape, Pose, least_height_m
 from rgss.trials.monitors.force_sensor import ForceSensor
 
 Violation = tuple[Failure, str]
@@ -118,13 +116,11 @@ class PlacedObjectMonitor:
         return {"workpiece_displacement_m": self._moved_m, "touch_force_n": self._force_n}
 
 
-def lowest_point_m(pose: Pose, shape: Cylinder) -> float:
-    """Height in the world of the lowest point of a cylinder.
+def lowest_point_m(pose: Pose, shape: ObjectShape) -> float:
+    """Height in the world of the lowest point of a solid.
 
     Args:
         pose: Transform of its frame to the world.
-        shape: The cylinder.
+        shape: The solid.
     """
-    up = pose.rotate((0.0, 0.0, 1.0))[2]
-    reach_m = shape.half_height_m * abs(up) + shape.radius_m * math.sqrt(max(0.0, 1.0 - up * up))
-    return pose.position_m[2] - reach_m
+    return pose.position_m[2] + least_height_m(shape, pose.inverse_rotate((0.0, 0.0, 1.0)))

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rgss.physics import MOST_ITERATIONS
+from rgss.scenes import Cylinder
 from rgss.trials.payload_bench.spec import BenchSpec
 
 BOUND = 0.02
@@ -82,7 +83,7 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
     # Below, two ribs of a pad are too near one another to keep the object from turning about them: at 20 mm a slow
     # heavy finger that presses with 0.5 N is 4.5 % off.
     ValidatedQuantity(
-        name="height of the object", unit="m", lowest=0.03, highest=0.2, of=lambda spec: spec.shape.height_m
+        name="height of the object", unit="m", lowest=0.03, highest=0.2, of=lambda spec: 2.0 * spec.shape.half_height_m
     ),
     ValidatedQuantity(
         name="payload by Coulomb's law", unit="kg", lowest=0.03, highest=50.0, of=lambda spec: spec.theory_kg
@@ -98,6 +99,8 @@ def outside(spec: BenchSpec) -> tuple[str, ...]:
         spec: The bench.
     """
     found = []
+    if spec.grasp is None and not isinstance(spec.shape, Cylinder):
+        found.append("no grasp of the object from above")
     for quantity in VALIDATED:
         value = quantity.of(spec)
         if not quantity.contains(value):

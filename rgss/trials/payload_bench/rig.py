@@ -15,7 +15,19 @@ from enum import Enum
 from types import TracebackType
 
 from rgss.physics import Contacts, open_world
-from rgss.scenes import Cylinder, Joint, PlaceRegion, Pose, Robot, Scene, SceneBody, Task, Workpiece
+from rgss.scenes import (
+    Cylinder,
+    Joint,
+    PlaceRegion,
+    Pose,
+    Robot,
+    Scene,
+    SceneBody,
+    TakenGrasp,
+    Task,
+    Workpiece,
+    half_extents_m,
+)
 from rgss.trials.monitors import ForceSensor
 from rgss.trials.payload_bench.spec import BenchSpec
 
@@ -204,11 +216,27 @@ class PayloadRig:
 def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
     """The object on top of a post, the origin at its foot, and the rail above it."""
     half_m = spec.shape.half_height_m
+    radius_m = min(half_extents_m(spec.shape)[:2])
+    stands, tool_m, taken = Pose(position_m=(0.0, 0.0, half_m)), half_m, None
+    if spec.grasp is not None:
+        tool_m += spec.grasp.position_m[2]
+        tool = Pose.from_roll_pitch_yaw((0.0, 0.0, tool_m), (math.pi, 0.0, 0.0))
+        stands = tool @ spec.grasp.inverse()
+        taken = TakenGrasp(
+            id="bench",
+            tool_in_object=spec.grasp,
+            opening_m=spec.gripper.geometry.largest_opening_m,
+            place_yaw_rad=0.0,
+            quality_1=0.0,
+            com_distance_m=0.0,
+            candidates=1,
+            rejected=0,
+        )
     # Thinner than the object, so that low fingers pass it; without friction, because on a rough
     # post the object can stay wedged between post and hand, and then geared fingers press unevenly.
     post = SceneBody(
         id=_POST,
-        shape=Cylinder(radius_m=_POST_SHARE * spec.shape.radius_m, height_m=_POST_HEIGHT_M),
+        shape=Cylinder(radius_m=_POST_SHARE * radius_m, height_m=_POST_HEIGHT_M),
         pose=Pose(position_m=(0.0, 0.0, -_POST_HEIGHT_M / 2)),
         friction=0.0,
         colour=_BLACK,
@@ -220,19 +248,20 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
         friction=spec.object_friction,
         force_limit_n=spec.force_limit_n,
         force_window_s=spec.force_window_s,
-        pose=Pose(position_m=(0.0, 0.0, half_m)),
+        gyration_m2=spec.gyration_m2,
+        pose=stands,
         colour=_BLACK,
     )
     return Scene(
         id="payload-bench",
         gravity_m_s2=spec.gravity_m_s2,
-        robot=_rail(half_m + spec.gripper.geometry.grasp_depth_m),
+        robot=_rail(tool_m + spec.gripper.geometry.grasp_depth_m),
         bodies=(post,),
         support=_POST,
         place_support=_POST,
         workpiece=workpiece,
         # A scene has a task; nothing is placed on the bench.
-        place=PlaceRegion(centre_m=(0.0, 0.0, 0.0), radius_m=spec.shape.radius_m, largest_tilt_rad=math.pi),
+        place=PlaceRegion(centre_m=(0.0, 0.0, 0.0), radius_m=radius_m, largest_tilt_rad=math.pi),
         task=Task(
             approach_height_m=0.0,
             lift_height_m=0.0,
@@ -242,6 +271,7 @@ def _rig_scene(spec: BenchSpec, mass_kg: float) -> Scene:
             largest_carry_tilt_rad=math.pi,
             grasp_yaw_rad=0.0,
             place_yaw_rad=0.0,
+            grasp=taken,
         ),
     )
 

@@ -4,10 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from rgss.errors import DefinitionError
+from rgss.grasping.candidates import ranked_grasps
 from rgss.physics import MOST_ITERATIONS, PhysicsSettings
-from rgss.scenes import FORCE_WINDOW_S, Cylinder, Gripper, Scene
+from rgss.scenes import (
+    FORCE_WINDOW_S,
+    Approach,
+    Cylinder,
+    GraspCandidates,
+    Gripper,
+    GripperGeometry,
+    Gyration,
+    ObjectShape,
+    Pose,
+    Scene,
+    Workpiece,
+)
 
 SAFETY_FACTOR = 1.5
 """Of a gripper's payload by friction (thesis, eq. 4.8)."""
@@ -48,7 +62,7 @@ class BenchSpec:
 
     Attributes:
         gripper: The gripper; the masses, force, velocity and friction of the design.
-        shape: The object's solid, upright and gripped at its centre.
+        shape: The object's solid; an upright cylinder is gripped at its centre.
         object_friction: The object's coefficient; the contact's is the product with the pads'.
         force_limit_n: Normal force of a finger, averaged over the window, above which the object is damaged.
         force_window_s: The window.
@@ -57,10 +71,13 @@ class BenchSpec:
         rated_kg: Mass at which the search ends, what the arm may carry.
         physics: Step length and solver.
         settings: How the bench grasps, lifts, and judges.
+        grasp: Transform of the grasp-centre frame to the object's frame, from above; None for an upright cylinder.
+        gyration_m2: The object's inertia over its mass; None for that of the homogeneous shape. Its centre of mass is
+            in the middle.
     """
 
     gripper: Gripper
-    shape: Cylinder
+    shape: ObjectShape
     object_friction: float
     force_limit_n: float
     gravity_m_s2: float
@@ -69,6 +86,8 @@ class BenchSpec:
     physics: PhysicsSettings = field(default_factory=PhysicsSettings)
     settings: BenchSettings = field(default_factory=BenchSettings)
     force_window_s: float = FORCE_WINDOW_S
+    grasp: Pose | None = None
+    gyration_m2: Gyration | None = None
 
     @property
     def friction(self) -> float:
@@ -172,6 +191,13 @@ class BenchSpec:
 
     def _check_fit(self) -> None:
         geometry = self.gripper.geometry
+        if not isinstance(self.shape, Cylinder):
+            if self.grasp is None:
+                raise DefinitionError(
+                    f"gripper {geometry.id!r} has no grasp of the object from above",
+                    hint="take a thinner object or a gripper that opens wider",
+                )
+            return
         if self.shape.radius_m >= geometry.largest_opening_m:
             raise DefinitionError(
                 f"an object of radius {self.shape.radius_m:g} m does not fit into gripper {geometry.id!r}, "
@@ -209,6 +235,8 @@ def bench_spec(
     return BenchSpec(
         gripper=gripper,
         shape=scene.workpiece.shape,
+        grasp=_grasp_from_above(scene.workpiece.shape, gripper.geometry, gripper.friction * scene.workpiece.friction),
+        gyration_m2=scene.workpiece.gyration_m2,
         object_friction=scene.workpiece.friction,
         force_limit_n=scene.workpiece.force_limit_n,
         force_window_s=scene.workpiece.force_window_s,
@@ -218,3 +246,17 @@ def bench_spec(
         physics=physics or PhysicsSettings(),
         settings=settings or BenchSettings(),
     )
+
+
+@lru_cache(maxsize=64)
+def _grasp_from_above(shape: ObjectShape, geometry: GripperGeometry, friction: float) -> Pose | None:
+    """The best grasp from above of an object other than an upright cylinder; None where there is none."""
+    if isinstance(shape, Cylinder):
+        return None
+    # Mass properties other than the centre of mass do not count for a grasp.
+    sample = Workpiece(
+        id="object", shape=shape, mass_kg=1.0, friction=1.0, force_limit_n=1.0, pose=Pose(), colour=(0.0, 0.0, 0.0, 1.0)
+    )
+    options = GraspCandidates(approaches=(Approach.ABOVE,), heights=1)
+    found = ranked_grasps(sample, geometry, options, friction=friction).grasps
+    return found[0].tool_in_object if found else None

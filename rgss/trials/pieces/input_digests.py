@@ -16,7 +16,7 @@ from typing import Any
 from rgss.documents import digest
 from rgss.evidence import Fidelity
 from rgss.motion import Objective
-from rgss.scenes import Robot, Scene, Shape
+from rgss.scenes import ObjectShape, Robot, Scene, Workpiece, centre_of_mass
 from rgss.trials.code import ENTRIES, versions_of
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.payload_bench import BenchSpec, bench_of
@@ -69,6 +69,7 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     conditions = conditions_of(spec)
     plan = _joined(
         _geometry_digest(conditions.perceived_scene),
+        *_choice_digest(conditions),
         _digest_of(spec.gripper.geometry),
         _digest_of(spec.planned_by),
         _potential_digest(spec),
@@ -132,7 +133,25 @@ def physics_inputs(scene: Scene) -> dict[str, Any]:
             scene.place.largest_drag_m,
         ],
         "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
+        **_stated_inertia(workpiece),
     }
+
+
+def _stated_inertia(workpiece: Workpiece) -> dict[str, Any]:
+    """Mass properties other than those of a homogeneous shape."""
+    if workpiece.gyration_m2 is None and not any((*workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m)):
+        return {}
+    stated = [workpiece.gyration_m2, workpiece.centre_of_mass_across_m, workpiece.rolling_resistance_m]
+    return {"inertia": stated}
+
+
+def _choice_digest(conditions: Conditions) -> tuple[str, ...]:
+    """Digest of what the choice of a grasp depends on besides the geometry; nothing where the grasp is stated."""
+    workpiece = conditions.perceived_scene.workpiece
+    if conditions.scene.task.candidates is None:
+        return ()
+    frictions = [workpiece.friction, conditions.design_gripper.friction]
+    return (digest([to_plain(workpiece.grasps), list(centre_of_mass(workpiece)), frictions]),)
 
 
 def _potential_digest(spec: TrialSpec) -> float:
@@ -220,5 +239,5 @@ def _geometry_digest(scene: Scene) -> str:
     return digest(geometry)
 
 
-def _shape(shape: Shape) -> dict[str, Any]:
+def _shape(shape: ObjectShape) -> dict[str, Any]:
     return {"kind": type(shape).__name__, **to_plain(shape)}

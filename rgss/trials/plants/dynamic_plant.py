@@ -15,7 +15,7 @@ import numpy as np
 from rgss.evidence import Failure, Metric, Phase
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene, Workpiece
+from rgss.scenes import Gripper, Scene, Workpiece, grasp_opening_m
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
@@ -63,8 +63,13 @@ class DynamicPlant:
         self._checkpoint = checkpoint
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
-        empty, loaded = gripper_loads(gripper, opening_m), gripper_loads(gripper, scene.workpiece.shape.radius_m)
-        held = workpiece_load(scene.workpiece if believed is None else believed, gripper.geometry.grasp_centre)
+        empty, loaded = (
+            gripper_loads(gripper, opening_m),
+            gripper_loads(gripper, grasp_opening_m(scene, gripper.geometry)),
+        )
+        self._held = None if scene.grasp_in_object is None else scene.grasp_in_object.inverse()
+        centre = gripper.geometry.grasp_centre if self._held is None else gripper.geometry.grasp_centre @ self._held
+        held = workpiece_load(scene.workpiece if believed is None else believed, centre)
         self._empty = ArmDynamics(scene.robot, empty, gravity_m_s2=scene.gravity_m_s2)
         self._loaded = ArmDynamics(scene.robot, (*loaded, held), gravity_m_s2=scene.gravity_m_s2)
         self._model = self._empty
@@ -98,7 +103,7 @@ class DynamicPlant:
         """Close: the arm holds still for the fingers' travel and the time of a firm grasp."""
         result = self._wait(Phase.GRASP, self._finger_time_s() + self._control.firm_grasp_s, {})
         self._machine.hold_fingers(self._finger_travel_m())
-        self._machine.attach(self._scene.workpiece)
+        self._machine.attach(self._scene.workpiece, self._held)
         self._model = self._loaded
         return result
 
@@ -158,7 +163,7 @@ class DynamicPlant:
 
     def _finger_travel_m(self) -> float:
         geometry = self._gripper.geometry
-        return min(geometry.stroke_m, geometry.largest_opening_m - self._scene.workpiece.shape.radius_m)
+        return min(geometry.stroke_m, geometry.largest_opening_m - grasp_opening_m(self._scene, geometry))
 
 
 @dataclass(slots=True)

@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from rgss.evidence import Metric, Phase
-from rgss.scenes import Gripper, Joint, Workpiece
+from rgss.scenes import Gripper, Joint
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
@@ -48,7 +48,7 @@ class KinematicPlant:
         tool: ToolPositions,
         joints: Sequence[Joint],
         gripper: Gripper,
-        workpiece: Workpiece,
+        opening_m: float,
         control: ControlSettings,
         *,
         step_s: float,
@@ -60,7 +60,7 @@ class KinematicPlant:
             tool: Kinematics of the tool.
             joints: The arm's joints with their limits.
             gripper: The hand; its fingers move at their velocity.
-            workpiece: The object; its radius is where the fingers stop.
+            opening_m: Distance of the pads from the gripper's axis where they hold the object.
             control: Thresholds of the task program.
             step_s: Time between two targets.
             response: How the joints follow.
@@ -68,7 +68,7 @@ class KinematicPlant:
         self._tool = tool
         self._joints = joints
         self._gripper = gripper
-        self._workpiece = workpiece
+        self._opening_m = opening_m
         self._control = control
         self._step_s = step_s
         self._response = response or JointResponse()
@@ -106,7 +106,7 @@ class KinematicPlant:
 
     def _finger_time_s(self) -> float:
         geometry = self._gripper.geometry
-        travel_m = min(geometry.stroke_m, geometry.largest_opening_m - self._workpiece.shape.radius_m)
+        travel_m = min(geometry.stroke_m, geometry.largest_opening_m - self._opening_m)
         return travel_m / self._gripper.finger_velocity_m_s
 
     def _deviation(self, positions_rad: Array) -> Array:

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rgss.evidence import Fidelity, Phase
-from rgss.scenes import Cylinder, Joint, Pose, Workpiece, load_gripper
+from rgss.scenes import Joint, load_gripper
 from rgss.scenes.gripper import Gripper
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants.control import ControlSettings
@@ -78,24 +78,12 @@ def gripper_with(**changes):
     return Gripper(**(values | changes))
 
 
-def workpiece_of(radius_m):
-    return Workpiece(
-        id="cup",
-        shape=Cylinder(radius_m=radius_m, height_m=0.1),
-        mass_kg=0.25,
-        friction=1.0,
-        force_limit_n=40.0,
-        pose=Pose(),
-        colour=(0.5, 0.5, 0.5, 1.0),
-    )
-
-
 def plant_with(tool=None, *, step_s=STEP_S, response=None, radius_m=0.035, control=None, **gripper):
     return KinematicPlant(
         tool or Tool(),
         JOINTS,
         gripper_with(**gripper),
-        workpiece_of(radius_m),
+        radius_m,
         control or ControlSettings(),
         step_s=step_s,
         response=response,

@@ -1,0 +1,151 @@
+"""Candidates of an object for a gripper, ordered by quality."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+from rgss.grasping.candidates.boxes import box_frames
+from rgss.grasping.candidates.cylinders import cylinder_frames
+from rgss.grasping.candidates.frames import ToolFrame, approach_of
+from rgss.grasping.candidates.meshes import antipodal_frames
+from rgss.grasping.candidates.scoring import com_distance_m, contact_points, quality_1
+from rgss.scenes import (
+    Approach,
+    Box,
+    GraspCandidates,
+    GripperGeometry,
+    MeshShape,
+    Pose,
+    Workpiece,
+    centre_of_mass,
+    settled_grasp,
+)
+
+_OPEN_GAP_M = 0.002
+_ORDER = tuple(Approach)
+
+
+class Unfit(str, Enum):
+    """Why a tool frame is no grasp of the object with the gripper."""
+
+    APPROACH = "approach"
+    CONTACT = "contact"
+    TOO_WIDE = "too wide"
+    TOO_NARROW = "too narrow"
+    RIM = "rim of a pad"
+    NO_FORCE_CLOSURE = "no force closure"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RankedGrasp:
+    """A candidate with its quality.
+
+    Attributes:
+        id: Its name.
+        tool_in_object: Transform of the grasp-centre frame to the object's frame.
+        opening_m: Distance of the pads from the gripper's axis.
+        approach: Kind of its approach.
+        quality_1: Smallest maximum wrench for finger forces of 1 N.
+        com_distance_m: Distance of the centre of mass from the line or the middle of the contacts.
+    """
+
+    id: str
+    tool_in_object: Pose
+    opening_m: float
+    approach: Approach
+    quality_1: float
+    com_distance_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RankedGrasps:
+    """The candidates of an object, best first.
+
+    Attributes:
+        grasps: The candidates.
+        unfit: How many tool frames are none, by the reason.
+    """
+
+    grasps: tuple[RankedGrasp, ...]
+    unfit: Mapping[Unfit, int]
+
+
+def ranked_grasps(
+    workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, *, friction: float
+) -> RankedGrasps:
+    """The grasp candidates of an object: by quality, then the distance of the centre of mass, then the approach.
+
+    Args:
+        workpiece: The object.
+        geometry: The gripper's shape.
+        options: Which grasps are tried.
+        friction: Coefficient of the contact.
+    """
+    found: list[RankedGrasp] = []
+    unfit: Counter[Unfit] = Counter()
+    for frame in _frames(workpiece, geometry, options, friction):
+        one = _ranked(frame, workpiece, geometry, options, friction)
+        if isinstance(one, Unfit):
+            unfit[one] += 1
+        else:
+            found.append(one)
+    found.sort(
+        key=lambda grasp: (
+            -round(grasp.quality_1, 4),
+            round(grasp.com_distance_m, 4),
+            _ORDER.index(grasp.approach),
+            grasp.id,
+        )
+    )
+    return RankedGrasps(grasps=tuple(found), unfit=dict(unfit))
+
+
+def _frames(
+    workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, friction: float
+) -> Iterator[ToolFrame]:
+    for given in workpiece.grasps:
+        yield ToolFrame(id=given.id, tool_in_object=given.tool_in_object)
+    shape, centre = workpiece.shape, centre_of_mass(workpiece)
+    if isinstance(shape, Box):
+        yield from box_frames(shape, centre, options.heights, geometry)
+    elif isinstance(shape, MeshShape):
+        if options.samples:
+            yield from antipodal_frames(
+                shape, friction=friction, samples=options.samples, yaws=options.yaws, geometry=geometry
+            )
+    else:
+        yield from cylinder_frames(shape, centre, heights=options.heights, yaws=options.yaws, geometry=geometry)
+
+
+def _ranked(
+    frame: ToolFrame, workpiece: Workpiece, geometry: GripperGeometry, options: GraspCandidates, friction: float
+) -> RankedGrasp | Unfit:
+    approach = approach_of(frame.tool_in_object)
+    if approach is None or approach not in options.approaches:
+        return Unfit.APPROACH
+    settled = settled_grasp(workpiece.shape, frame.tool_in_object, geometry)
+    if settled is None:
+        return Unfit.CONTACT
+    tool_in_object, patches = settled
+    opening_m = max(patch.opening_m for patch in patches)
+    if opening_m > geometry.largest_opening_m - _OPEN_GAP_M:
+        return Unfit.TOO_WIDE
+    if opening_m <= geometry.largest_opening_m - geometry.stroke_m:
+        return Unfit.TOO_NARROW
+    if any(patch.is_on_rim for patch in patches):
+        return Unfit.RIM
+    points = contact_points(patches, tool_in_object, geometry, friction)
+    quality = quality_1(points, workpiece)
+    if quality <= 0.0:
+        return Unfit.NO_FORCE_CLOSURE
+    return RankedGrasp(
+        id=frame.id,
+        tool_in_object=tool_in_object,
+        opening_m=opening_m,
+        approach=approach,
+        quality_1=quality,
+        com_distance_m=com_distance_m(points, centre_of_mass(workpiece)),
+    )

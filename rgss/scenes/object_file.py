@@ -1,0 +1,361 @@
+"""The object of a scene file: its solid, mass properties and pose."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from rgss.documents import Document
+from rgss.errors import DefinitionError
+from rgss.findings import Finding
+from rgss.scenes.document import (
+    CollisionShapes,
+    GivenGraspEntry,
+    GraspCandidatesEntry,
+    GraspRule,
+    Rest,
+    WorkpieceEntry,
+)
+from rgss.scenes.findings import Location, named_file_findings
+from rgss.scenes.grasp_choice import GivenGrasp, GraspCandidates
+from rgss.scenes.mass_properties import Gyration
+from rgss.scenes.mesh_shapes import mesh_mass, mesh_summary, shapes_of_mesh
+from rgss.scenes.pad_contact import rotation_of
+from rgss.scenes.pose import Pose
+from rgss.scenes.scene import ColourRgba, Workpiece
+from rgss.scenes.shapes import Box, Cylinder, LyingCylinder, MeshShape, ObjectShape, Point, corners_of
+
+MOST_PARTS = 16
+"""Most convex parts of an object: each is tried against each body and pad in every step."""
+
+_SHAPES = ("box", "cylinder", "mesh")
+_LARGEST_M, _SMALLEST_M = 3.0, 1.0e-3
+_CONVEX = 1.02
+_TIPPED = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ObjectSolid:
+    """The solid of an object as it rests, before it is put anywhere.
+
+    Attributes:
+        shape: The solid.
+        from_file: Transform of the frame in which the file describes it to the frame of the shape.
+        mass_kg: Its mass.
+        centre_m: Its centre of mass, in the frame of the shape.
+        gyration_m2: Inertia about it over the mass; None for that of the homogeneous shape.
+    """
+
+    shape: ObjectShape
+    from_file: Pose
+    mass_kg: float
+    centre_m: Point
+    gyration_m2: Gyration | None
+
+
+def object_solid(
+    path: Path, entry: WorkpieceEntry, document: Document, findings: list[Finding], project: Path
+) -> ObjectSolid | None:
+    """The solid of an object, or None with what is wrong added to the findings.
+
+    Args:
+        path: The scene's file, relative to which the mesh is named.
+        entry: The object.
+        document: The scene's document.
+        findings: What is wrong so far.
+        project: The folder that no file may lie outside of.
+    """
+    before = len(findings)
+    findings.extend(_form_findings(entry, document))
+    if len(findings) > before or any(value <= 0.0 for _, value in object_lengths(entry)):
+        return None
+    if entry.mesh is not None:
+        location = ("workpiece", "mesh")
+        problems = list(named_file_findings(document, entry.mesh, location, folder=path.parent, project=project))
+        findings.extend(problems)
+        if problems:
+            return None
+        try:
+            return _mesh_solid(path.parent / entry.mesh, entry, document, findings)
+        except DefinitionError as error:
+            findings.append(document.finding("scene.mesh", str(error), location, hint=error.hint))
+            return None
+    shape, turn = _primitive(entry)
+    upright = _primitive(entry.model_copy(update={"rests": Rest.UPRIGHT}))[0]
+    mass_kg = entry.mass if entry.mass is not None else _required(entry.density) * _volume_m3(upright)
+    solid = _assembled(entry, shape, turn, mass_kg, (0.0, 0.0, 0.0), None)
+    findings.extend(_mass_findings(entry, solid, document))
+    return solid
+
+
+def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, top_m: float, colour: ColourRgba) -> Workpiece:
+    """The object at its start.
+
+    Args:
+        entry: The object's entry.
+        solid: Its solid.
+        top_m: Height of the surface on which it rests.
+        colour: Its colour.
+    """
+    at_m = (*entry.at, top_m + solid.shape.half_height_m)
+    pose = Pose(position_m=at_m)
+    if entry.yaw:
+        pose = Pose.from_roll_pitch_yaw(at_m, (0.0, 0.0, entry.yaw))
+    x, y, z = solid.centre_m
+    return Workpiece(
+        id=entry.id,
+        shape=solid.shape,
+        mass_kg=solid.mass_kg,
+        friction=entry.friction,
+        force_limit_n=entry.force_limit,
+        force_window_s=entry.force_window,
+        landing_limit_m_s=entry.landing_limit,
+        centre_of_mass_m=z,
+        centre_of_mass_across_m=(x, y),
+        gyration_m2=solid.gyration_m2,
+        rolling_resistance_m=entry.rolling_resistance or 0.0,
+        grasps=tuple(_given(grasp, solid.from_file) for grasp in entry.grasps),
+        pose=pose,
+        colour=colour,
+    )
+
+
+def candidates_of(rule: GraspRule | GraspCandidatesEntry) -> GraspCandidates | None:
+    """Which grasps are tried; None for the stated one.
+
+    Args:
+        rule: What the task says.
+    """
+    if isinstance(rule, GraspRule):
+        return None if rule is GraspRule.AS_STATED else GraspCandidates()
+    stated = rule.candidates
+    return GraspCandidates(
+        approaches=stated.approaches, heights=stated.heights, yaws=stated.yaws, samples=stated.samples
+    )
+
+
+def object_lengths(entry: WorkpieceEntry) -> Iterator[tuple[Location, float]]:
+    """Location and value of what must be above zero.
+
+    Args:
+        entry: The object.
+    """
+    values: dict[Location, float | None] = {
+        ("workpiece", "radius"): entry.radius,
+        ("workpiece", "height"): entry.height,
+        ("workpiece", "mass"): entry.mass,
+        ("workpiece", "density"): entry.density,
+        ("workpiece", "scale"): entry.scale,
+        ("workpiece", "rolling_resistance"): entry.rolling_resistance,
+    }
+    if entry.cylinder is not None:
+        values["workpiece", "cylinder", "radius"] = entry.cylinder.radius
+        values["workpiece", "cylinder", "height"] = entry.cylinder.height
+    for axis, edge in enumerate(entry.box or ()):
+        values["workpiece", "box", axis] = edge
+    for index, grasp in enumerate(entry.grasps):
+        values["workpiece", "grasps", index, "width"] = grasp.width
+    yield from ((location, value) for location, value in values.items() if value is not None)
+
+
+def _form_findings(entry: WorkpieceEntry, document: Document) -> Iterable[Finding]:
+    """Whether it has one shape, one of mass and density, and only keys that its shape knows."""
+    stated = [key for key in _SHAPES if getattr(entry, key) is not None]
+    if entry.radius is not None or entry.height is not None:
+        stated.append("radius and height")
+    if len(stated) != 1 or (entry.radius is None) != (entry.height is None):
+        yield document.finding(
+            "scene.shape",
+            f"object {entry.id!r} needs exactly one of 'box', 'cylinder', 'mesh', and 'radius' with 'height'",
+            ("workpiece",),
+        )
+    if (entry.mass is None) == (entry.density is None):
+        yield document.finding(
+            "scene.mass", f"object {entry.id!r} needs exactly one of 'mass' and 'density'", ("workpiece",)
+        )
+    if entry.mesh is None and (entry.scale != 1.0 or entry.collision is not None):
+        key = "scale" if entry.scale != 1.0 else "collision"
+        yield document.finding("scene.shape", f"{key!r} is of a mesh alone", ("workpiece", key), hint="take it out")
+    is_round = entry.cylinder is not None or entry.radius is not None
+    if is_round and entry.rests is Rest.LYING and entry.rolling_resistance is None:
+        yield document.finding(
+            "scene.rolling",
+            f"object {entry.id!r} lies and would roll away",
+            ("workpiece", "rests"),
+            hint="give 'rolling_resistance', a length: 0.5 mm on wood or laminate",
+        )
+    if entry.inertia is not None and entry.centre_of_mass is None:
+        yield document.finding(
+            "scene.mass", "'inertia' is about the centre of mass", ("workpiece", "inertia"), hint="add centre_of_mass"
+        )
+    names = [grasp.id for grasp in entry.grasps]
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            yield document.finding(
+                "scene.duplicate-id", f"id {name!r} is taken by an earlier grasp", ("workpiece", "grasps", index, "id")
+            )
+
+
+def _primitive(entry: WorkpieceEntry) -> tuple[Box | Cylinder | LyingCylinder, Pose]:
+    """The shape of a box or a cylinder as it rests, and the turn to its frame."""
+    lying = entry.rests is Rest.LYING
+    if entry.box is not None:
+        x, y, z = entry.box
+        return Box(size_m=(z, y, x) if lying else (x, y, z)), _TIPPED if lying else Pose()
+    radius, height = entry.radius, entry.height
+    if entry.cylinder is not None:
+        radius, height = entry.cylinder.radius, entry.cylinder.height
+    if lying:
+        return LyingCylinder(radius_m=_required(radius), length_m=_required(height)), _TIPPED
+    return Cylinder(radius_m=_required(radius), height_m=_required(height)), Pose()
+
+
+def _mesh_solid(path: Path, entry: WorkpieceEntry, document: Document, findings: list[Finding]) -> ObjectSolid | None:
+    summary = mesh_summary(path, scale=(entry.scale,) * 3)
+    before, location = len(findings), ("workpiece", "mesh")
+    size = max(summary.extent_m)
+    if not _SMALLEST_M <= size <= _LARGEST_M:
+        hint = "give 'scale: 0.001' for a mesh in millimetres" if size > _LARGEST_M else "give 'scale'"
+        findings.append(
+            document.finding(
+                "scene.mesh-units", f"the mesh is {size:.3g} m long; lengths are in m", location, hint=hint
+            )
+        )
+    is_stated = entry.centre_of_mass is not None and entry.inertia is not None and entry.mass is not None
+    if not summary.is_closed and not is_stated:
+        findings.append(
+            document.finding(
+                "scene.mesh-open",
+                "the mesh is not closed, so that it has no mass properties",
+                location,
+                hint="close it, or give mass, centre_of_mass and inertia",
+            )
+        )
+    if summary.is_closed and summary.hull_ratio > _CONVEX and entry.collision is None:
+        findings.append(
+            document.finding(
+                "scene.mesh-concave",
+                f"the mesh is concave: its hull has {summary.hull_ratio:.2f} times its volume",
+                location,
+                hint="say 'collision: decompose' (package coacd), or 'hull' to take the hull",
+            )
+        )
+    if len(findings) > before:
+        return None
+    how = entry.collision or CollisionShapes.HULL
+    sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+    parts = shapes_of_mesh(path, sha256=sha256, scale=(entry.scale,) * 3, how=how)
+    if len(parts) > MOST_PARTS:
+        raise DefinitionError(
+            f"{path.name} takes {len(parts)} convex parts, at most {MOST_PARTS} are simulated",
+            hint="use a simpler mesh, or 'collision: hull'",
+        )
+    turn = _TIPPED if entry.rests is Rest.LYING else Pose()
+    corners = np.vstack([np.array(part) for part in parts]) @ rotation_of(turn).T
+    x, y, z = (float(value) for value in (corners.min(axis=0) + corners.max(axis=0)) / 2)
+    to_shape = Pose(position_m=(-x, -y, -z)) @ turn
+    shape = MeshShape(
+        parts_m=tuple(
+            tuple(_rounded((to_shape @ Pose(position_m=corner)).position_m) for corner in part) for part in parts
+        ),
+        sha256=sha256,
+    )
+    centre, gyration, mass_kg = (0.0, 0.0, 0.0), None, entry.mass
+    if summary.is_closed:
+        found = mesh_mass(path, scale=entry.scale)
+        centre, gyration = found.centre_m, found.gyration_m2
+        mass_kg = entry.mass if entry.mass is not None else _required(entry.density) * found.volume_m3
+    solid = _assembled(entry, shape, to_shape, _required(mass_kg), centre, gyration)
+    findings.extend(_mass_findings(entry, solid, document))
+    return solid
+
+
+def _assembled(
+    entry: WorkpieceEntry,
+    shape: ObjectShape,
+    to_shape: Pose,
+    mass_kg: float,
+    centre: Point,
+    gyration: Gyration | None,
+) -> ObjectSolid:
+    """The solid with what is stated of its mass in the place of what follows from its shape."""
+    stated_centre = centre if entry.centre_of_mass is None else entry.centre_of_mass
+    if entry.inertia is not None:
+        xx, yy, zz, xy, xz, yz = (value / mass_kg for value in entry.inertia)
+        gyration = (xx, yy, zz, xy, xz, yz)
+    if gyration is not None:
+        gyration = _turned(gyration, to_shape)
+    is_same = to_shape == Pose()
+    return ObjectSolid(
+        shape=shape,
+        from_file=to_shape,
+        mass_kg=mass_kg,
+        centre_m=stated_centre if is_same else _rounded((to_shape @ Pose(position_m=stated_centre)).position_m),
+        gyration_m2=gyration,
+    )
+
+
+def _turned(gyration: Gyration, turn: Pose) -> Gyration:
+    xx, yy, zz, xy, xz, yz = gyration
+    axes = rotation_of(turn)
+    found = axes @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ axes.T
+    entries = [float(found[row, column]) for row, column in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
+    return entries[0], entries[1], entries[2], entries[3], entries[4], entries[5]
+
+
+def _mass_findings(entry: WorkpieceEntry, solid: ObjectSolid, document: Document) -> Iterable[Finding]:
+    """Whether the centre of mass lies in the hull, and the inertia is one that a body can have."""
+    corners = np.array([corner for part in corners_of(solid.shape) for corner in part])
+    if entry.centre_of_mass is not None and not _is_in_hull(np.array(solid.centre_m), corners):
+        yield document.finding(
+            "scene.centre-of-mass",
+            "the centre of mass lies outside the object",
+            ("workpiece", "centre_of_mass"),
+            hint="it is given in the frame of the shape: of a box or cylinder, from its centre",
+        )
+    if entry.inertia is not None:
+        xx, yy, zz, xy, xz, yz = entry.inertia
+        moments = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
+        if moments[0] <= 0.0 or moments[0] + moments[1] < moments[2] * (1.0 - 1e-6):
+            yield document.finding(
+                "scene.inertia",
+                "no body has this inertia: its principal moments must be positive, each at most the sum of the others",
+                ("workpiece", "inertia"),
+                hint="give xx, yy, zz, xy, xz, yz about the centre of mass",
+            )
+
+
+def _is_in_hull(point: np.ndarray, corners: np.ndarray) -> bool:
+    from scipy.spatial import ConvexHull
+
+    equations = ConvexHull(corners).equations
+    return bool(np.max(equations[:, :3] @ point + equations[:, 3]) <= 1e-9)
+
+
+def _given(entry: GivenGraspEntry, from_file: Pose) -> GivenGrasp:
+    frame = Pose.from_roll_pitch_yaw(entry.at, (entry.roll, entry.pitch, entry.yaw))
+    return GivenGrasp(id=entry.id, tool_in_object=from_file @ frame, width_m=entry.width)
+
+
+def _volume_m3(shape: Box | Cylinder | LyingCylinder) -> float:
+    if isinstance(shape, Box):
+        return math.prod(shape.size_m)
+    height_m = shape.height_m if isinstance(shape, Cylinder) else shape.length_m
+    return math.pi * shape.radius_m**2 * height_m
+
+
+def _rounded(point: Point) -> Point:
+    """A point without the rounding of a turn, to a tenth of a nanometre."""
+    x, y, z = (round(value, 10) for value in point)
+    return x, y, z
+
+
+def _required(value: float | None) -> float:
+    if value is None:
+        raise AssertionError("checked before: the entry has it")
+    return value

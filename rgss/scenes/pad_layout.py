@@ -1,0 +1,146 @@
+"""Elements of a finger's pad for contact engines, by what the pad touches.
+
+An engine finds one point of a pair of shapes in a step. So a pad is given to it as round elements, each of which
+meets the object in one point that is found at once: where it touches a line, two ribs across the line at its ends;
+where it touches a face, four knobs at the corners of the patch; where it touches a point, one knob.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from rgss.scenes.gripper import GripperGeometry
+from rgss.scenes.pad_contact import PadPatch, pad_patches
+from rgss.scenes.pose import Pose
+from rgss.scenes.rib_geometry import RIBS, PadRibs, pad_ribs
+from rgss.scenes.shapes import Box, Cylinder, ObjectShape
+
+_LARGEST_RADIUS_M = 0.004
+_RADIUS_SHARE = 0.25
+_PROUD_SHARE = 0.75
+_LINE_M = 1.0e-3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PadElement:
+    """A capsule of a pad, its front where the flat pad would be; without a length, a sphere.
+
+    Attributes:
+        across_m: Place along the finger's width.
+        height_m: Place along the finger, from its centre.
+        is_across: Whether its axis lies across the finger, and not along it.
+        length_m: Length of its cylinder.
+    """
+
+    across_m: float
+    height_m: float
+    is_across: bool
+    length_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PadLayout:
+    """The elements of the pad of one finger.
+
+    Attributes:
+        radius_m: Radius of each element.
+        proud_m: How far the elements stand out of the rest of the finger.
+        elements: The elements.
+    """
+
+    radius_m: float
+    proud_m: float
+    elements: tuple[PadElement, ...]
+
+
+def ribbed_layout(ribs: PadRibs, finger: Box) -> PadLayout:
+    """The layout of a pad of two ribs across the finger.
+
+    Args:
+        ribs: The ribs.
+        finger: The finger.
+    """
+    length_m = finger.size_m[1] - 2 * ribs.radius_m
+    return PadLayout(
+        radius_m=ribs.radius_m,
+        proud_m=ribs.proud_m,
+        elements=tuple(
+            PadElement(across_m=0.0, height_m=height_m, is_across=True, length_m=length_m)
+            for height_m in ribs.heights_m
+        ),
+    )
+
+
+def pad_layouts(geometry: GripperGeometry, shape: ObjectShape, tool_in_object: Pose | None) -> tuple[PadLayout, ...]:
+    """The elements of the pad of each finger.
+
+    Args:
+        geometry: The gripper's shape.
+        shape: The object's solid.
+        tool_in_object: Transform of the grasp-centre frame to the object's frame; None for a cylinder that is held
+            at its centre with the gripper along its axis.
+    """
+    if tool_in_object is None:
+        if not isinstance(shape, Cylinder):
+            raise AssertionError("only a cylinder is held without a stated grasp")
+        return (ribbed_layout(pad_ribs(geometry, shape), geometry.finger),) * geometry.fingers
+    patches = pad_patches(shape, tool_in_object, geometry)
+    if patches is None:
+        return (_plain(geometry),) * geometry.fingers
+    return tuple(_layout(patch, geometry) for patch in patches)
+
+
+def most_elements(layouts: Sequence[PadLayout]) -> int:
+    """Greatest number of elements of a pad, by which its stiffness is divided; at least that of a ribbed pad."""
+    return max(RIBS, *(len(layout.elements) for layout in layouts))
+
+
+def _plain(geometry: GripperGeometry) -> PadLayout:
+    """The layout of a hand that touches nothing as planned: four knobs at the corners of the pad."""
+    _, width_m, length_m = geometry.finger.size_m
+    start = geometry.base.height_m - geometry.grasp_depth_m
+    whole = PadPatch(
+        opening_m=0.0,
+        across_m=(-width_m / 2, width_m / 2),
+        along_m=(start, start + length_m),
+        slope=1.0,
+        is_on_rim=False,
+    )
+    return _layout(whole, geometry)
+
+
+def _layout(patch: PadPatch, geometry: GripperGeometry) -> PadLayout:
+    thickness_m, width_m, length_m = geometry.finger.size_m
+    to_centre = geometry.grasp_depth_m - geometry.base.height_m - length_m / 2
+    wide, long = (high - low for low, high in (patch.across_m, patch.along_m))
+    extents = [extent for extent in (wide, long) if extent > _LINE_M]
+    radius = min(_LARGEST_RADIUS_M, _RADIUS_SHARE * min(thickness_m, width_m, *extents))
+    low_y, high_y = _inset(patch.across_m, radius, width_m / 2)
+    low_z, high_z = _inset(patch.along_m, radius, math.inf)
+    heights, places = (low_z + to_centre, high_z + to_centre), (low_y, high_y)
+    if wide <= _LINE_M < long:
+        rib = PadElement(across_m=0.0, height_m=0.0, is_across=True, length_m=width_m - 2 * radius)
+        elements = [replace(rib, height_m=height) for height in heights]
+    elif long <= _LINE_M < wide:
+        rib = PadElement(across_m=0.0, height_m=0.0, is_across=False, length_m=length_m - 2 * radius)
+        elements = [replace(rib, across_m=place) for place in places]
+    elif max(wide, long) <= _LINE_M:
+        elements = [PadElement(across_m=low_y, height_m=heights[0], is_across=True, length_m=0.0)]
+    else:
+        elements = [
+            PadElement(across_m=place, height_m=height, is_across=True, length_m=0.0)
+            for height in heights
+            for place in places
+        ]
+    return PadLayout(radius_m=radius, proud_m=_PROUD_SHARE * radius, elements=tuple(elements))
+
+
+def _inset(ends: tuple[float, float], radius_m: float, limit_m: float) -> tuple[float, float]:
+    """Ends of a patch, drawn in by the radius of an element; its middle where it is a line."""
+    low, high = ends
+    if high - low <= _LINE_M:
+        middle = min(max((low + high) / 2, radius_m - limit_m), limit_m - radius_m)
+        return middle, middle
+    return low + radius_m, high - radius_m

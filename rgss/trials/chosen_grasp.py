@@ -1,0 +1,33 @@
+"""The chosen grasp in the record of a trial."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from rgss.evidence import Metric, Phase
+from rgss.scenes import TakenGrasp
+from rgss.trials.phase_result import PhaseResult
+
+
+def with_chosen_grasp(results: Iterable[PhaseResult], taken: TakenGrasp | None) -> tuple[PhaseResult, ...]:
+    """The phases, the grasp that was taken among the metrics of the grasp phase.
+
+    Args:
+        results: The phases.
+        taken: The grasp; None where it is stated, which leaves the phases as they are.
+    """
+    if taken is None:
+        return tuple(results)
+    chosen: dict[str, Metric] = {
+        "chosen_grasp_rank": taken.rejected + 1,
+        "chosen_grasp_candidates": taken.candidates,
+        "chosen_grasp_opening_m": taken.opening_m,
+        "chosen_grasp_smw_1": taken.quality_1,
+        "chosen_grasp_com_distance_m": taken.com_distance_m,
+        "chosen_grasp_position_m": taken.tool_in_object.position_m,
+        "chosen_grasp_quaternion_1": taken.tool_in_object.quaternion_xyzw,
+    }
+    return tuple(
+        replace(one, metrics={**one.metrics, **chosen}) if one.phase is Phase.GRASP else one for one in results
+    )

@@ -1,0 +1,182 @@
+"""Grasp candidates against statics and geometry that are computed apart from them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from rgss.grasping.candidates import contact_points, ranked_grasps, suction_points, symmetric_turns
+from rgss.grasping.candidates.ranking import Unfit
+from rgss.scenes import (
+    Approach,
+    Box,
+    Cylinder,
+    GivenGrasp,
+    GraspCandidates,
+    LyingCylinder,
+    MeshShape,
+    Pose,
+    Workpiece,
+    corners_of,
+    load_gripper,
+    pad_patches,
+)
+
+GRIPPERS = Path(__file__).resolve().parents[3] / "scenes" / "grippers"
+EVERY = GraspCandidates(approaches=tuple(Approach), heights=2, yaws=4, samples=12)
+BOX = Box(size_m=(0.06, 0.05, 0.08))
+SHAPES = {
+    "box": BOX,
+    "cylinder": Cylinder(radius_m=0.03, height_m=0.1),
+    "lying": LyingCylinder(radius_m=0.03, length_m=0.09),
+    "mesh": MeshShape(parts_m=corners_of(BOX), sha256="box"),
+}
+
+
+def hand(fingers):
+    return load_gripper(GRIPPERS / f"kg-{fingers}.yaml")
+
+
+def piece(shape, **changes):
+    return Workpiece(
+        id="object",
+        shape=shape,
+        mass_kg=0.3,
+        friction=1.0,
+        force_limit_n=40.0,
+        pose=Pose(),
+        colour=(0.0, 0.0, 0.0, 1.0),
+        **changes,
+    )
+
+
+def resists(points, wrench, friction):
+    """True if some forces in pyramids inside the friction cones balance a wrench: a program of our own."""
+    columns = []
+    for point in points:
+        normal = np.array(point.normal)
+        first = np.cross(normal, [0.3, 0.5, 0.81])
+        first /= np.linalg.norm(first)
+        second = np.cross(normal, first)
+        for turn in np.arange(12) * math.pi / 6:
+            force = normal + friction * (math.cos(turn) * first + math.sin(turn) * second)
+            columns.append([*force, *(np.cross(point.position_m, force) / 0.05)])
+    matrix = np.array(columns).T
+    return linprog(np.ones(matrix.shape[1]), A_eq=matrix, b_eq=-wrench, method="highs").status == 0
+
+
+@pytest.mark.parametrize("fingers", [2, 3])
+@pytest.mark.parametrize("name", SHAPES)
+def test_every_candidate_resists_every_unit_wrench(name, fingers):
+    geometry = hand(fingers)
+    found = ranked_grasps(piece(SHAPES[name]), geometry, EVERY, friction=0.7).grasps
+
+    assert found
+    for grasp in (*found[:3], found[-1]):
+        patches = pad_patches(SHAPES[name], grasp.tool_in_object, geometry)
+        points = contact_points(patches, grasp.tool_in_object, geometry, 0.7)
+        for axis in range(6):
+            for sign in (1.0, -1.0):
+                assert resists(points, sign * np.eye(6)[axis], 0.7), grasp.id
+
+
+def test_two_fingers_on_frictionless_faces_hold_nothing():
+    found = ranked_grasps(piece(BOX), hand(2), EVERY, friction=0.0)
+    assert found.grasps == ()
+    assert found.unfit[Unfit.NO_FORCE_CLOSURE] > 0
+
+
+@pytest.mark.parametrize("fingers", [2, 3])
+@pytest.mark.parametrize("name", SHAPES)
+def test_pads_touch_the_surface_and_nothing_is_inside_them(name, fingers):
+    """The opening against a dense sample of the solid inside the column of each pad."""
+    geometry, shape = hand(fingers), SHAPES[name]
+    generator = np.random.default_rng(7)
+    (corners,) = corners_of(shape, facets=256)
+    weights = generator.dirichlet(np.full(len(corners), 0.05), size=40_000)
+    solid = weights @ np.array(corners)
+    _, width, length = geometry.finger.size_m
+    start = geometry.base.height_m - geometry.grasp_depth_m
+    for grasp in ranked_grasps(piece(shape), geometry, EVERY, friction=0.7).grasps[:4]:
+        in_tool = grasp.tool_in_object.inverse()
+        points = np.array([(in_tool @ Pose(position_m=tuple(point))).position_m for point in solid[::20]])
+        for azimuth in geometry.azimuths_rad:
+            radial = points[:, 0] * math.cos(azimuth) + points[:, 1] * math.sin(azimuth)
+            across = -points[:, 0] * math.sin(azimuth) + points[:, 1] * math.cos(azimuth)
+            inside = (abs(across) <= width / 2) & (points[:, 2] >= start) & (points[:, 2] <= start + length)
+            assert np.max(radial[inside], initial=0.0) <= grasp.opening_m + 2e-5
+
+
+def test_the_best_grasp_of_a_lopsided_box_is_over_its_centre_of_mass():
+    heavy = piece(Box(size_m=(0.06, 0.18, 0.06)), centre_of_mass_across_m=(0.0, 0.05))
+    best = ranked_grasps(heavy, hand(2), GraspCandidates(approaches=(Approach.ABOVE,)), friction=0.7).grasps[0]
+    assert best.tool_in_object.position_m[1] == pytest.approx(0.05)
+    assert best.com_distance_m < 0.02
+
+
+def test_what_is_wider_than_the_hand_has_no_candidate_and_says_so():
+    found = ranked_grasps(piece(Box(size_m=(0.2, 0.3, 0.2))), hand(2), GraspCandidates(), friction=0.7)
+    assert found.grasps == ()
+    assert found.unfit[Unfit.TOO_WIDE] > 0
+
+
+def test_what_is_thinner_than_the_closed_hand_is_too_narrow():
+    found = ranked_grasps(piece(Box(size_m=(0.03, 0.03, 0.03))), hand(2), GraspCandidates(), friction=0.7)
+    assert found.unfit[Unfit.TOO_NARROW] > 0
+
+
+def test_a_given_grasp_is_a_candidate_by_its_name():
+    frame = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.01), (math.pi, 0.0, 0.0))
+    given = GivenGrasp(id="rim", tool_in_object=frame, width_m=0.06)
+    options = GraspCandidates(samples=0)
+    (only,) = ranked_grasps(piece(SHAPES["mesh"], grasps=(given,)), hand(2), options, friction=0.7).grasps
+    assert (only.id, only.approach) == ("rim", Approach.ABOVE)
+    assert only.opening_m == pytest.approx(0.03)
+
+
+def test_the_order_is_the_same_each_time():
+    first, second = (ranked_grasps(piece(SHAPES["mesh"]), hand(2), EVERY, friction=0.6) for _ in range(2))
+    assert first == second
+
+
+@pytest.mark.parametrize(
+    ("shape", "count"),
+    [(BOX, 2), (Box(size_m=(0.05, 0.05, 0.1)), 4), (SHAPES["lying"], 2), (SHAPES["cylinder"], 8), (SHAPES["mesh"], 1)],
+)
+def test_a_symmetric_turn_leaves_the_shape_where_it_was(shape, count):
+    turns = symmetric_turns(shape, 8)
+    assert len(turns) == count
+    if isinstance(shape, Box):
+        corners = np.array(corners_of(shape)[0])
+        for turn in turns:
+            c, s = math.cos(turn), math.sin(turn)
+            turned = corners @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T
+            distances = np.linalg.norm(turned[:, None] - corners[None], axis=2)
+            assert np.max(np.min(distances, axis=1)) < 1e-12
+
+
+class Cup:
+    cup_radius_m = 0.02
+
+
+def test_suction_points_are_on_the_faces_that_bear_the_cup():
+    points = suction_points(BOX, Cup(), (0.0, 0.0, 0.0))
+    assert len(points) == 6
+    assert points[0].normal == pytest.approx((0.0, 0.0, 1.0))
+    for point in points:
+        assert point.room_m >= Cup.cup_radius_m - 1e-7
+    assert len(suction_points(Box(size_m=(0.2, 0.03, 0.2)), Cup(), (0.0, 0.0, 0.0))) == 2
+
+
+def test_a_suction_point_is_as_near_to_the_centre_of_mass_as_the_edge_allows():
+    best = suction_points(Box(size_m=(0.1, 0.1, 0.05)), Cup(), (0.04, 0.0, 0.0))
+    on_top = next(point for point in best if point.normal[2] > 0.99)
+    assert on_top.position_m == pytest.approx((0.03, 0.0, 0.025), abs=1e-6)
+
+
+def test_the_wall_of_a_cylinder_bears_no_cup():
+    assert [point.normal[2] for point in suction_points(SHAPES["cylinder"], Cup(), (0.0, 0.0, 0.0))] == [1.0, -1.0]

@@ -1,0 +1,105 @@
+"""Whole trials of objects that are no upright cylinder, on both grippers and at every fidelity."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from rgss.evidence import Fidelity, Phase
+from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape
+from rgss.trials.conditions import conditions_of
+from rgss.trials.pieces.run import Pieces
+from rgss.trials.scene_check import SceneProblemKind, reach_problems
+from rgss.trials.workcell import cell_of, grasp_search_of
+
+SIDE_M, HALF_M = 0.04, 0.04
+HEXAGON = MeshShape(
+    parts_m=(
+        tuple(
+            (SIDE_M * math.cos(turn * math.pi / 3), SIDE_M * math.sin(turn * math.pi / 3), z)
+            for turn in range(6)
+            for z in (-HALF_M, HALF_M)
+        ),
+    ),
+    sha256="hexagon",
+)
+POLAR = 5.0 * SIDE_M**2 / 12.0
+OBJECTS = {
+    "box": (Box(size_m=(0.06, 0.05, 0.08)), {}),
+    "lying cylinder": (LyingCylinder(radius_m=0.03, length_m=0.09), {"rolling_resistance_m": 5e-4}),
+    "mesh": (HEXAGON, {"gyration_m2": (POLAR / 2 + HALF_M**2 / 3, POLAR / 2 + HALF_M**2 / 3, POLAR, 0.0, 0.0, 0.0)}),
+}
+TRIED = [("box", 65), ("box", 5), ("lying cylinder", 65), ("mesh", 65), ("mesh", 5)]
+CANDIDATES = GraspCandidates(approaches=tuple(Approach), heights=3, yaws=8, samples=24)
+
+
+@pytest.fixture(scope="module")
+def with_object(spec_of):
+    """Makes the nominal trial of a variant with another object."""
+
+    def make(name, variant=65, candidates=CANDIDATES, **changes):
+        spec = spec_of(variant)
+        shape, stated = OBJECTS[name] if isinstance(name, str) else (name, {})
+        scene = spec.scene
+        x, y, z = scene.workpiece.pose.position_m
+        foot = z - scene.workpiece.shape.half_height_m
+        pose = replace(scene.workpiece.pose, position_m=(x, y, foot + shape.half_height_m))
+        piece = replace(scene.workpiece, shape=shape, pose=pose, **{**stated, **changes})
+        return replace(spec, scene=replace(scene, workpiece=piece, task=replace(scene.task, candidates=candidates)))
+
+    return make
+
+
+@pytest.mark.parametrize(("name", "variant"), TRIED)
+def test_the_chosen_grasp_carries_the_object_at_every_fidelity(with_object, name, variant):
+    spec = replace(with_object(name, variant), planning_limit_s=8.0)
+    taken = cell_of(spec).scene.task.grasp
+    for fidelity in Fidelity:
+        record = Pieces().record(replace(spec, fidelity=fidelity))
+        assert record.success, (fidelity, record.failed_phase, record.failure_detail)
+        grasp = next(phase.metrics for phase in record.phases if phase.phase is Phase.GRASP)
+        assert grasp["chosen_grasp_rank"] == taken.rejected + 1
+        assert grasp["chosen_grasp_position_m"] == taken.tool_in_object.position_m
+        if fidelity is Fidelity.CONTACT:
+            # The fingers stop where the pads were computed to touch.
+            travel = spec.gripper.geometry.largest_opening_m - taken.opening_m
+            assert grasp["finger_travel_m"] == pytest.approx((travel,) * spec.gripper.geometry.fingers, abs=1e-3)
+            assert record.metrics["held_distance_m"] < 1e-3
+
+
+def test_candidates_are_chosen_on_the_perceived_pose(with_object):
+    spec = with_object("box")
+    shifted = replace(spec.scene.workpiece.pose, position_m=(0.68, *spec.scene.workpiece.pose.position_m[1:]))
+    moved = replace(spec, scene=replace(spec.scene, workpiece=replace(spec.scene.workpiece, pose=shifted)))
+    scene = cell_of(moved).scene
+    assert (scene.grasp.inverse() @ shifted).position_m == pytest.approx(
+        scene.task.grasp.tool_in_object.inverse().position_m
+    )
+
+
+def test_an_object_that_the_hand_cannot_close_on_is_a_finding(with_object):
+    spec = with_object(Box(size_m=(0.2, 0.2, 0.1)))
+    problems = reach_problems(spec.scene, spec.gripper.geometry, clearance_m=0.005, friction=0.7)
+    (problem,) = [one for one in problems if one.kind is SceneProblemKind.NO_GRASP]
+    assert "too wide" in problem.detail
+
+
+def test_a_grasp_that_no_arm_reaches_is_counted_by_its_filter(with_object):
+    spec = with_object("box")
+    x, y, z = spec.scene.workpiece.pose.position_m
+    away = replace(spec.scene.workpiece.pose, position_m=(x + 3.0, y, z))
+    scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, pose=away))
+    search = grasp_search_of(scene, spec.gripper.geometry, friction=0.7, clearance_m=0.005)
+    assert search.taken is None
+    assert sum(search.rejected.values()) == len(search.ranked.grasps)
+    assert "reach: " in search.reasons
+
+
+def test_a_stated_grasp_of_a_box_is_from_above_at_the_stated_turn(with_object):
+    spec = with_object("box", candidates=None)
+    record = Pieces().record(replace(spec, fidelity=Fidelity.CONTACT))
+    assert record.success, record.failure_detail
+    assert not any("chosen_grasp_rank" in phase.metrics for phase in record.phases)
+    assert conditions_of(spec).scene.grasp.rotate((0.0, 0.0, 1.0)) == pytest.approx((0.0, 0.0, -1.0))
