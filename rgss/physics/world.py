@@ -57,6 +57,7 @@ class World(ClientOwner):
         self.settings = settings
         self._steps = 0
         self._to_renew: list[int] = []
+        self._heights_m = {one.workpiece.id: one.workpiece.centre_of_mass_m for one in scene.objects}
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
             builder = WorldBuilder(
@@ -64,7 +65,8 @@ class World(ClientOwner):
             )
             builder.set_parameters()
             self._scene_names = builder.add_scene()
-            self._workpiece = builder.add_workpiece()
+            self._objects = builder.add_objects()
+            self._workpiece = self._objects[scene.workpiece.id]
             self._robot = builder.add_robot()
             self._index_robot(builder)
         except self._engine.error as error:
@@ -173,6 +175,29 @@ class World(ClientOwner):
         """
         self._rediscover(self._workpiece, -1)
 
+    def concern(self, scene: Scene) -> None:
+        """Let the workpiece be another object, or be released at another place.
+
+        Args:
+            scene: The scene with that object as its workpiece, where it now stands.
+        """
+        self.scene = scene
+        self._workpiece = self._objects[scene.workpiece.id]
+        self._renewed_at = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)[1]
+        self._reader = self._reader_of_workpiece()
+
+    def object_pose(self, name: str) -> Pose:
+        """Transform of an object's shape to the world.
+
+        Args:
+            name: The object.
+        """
+        if self._objects[name] == self._workpiece:
+            return self.workpiece_pose()
+        position, turned = self._engine.getBasePositionAndOrientation(self._objects[name], self._client)
+        height_m = self._heights_m[name]
+        return Pose(position_m=position, quaternion_xyzw=turned) @ Pose(position_m=(0.0, 0.0, -height_m))
+
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
         """Reported joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
 
@@ -252,6 +277,20 @@ class World(ClientOwner):
         # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
         self._engine.setCollisionFilterGroupMask(body, link, 1, -1, physicsClientId=self._client)
 
+    def _reader_of_workpiece(self) -> ContactReader:
+        """Reader of the workpiece's contacts, to which the other objects are bodies of the scene."""
+        others = {number: name for name, number in self._objects.items() if number != self._workpiece}
+        return ContactReader(
+            self._engine,
+            self._client,
+            robot=self._robot,
+            workpiece=self._workpiece,
+            finger_links=self._finger_joints,
+            link_names=self._link_names,
+            scene_names={**self._scene_names, **others},
+            centre_of_mass_m=self.scene.workpiece.centre_of_mass_m,
+        )
+
     def _index_robot(self, builder: WorldBuilder) -> None:
         index = builder.index_robot(self._robot)
         arm = self.scene.robot.joints
@@ -261,14 +300,6 @@ class World(ClientOwner):
         self._finger_joints = index.finger_joints
         self._flange = index.flange
         self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
-        self._reader = ContactReader(
-            self._engine,
-            self._client,
-            robot=self._robot,
-            workpiece=self._workpiece,
-            finger_links=self._finger_joints,
-            link_names=index.link_names,
-            scene_names=self._scene_names,
-            centre_of_mass_m=self.scene.workpiece.centre_of_mass_m,
-        )
+        self._link_names = index.link_names
+        self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)

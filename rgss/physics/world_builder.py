@@ -16,7 +16,7 @@ from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import RIBS, Gripper, Scene, assembled_urdf, finger_joint, pad_ribs
+from rgss.scenes import RIBS, Gripper, Scene, Workpiece, assembled_urdf, finger_joint, pad_ribs
 
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
@@ -83,9 +83,11 @@ class WorldBuilder:
             names[number] = body.id
         return names
 
-    def add_workpiece(self) -> int:
-        """Add the workpiece; the result is its number."""
-        workpiece = self.scene.workpiece
+    def add_objects(self) -> dict[str, int]:
+        """Add the workpiece and the other objects; the result is the number of each by its id."""
+        return {one.workpiece.id: self._add_object(one.workpiece) for one in self.scene.objects}
+
+    def _add_object(self, workpiece: Workpiece) -> int:
         if not 0.0 < workpiece.mass_kg < math.inf:
             # A body without mass would be static.
             raise SimulationError(

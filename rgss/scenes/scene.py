@@ -94,6 +94,38 @@ class PlaceRegion:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SceneObject:
+    """An object with where it stands at the start and where it belongs.
+
+    Attributes:
+        workpiece: The object.
+        support: Id of the body on which it stands at the start.
+        place: Its place region.
+        place_support: Id of the body of its place region.
+    """
+
+    workpiece: Workpiece
+    support: str
+    place: PlaceRegion
+    place_support: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedPlace:
+    """A place region that belongs to no object.
+
+    Attributes:
+        id: Its name.
+        region: The region.
+        support: Id of the body that bears it.
+    """
+
+    id: str
+    region: PlaceRegion
+    support: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Task:
     """Predetermined waypoints of the pick-and-place task, all with the tool pointing down.
 
@@ -133,6 +165,8 @@ class Scene:
         place: Its place region.
         task: The waypoints.
         uncertainty: What differs from trial to trial, as the scene's file says.
+        others: The objects beside the workpiece.
+        places: Places that belong to no object.
     """
 
     id: str
@@ -145,6 +179,16 @@ class Scene:
     place: PlaceRegion
     task: Task
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
+    others: tuple[SceneObject, ...] = ()
+    places: tuple[NamedPlace, ...] = ()
+
+    @property
+    def objects(self) -> tuple[SceneObject, ...]:
+        """Every object, the workpiece first."""
+        own = SceneObject(
+            workpiece=self.workpiece, support=self.support, place=self.place, place_support=self.place_support
+        )
+        return (own, *self.others)
 
     @property
     def grasp(self) -> Pose:

@@ -11,10 +11,19 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import BodyEntry, SceneDocument
 from rgss.scenes.findings import Location, named_file_findings, negative, not_positive
+from rgss.scenes.other_objects import (
+    colour_of,
+    name_findings,
+    named_places,
+    other_objects,
+    positive_values,
+    region_of,
+    workpiece_of,
+)
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
 from rgss.scenes.robot_file import load_robot
-from rgss.scenes.scene import ColourRgba, PlaceRegion, Scene, SceneBody, Task, Workpiece
+from rgss.scenes.scene import Scene, SceneBody, Task
 from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.uncertainty import read_uncertainty
 
@@ -36,7 +45,8 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         *_body_findings(entry, document),
         *_workpiece_findings(entry, document),
         *_drop_findings(entry, document),
-        *not_positive(document, _positive_values(entry)),
+        *name_findings(entry, document),
+        *not_positive(document, (*_positive_values(entry), *positive_values(entry))),
         *negative(document, _values_from_zero(entry)),
     ]
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings, declared=())
@@ -45,7 +55,6 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         raise DocumentError(sorted(findings))
     tops = {body.id: _top(body) for body in entry.bodies}
     workpiece, place = entry.workpiece, entry.place_region
-    centre = (*workpiece.at, tops[workpiece.stands_on] + workpiece.height / 2)
     return Scene(
         id=entry.scene,
         gravity_m_s2=entry.gravity,
@@ -53,24 +62,10 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         bodies=tuple(_body(body) for body in entry.bodies),
         support=workpiece.stands_on,
         place_support=place.stands_on,
-        workpiece=Workpiece(
-            id=workpiece.id,
-            shape=Cylinder(radius_m=workpiece.radius, height_m=workpiece.height),
-            mass_kg=workpiece.mass,
-            friction=workpiece.friction,
-            force_limit_n=workpiece.force_limit,
-            force_window_s=workpiece.force_window,
-            landing_limit_m_s=workpiece.landing_limit,
-            pose=Pose(position_m=centre),
-            colour=_colour(workpiece.colour),
-        ),
-        place=PlaceRegion(
-            centre_m=(*place.at, tops[place.stands_on]),
-            radius_m=place.radius,
-            largest_tilt_rad=place.largest_tilt,
-            largest_drop_m=place.largest_drop,
-            largest_drag_m=place.largest_drag,
-        ),
+        workpiece=workpiece_of(workpiece, tops),
+        place=region_of(place, tops),
+        others=other_objects(entry, tops),
+        places=named_places(entry, tops),
         task=Task(
             approach_height_m=entry.task.approach_height,
             lift_height_m=entry.task.lift_height,
@@ -209,10 +204,5 @@ def _body(body: BodyEntry) -> SceneBody:
         shape=shape,
         pose=Pose.from_roll_pitch_yaw((x, y, z + shape.half_height_m), (0.0, 0.0, body.yaw)),
         friction=body.friction,
-        colour=_colour(body.colour),
+        colour=colour_of(body.colour),
     )
-
-
-def _colour(text: str) -> ColourRgba:
-    red, green, blue = (int(text[start : start + 2], 16) / 255 for start in (1, 3, 5))
-    return (red, green, blue, 1.0)

@@ -16,6 +16,7 @@ from rgss.measures import MeasuresDocument
 from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.scenes import CalibrationDocument, GripperDocument, RobotDocument, SceneDocument
 from rgss.studies.document import StudyDocument
+from rgss.tasks import TaskDocument
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,13 +79,20 @@ DOCUMENT_KINDS = (
         id="calibration", title="Calibration of a robot's servos", model=CalibrationDocument, place="scenes/robots/"
     ),
     DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
+    DocumentKind(id="task", title="Task", model=TaskDocument, place="scenes/tasks/"),
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
 
 _OF_REQUIREMENTS = ("stakeholder", "system", "architecture", "measures", "rules", "reviews")
 _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
     "designs": (("components", "catalogue"), ("parameters", "design-space")),
-    "scenes": (("bodies", "scene"), ("joints", "robot"), ("azimuths", "gripper"), ("servos", "calibration")),
+    "scenes": (
+        ("bodies", "scene"),
+        ("joints", "robot"),
+        ("azimuths", "gripper"),
+        ("servos", "calibration"),
+        ("steps", "task"),
+    ),
     "studies": (("study", "study"),),
 }
 

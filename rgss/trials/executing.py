@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.physics import TorqueArm, open_world
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.execution import Execution
@@ -43,15 +43,24 @@ def execute(
     conditions = conditions_of(spec)
     physics, scene = spec.settings.physics, conditions.true_scene
     references = {}
-    for phase in Phase:
+    for phase in spec.task.phases:
         if phase in timing.trajectories:
             references[phase] = reference_of(
                 timing.trajectories[phase], cell.arm, step_s=physics.step_s, gravity_m_s2=scene.gravity_m_s2
             )
     control, gripper = spec.settings.control, conditions.true_gripper
     if spec.fidelity is Fidelity.KINEMATIC:
-        model = KinematicPlant(cell.arm, scene.robot.joints, gripper, scene.workpiece, control, step_s=physics.step_s)
-        return _with_quality(run_program(model, references, checkpoint=checkpoint), timing)
+        model = KinematicPlant(
+            cell.arm,
+            scene.robot.joints,
+            gripper,
+            scene.workpiece,
+            control,
+            step_s=physics.step_s,
+            task=spec.task,
+            others=scene.others,
+        )
+        return _with_quality(run_program(model, references, task=spec.task, checkpoint=checkpoint), timing)
     if spec.fidelity is Fidelity.DYNAMIC:
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
             believed = conditions.scene.workpiece
@@ -65,13 +74,14 @@ def execute(
                 controller=spec.settings.controller,
                 believed=believed,
                 checkpoint=checkpoint,
+                task=spec.task,
             )
-            return _with_quality(run_program(plant, references), timing)
+            return _with_quality(run_program(plant, references, task=spec.task), timing)
     # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.
     firm = physics.passing(
         force_n=gripper.finger_force_n,
         speed_m_s=gripper.finger_velocity_m_s,
-        lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
+        lightest_kg=min(*(one.workpiece.mass_kg for one in scene.objects), gripper.finger_mass_kg),
     )
     with open_world(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
         execution = Execution(
@@ -82,6 +92,7 @@ def execute(
             estimate=_grip_estimate(spec, conditions),
             observer=observer,
             checkpoint=checkpoint,
+            task=spec.task,
         )
         return _with_quality(execution.run(), timing)
 

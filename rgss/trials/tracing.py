@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from rgss.evidence import Phase, TrialRecord
+from rgss.evidence import TrialRecord
 from rgss.evidence.records import PhaseSpan, TrialTrace
 from rgss.kinematics import Arm
 from rgss.physics import Contacts, ContactWorld
@@ -65,7 +65,7 @@ class TraceRecorder:
     def after_step(
         self,
         world: ContactWorld,
-        phase: Phase,
+        phase: str,
         contacts: Contacts,
         grip_margin: float | None,
         commanded_force_n: float | None,
@@ -86,7 +86,7 @@ class TraceRecorder:
         end_s = self._steps * self._step_s
         self._spans.append(PhaseSpan(phase=phase, start_s=start_s, end_s=end_s, last=len(self._times_s) - 1))
 
-    def trace(self, phases: Collection[Phase]) -> TrialTrace | None:
+    def trace(self, phases: Collection[str]) -> TrialTrace | None:
         """The course of these phases, which must be the first ones that ran; None if there are none."""
         spans = tuple(span for span in self._spans if span.phase in phases)
         if not spans:

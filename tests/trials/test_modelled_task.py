@@ -14,13 +14,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, PlanOutcome
+from rgss.evidence import Failure, PhaseOutcome, PlanOutcome
 from rgss.motion import PlanningClock, TimingOutcome
 from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.requirements import StateKind, load_requirements
 from rgss.scenes import Pose
 from rgss.trials import timing
-from rgss.trials.execution import CARRYING, Execution
+from rgss.trials.execution import Execution
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.plants.control import ControlSettings
@@ -28,6 +28,7 @@ from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference
 from rgss.trials.timing import time_task
+from tests.fixtures.eight_states import CARRYING, PLANNED_PHASES, Phase
 
 PHASES = tuple(Phase)
 MOVES = tuple(phase for phase in Phase if phase not in (Phase.GRASP, Phase.PLACE))
@@ -74,10 +75,10 @@ class ScriptedPlant:
         failure = self._by if phase is self._fails_in else None
         return PhaseResult(phase=phase, failure=failure, detail="", duration_s=1.0, metrics={})
 
-    def grasp(self):
+    def grasp(self, phase=Phase.GRASP):
         return self.move(Phase.GRASP, None)
 
-    def place(self):
+    def place(self, phase=Phase.PLACE):
         return self.move(Phase.PLACE, None)
 
 
@@ -114,7 +115,7 @@ def move(phase, outcome=PlanOutcome.SOLVED):
 def plan(lift_rad=(0.0,), **outcomes):
     moves = {phase: move(phase, outcomes.get(phase.value, PlanOutcome.SOLVED)) for phase in PLANNED_PHASES}
     lift = None if lift_rad is None else np.zeros((2, 6))
-    return TaskPlan(moves=moves, lift_rad=lift, clock=PlanningClock(charge_s=0.001))
+    return TaskPlan(moves=moves, direct={"lift": lift}, clock=PlanningClock(charge_s=0.001))
 
 
 @pytest.mark.verifies("SYS-023")
@@ -160,7 +161,7 @@ def test_what_may_end_a_state_is_what_does(modelled_failures, spec_of, monkeypat
 
 def test_every_failure_but_that_of_a_run_is_modelled(modelled_failures):
     """A run that crashes is a failure of the computer, not of the task."""
-    assert {failure for _, failure in modelled_failures} == set(Failure) - {Failure.RUN_CRASHED}
+    assert {failure for _, failure in modelled_failures} == set(Failure) - {Failure.RUN_CRASHED, Failure.CHECK_FAILED}
 
 
 def named(failures):
@@ -209,9 +210,9 @@ def physical_failures(spec):
 
 
 def result_of(execution, world, phase):
-    if phase is Phase.GRASP:
+    if phase == Phase.GRASP:
         return execution.grasp()
-    if phase is Phase.PLACE:
+    if phase == Phase.PLACE:
         return execution.place()
     return execution.move(phase, reference(world.scene.grasp.position_m))
 

@@ -7,12 +7,13 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import Failure, Phase, record_digest, record_from_json, record_to_json
+from rgss.evidence import Failure, record_digest, record_from_json, record_to_json
 from rgss.scenes.uncertainty import Constant, Normal, Uncertainty, UncertainValue
 from rgss.trials.conditions import conditions_of
 from rgss.trials.payload_bench.bench import PayloadResult
 from rgss.trials.payload_bench.rig import PayloadLimit
 from rgss.trials.pieces.run import Pieces, run_trial
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 

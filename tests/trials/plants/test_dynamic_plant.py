@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rgss.evidence import Failure, Fidelity, Phase, PhaseOutcome
+from rgss.evidence import Failure, Fidelity, PhaseOutcome
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.trials.executing import execute
@@ -20,6 +20,7 @@ from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference, reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 

@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.scenes import Cylinder, Joint, Pose, Workpiece, load_gripper
 from rgss.scenes.gripper import Gripper
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.plants.kinematic_plant import JointResponse, KinematicPlant
 from rgss.trials.reference import Reference
+from tests.fixtures.eight_states import Phase
 
 ROOT = Path(__file__).parents[3]
 STEP_S = 1.0 / 240.0
