@@ -28,6 +28,7 @@ _KIND_OF_KEY: Mapping[str, str] = {
     "bodies": "scene",
     "joints": "robot",
     "azimuths": "gripper",
+    "steps": "task",
     "measures": "measures",
     "rules": "rules",
     "reviews": "reviews",
@@ -41,6 +42,7 @@ _FOLDER_OF_KIND: Mapping[str, str] = {
     "scene": "scenes",
     "robot": "scenes",
     "gripper": "scenes",
+    "task": "scenes",
 }
 _KINDS: Mapping[Callable[[int], bool], str] = {
     stat.S_ISDIR: "a folder",

@@ -21,7 +21,7 @@ class Stage:
         turn: Number, from 1, of the grip of the object that the step leads to, belongs to or follows.
         is_held: Whether the object is held during the step; it is while the hand closes and opens too.
         is_leaving: Whether this is the first move since the grip, which lifts the object off its support.
-        is_approach: Whether the step after this move closes the hand.
+        is_approach: Whether the step after this move closes the hand, and the one before did not open it.
         is_retreat: Whether the step before this move opened the hand.
     """
 
@@ -67,7 +67,7 @@ def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
                 turn=lifts.get(subject, 0) + (1 if coming else 0),
                 is_held=bool(held),
                 is_leaving=bool(held) and isinstance(step, MoveStep) and _is_first_move(steps[:index]),
-                is_approach=not held and isinstance(step, MoveStep) and isinstance(after, GripStep),
+                is_approach=not (held or is_retreat) and isinstance(step, MoveStep) and isinstance(after, GripStep),
                 is_retreat=is_retreat,
             )
         )

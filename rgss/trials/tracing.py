@@ -71,7 +71,7 @@ class TraceRecorder:
         commanded_force_n: float | None,
     ) -> None:
         """Take a sample, or merge the step's forces and margin into the last one."""
-        new_phase = not self._spans or self._spans[-1].phase is not phase
+        new_phase = not self._spans or self._spans[-1].phase != phase
         self._phase_steps = 0 if new_phase else self._phase_steps + 1
         start_s = self._steps * self._step_s if new_phase else self._spans.pop().start_s
         self._steps += 1

@@ -19,6 +19,7 @@ from rgss.motion import PlanningClock, TimingOutcome
 from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.requirements import StateKind, load_requirements
 from rgss.scenes import Pose
+from rgss.tasks import default_task
 from rgss.trials import timing
 from rgss.trials.execution import Execution
 from rgss.trials.phase_result import PhaseResult
@@ -72,7 +73,7 @@ class ScriptedPlant:
         pass
 
     def move(self, phase, reference):
-        failure = self._by if phase is self._fails_in else None
+        failure = self._by if phase == self._fails_in else None
         return PhaseResult(phase=phase, failure=failure, detail="", duration_s=1.0, metrics={})
 
     def grasp(self, phase=Phase.GRASP):
@@ -133,7 +134,7 @@ def test_each_state_does_the_activity_of_its_name(machine):
 @pytest.mark.verifies("SYS-023")
 @pytest.mark.parametrize("phase", Phase)
 def test_a_failure_ends_program_and_model_in_the_same_state(machine, modelled_failures, phase):
-    failures = [failure for where, failure in modelled_failures if where is phase]
+    failures = [failure for where, failure in modelled_failures if where == phase]
     assert failures
     for failure in failures:
         results = run_program(ScriptedPlant(phase, failure), REFERENCES)
@@ -144,7 +145,7 @@ def test_a_failure_ends_program_and_model_in_the_same_state(machine, modelled_fa
 @pytest.mark.parametrize("phase", MOVES)
 def test_a_move_without_a_motion_is_the_last_state_of_record_and_model(machine, spec_of, phase):
     """The program ends before it, and the record names it as the one that failed."""
-    missing = {each: reference() for each in MOVES if each is not phase}
+    missing = {each: reference() for each in MOVES if each != phase}
     failure = Failure.TRAJECTORY_INFEASIBLE
     results = run_program(ScriptedPlant(), missing)
     record = assemble_record(spec_of(), plan(), {phase: (failure, "")}, results)
@@ -180,7 +181,7 @@ def planning_failures(spec):
 
 def timing_failures(spec, monkeypatch):
     found = set()
-    cell = SimpleNamespace(scene=spec.scene, running=dict.fromkeys(Phase), arm=None)
+    cell = SimpleNamespace(scene=spec.scene, running=dict.fromkeys(Phase), arm=None, task=default_task())
     for outcome in set(TimingOutcome) - {TimingOutcome.TIMED}:
         untimed = SimpleNamespace(outcome=outcome, trajectory=None)
         monkeypatch.setattr(timing, "time_move", lambda *_, result=untimed, **__: result)

@@ -38,7 +38,7 @@ class ScriptedPlant:
         return self._result(Phase.PLACE)
 
     def _result(self, phase):
-        failure = Failure.OBJECT_DROPPED if phase is self.fails_at else None
+        failure = Failure.OBJECT_DROPPED if phase == self.fails_at else None
         detail = "" if failure is None else "it fell"
         return PhaseResult(phase=phase, failure=failure, detail=detail, duration_s=1.0, metrics={})
 

@@ -343,7 +343,7 @@ def test_exactly_one_phase_fails_and_nothing_runs_after_it(whole_spec, checks, l
     assert record.failed_phase == (None if record.success else PHASES[completed])
     late = [count > limit for count in checks]
     if record.failure is Failure.PLANNING_LIMIT:
-        assert record.failed_phase is PLANNED_PHASES[late.index(True)]
+        assert record.failed_phase == PLANNED_PHASES[late.index(True)]
     spent = [planning.time_s for planning in record.planning if planning.outcome is PlanOutcome.BUDGET_SPENT]
     assert len(spent) <= 1
     assert all(math.isclose(time_s, limit * CHARGE_S) for time_s in spent)

@@ -35,7 +35,7 @@ def nominal(project):
 
 
 def phase_of(record, phase):
-    return next(each for each in record.phases if each.phase is phase)
+    return next(each for each in record.phases if each.phase == phase)
 
 
 def of_phases(record, name):

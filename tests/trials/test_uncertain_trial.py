@@ -47,7 +47,7 @@ def drawn(spec, **values):
 
 
 def phase_of(record, phase):
-    return next(one for one in record.phases if one.phase is phase)
+    return next(one for one in record.phases if one.phase == phase)
 
 
 def test_a_hand_drops_what_is_heavier_than_coulomb_s_law_lets_it_hold(spec_of, pieces):

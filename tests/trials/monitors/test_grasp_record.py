@@ -21,12 +21,12 @@ CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROA
 
 
 def phase_metrics(record, phase):
-    (found,) = (entry.metrics for entry in record.phases if entry.phase is phase)
+    (found,) = (entry.metrics for entry in record.phases if entry.phase == phase)
     return found
 
 
 def duration_s(record, phase):
-    (found,) = (entry.duration_s for entry in record.phases if entry.phase is phase)
+    (found,) = (entry.duration_s for entry in record.phases if entry.phase == phase)
     return found
 
 

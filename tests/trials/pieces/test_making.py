@@ -236,7 +236,7 @@ def changed(text: str, change) -> str:
             lambda timing: timing["motions"][1].update(curved=[]),
             "the motion of lift has arrays that do not belong together",
         ),
-        (PieceKind.EXECUTION, lambda execution: execution["phases"][0].update(phase="lunch"), "phase"),
+        (PieceKind.EXECUTION, lambda execution: execution["phases"][0].update(phase=1), "phase"),
         (PieceKind.EXECUTION, lambda execution: execution.update(more=1), "unknown 'more'"),
         (PieceKind.BENCH, lambda bench: bench.update(bracket_kg=[1.0]), "no bracket of two masses"),
         (PieceKind.BENCH, lambda bench: bench["probes"][0].update(stopped_by="magic"), "stopped_by"),

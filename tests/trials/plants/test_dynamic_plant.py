@@ -271,7 +271,7 @@ def test_the_object_weighs_on_the_joints_from_the_grasp_to_the_release(planned):
 def test_the_hand_takes_the_time_of_the_fingers_travel(planned, dynamic):
     control, gripper = planned.spec.settings.control, planned.spec.gripper
     travel_s = (gripper.geometry.largest_opening_m - planned.spec.scene.workpiece.shape.radius_m) / 0.04
-    grasp, place = (next(p for p in dynamic.phases if p.phase is phase) for phase in (Phase.GRASP, Phase.PLACE))
+    grasp, place = (next(p for p in dynamic.phases if p.phase == phase) for phase in (Phase.GRASP, Phase.PLACE))
     assert grasp.duration_s == pytest.approx(travel_s + control.firm_grasp_s, abs=1 / 240 + 1e-9)
     assert place.metrics["opening_s"] == pytest.approx(travel_s)
     assert place.duration_s == pytest.approx(travel_s, abs=1 / 240 + 1e-9)
