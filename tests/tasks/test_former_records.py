@@ -28,7 +28,12 @@ def test_the_record_is_the_one_that_was_stored_before_tasks_were_data(path):
     was, now = json.loads(path.read_text(encoding="utf-8")), json.loads(record_to_json(run_trial(spec)))
 
     # The last bits depend on the kernels of the machine; names, outcomes and counts do not.
-    assert plain(now) == pytest.approx(plain(was), rel=1e-5, abs=1e-7)
+    numbers = {key for key, value in plain(was).items() if isinstance(value, float)}
+    exact, close = ({key: plain(one)[key] for key in plain(one) if key not in numbers} for one in (was, now))
+    assert close == exact
+    assert {key: plain(now)[key] for key in numbers} == pytest.approx(
+        {key: plain(was)[key] for key in numbers}, rel=1e-5, abs=1e-4
+    )
 
 
 def plain(value, at=""):
