@@ -93,7 +93,7 @@ class _Places:
             named = [self._named(body) for body in pair if body in self.at]
             other = f" [{', '.join(named)}]" if named else ""
             of = f" with {', '.join(grippers)}" if grippers else ""
-            message = f"no configuration of the arm{of} serves {problem.waypoint.value}: {problem.reason}{other}"
+            message = f"no configuration of the arm{of} serves {problem.waypoint}: {problem.reason}{other}"
             hint = _remedy(problem)
         elif problem.kind is SceneProblemKind.HOME_COLLISION:
             message = f"at its home the robot is in collision: {first} with {second}, {millimetres} deep"

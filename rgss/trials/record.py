@@ -193,17 +193,20 @@ def _durations(
     motion_s = math.fsum(phase.duration_s for phase in phases if phase.duration_s is not None)
     planning_s = math.fsum(record.time_s for record in planning if record.time_s is not None)
     by_phase = {phase.phase: phase for phase in phases}
-    cycles_s = []
+    cycles_s: list[float | None] = []
     for grip, release in zip(task.grips, task.releases, strict=False):
         closing, opening_s = by_phase[grip], by_phase[release].metrics.get("opening_s")
-        has_closed = closing.outcome is PhaseOutcome.COMPLETED and closing.duration_s is not None
-        cycles_s.append(closing.duration_s + opening_s if has_closed and isinstance(opening_s, float) else None)
+        closing_s = closing.duration_s if closing.outcome is PhaseOutcome.COMPLETED else None
+        has_cycle = closing_s is not None and isinstance(opening_s, float)
+        cycles_s.append(closing_s + opening_s if has_cycle else None)  # type: ignore[operator]
     return {
         "motion_time_s": motion_s,
         "task_time_s": motion_s + planning_s if success else None,
         "attempt_time_s": motion_s + planning_s,
         # Of several cycles the longest, if all were carried out.
-        "grasp_cycle_time_s": None if None in cycles_s else max(cycles_s, default=None),
+        "grasp_cycle_time_s": None
+        if None in cycles_s
+        else max((one for one in cycles_s if one is not None), default=None),
     }
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from rgss.kinematics import Overlap, Solid, overlaps
-from rgss.scenes import Box, GripperGeometry, Pose, Scene, Shape, Waypoint
+from rgss.scenes import Box, GripperGeometry, Pose, Scene, Shape
 from rgss.trials.planning import GoalReason, unserved_waypoints
 from rgss.trials.workcell import Workcell
 
@@ -55,7 +55,7 @@ class SceneProblem:
     first: str
     second: str = ""
     distance_m: float = math.nan
-    waypoint: Waypoint | None = None
+    waypoint: str | None = None
     reason: GoalReason | None = None
 
 

@@ -79,7 +79,7 @@ def trial_columns(measured: Sequence[VariantMeasures], notable: Sequence[Notable
     return {
         "key_digits": KEY_DIGITS,
         "failures": [_words(one.value) for one in failures],
-        "phases": [_words(one.value) for one in phases],
+        "phases": [_words(one) for one in phases],
         "variant": [place for place, _, _ in rows],
         "seed": [record.seed for _, _, record in rows],
         "key": [key[:KEY_DIGITS] for _, key, _ in rows],
