@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from rgss.evidence import Phase
 from rgss.physics import World
 from rgss.physics.settings import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
+from rgss.tasks import default_task
 from rgss.trials.execution import Execution
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.planning import plan_task
@@ -77,7 +77,7 @@ class Task:
         plan = plan_task(self._cell, spec.planner, seed=spec.seed, settings=planning)
         self._timing = time_task(self._cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
 
-    def run(self, spec: TrialSpec, phases: Sequence[Phase] = tuple(Phase)) -> dict[Phase, PhaseResult]:
+    def run(self, spec: TrialSpec, phases: Sequence[str] = default_task().phases) -> dict[str, PhaseResult]:
         """Results by phase of a trial that differs in its physics, its object or its fingers.
 
         Args:
@@ -200,7 +200,7 @@ def write_forces(out: Any, project: Project) -> None:
                 gripper = replace(spec.gripper, finger_mass_kg=mass_kg, finger_velocity_m_s=velocity_m_s)
                 workpiece = replace(spec.scene.workpiece, force_limit_n=UNBREAKABLE_N)
                 spec = replace(spec, gripper=gripper, scene=replace(spec.scene, workpiece=workpiece))
-                rows.append(task.run(spec, (Phase.MOVE_TO_GRASP,))[Phase.GRASP].metrics)
+                rows.append(task.run(spec, ("move_to_grasp",))["grasp"].metrics)
             read = [float(row["sensed_finger_force_n"]) for row in rows]
             for rate_hz, force_n in zip(FORCE_RATES_HZ, read, strict=True):
                 off[name][rate_hz] = max(off[name][rate_hz], 100 * abs(force_n / read[-1] - 1))

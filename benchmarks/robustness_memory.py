@@ -21,10 +21,8 @@ from rgss.assessment.measuring import measure_variants
 from rgss.decision.choosing import choose
 from rgss.decision.robustness.robustness import analyse_robustness
 from rgss.evidence import (
-    PLANNED_PHASES,
     EvidenceStore,
     Metric,
-    Phase,
     PhaseOutcome,
     PhaseRecord,
     PlanningRecord,
@@ -36,6 +34,7 @@ from rgss.studies import FOLDERS
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
 from rgss.sweep.trial_keys import key_of
+from rgss.tasks import default_task
 from rgss.trials.metrics import METRICS
 from rgss.trials.trial_spec import TrialSpec
 
@@ -77,8 +76,8 @@ def record_of(spec: TrialSpec) -> TrialRecord:
         "success": 1,
         "phases_completed": 8,
         "phases_total": 8,
-        "planning_time_s": (time_s,) * len(PLANNED_PHASES),
-        "path_length_m": (0.6,) * len(PLANNED_PHASES),
+        "planning_time_s": (time_s,) * len(default_task().planned),
+        "path_length_m": (0.6,) * len(default_task().planned),
         "motion_time_s": 9.0 + 0.1 * spec.seed,
         "task_time_s": 9.0 + 0.1 * spec.seed + 5.0 * time_s,
     }
@@ -92,7 +91,7 @@ def record_of(spec: TrialSpec) -> TrialRecord:
         failure_detail="",
         phases=tuple(
             PhaseRecord(phase=phase, outcome=PhaseOutcome.COMPLETED, duration_s=1.0 + time_s, metrics={})
-            for phase in Phase
+            for phase in default_task().phases
         ),
         planning=tuple(
             PlanningRecord(
@@ -103,7 +102,7 @@ def record_of(spec: TrialSpec) -> TrialRecord:
                 time_s=time_s,
                 path_length_m=0.6 + time_s,
             )
-            for phase in PLANNED_PHASES
+            for phase in default_task().planned
         ),
         metrics=metrics,
     )

@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rgss.evidence import Fidelity, Phase, TrialRecord
+from rgss.evidence import Fidelity, TrialRecord
 from rgss.physics import World
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
@@ -190,7 +190,7 @@ def _cost_of(spec: TrialSpec) -> tuple[int, float]:
             results = Execution(world, references, settings.control, cell.arm).run()
             full_s = time.process_time() - begin
         steps = round(sum(result.duration_s for result in results) / physics.step_s)
-        grasping = {phase: references[phase] for phase in (Phase.MOVE_TO_GRASP, Phase.LIFT)}
+        grasping = {phase: references[phase] for phase in ("move_to_grasp", "lift")}
         with World(spec.scene, spec.gripper, physics) as world:
             Execution(world, grasping, settings.control, cell.arm).run()
             begin = time.process_time()

@@ -163,7 +163,7 @@ def _trial_row(key: str, record: TrialRecord) -> Row:
         "fidelity": record.fidelity.value,
         "success": record.success,
         "failure": None if record.failure is None else record.failure.value,
-        "failed_phase": None if record.failed_phase is None else record.failed_phase.value,
+        "failed_phase": None if record.failed_phase is None else record.failed_phase,
         "failure_detail": record.failure_detail or None,
         "workload": record.workload or None,
         **{draw_column(name): value for name, value in record.draws.items()},
@@ -175,7 +175,7 @@ def _phase_row(record: TrialRecord, phase: PhaseRecord, planning: PlanningRecord
     row: Row = {
         "variant": record.variant,
         "seed": record.seed,
-        "phase": phase.phase.value,
+        "phase": phase.phase,
         "outcome": phase.outcome.value,
         "duration_s": phase.duration_s,
         **metric_cells(phase_metric_columns(), phase.metrics),

@@ -66,7 +66,7 @@ class Trial:
         record = self.record
         if record.failure is None or record.failed_phase is None:
             return ""
-        return f"{record.failure.value} at {record.failed_phase.value}: {record.failure_detail}"
+        return f"{record.failure.value} at {record.failed_phase}: {record.failure_detail}"
 
     @property
     def metrics(self) -> Mapping[str, Metric]:
@@ -96,7 +96,7 @@ class Trial:
         instants = np.arange(len(trace.time_s))
         values: dict[str, Any] = {
             "time_s": trace.time_s,
-            "phase": [trace.span_at(int(at)).phase.value for at in instants],
+            "phase": [trace.span_at(int(at)).phase for at in instants],
             "tool_speed_m_s": trace.tool_speed_m_s,
             "commanded_force_n": trace.commanded_force_n,
             "grip_margin": trace.grip_margin,

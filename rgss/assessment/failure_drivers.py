@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.evidence import Failure, Phase, TrialRecord
+from rgss.evidence import Failure, TrialRecord
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,6 @@ SIGNIFICANT = 0.05
 _PERMUTATIONS = 19_999
 _BATCH = 500
 _FEWEST = 3
-_CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 _CARRY = "carry"
 
 
@@ -93,7 +92,7 @@ class DriversOfFailures:
     too_few: tuple[Failure, ...]
 
 
-def drivers_of_failures(records: Sequence[TrialRecord]) -> DriversOfFailures:
+def drivers_of_failures(records: Sequence[TrialRecord], *, carried: Collection[str]) -> DriversOfFailures:
     """Compare the draws of failed trials with those of the others, for each kind of failure.
 
     The AUC is that of Mann and Whitney (1947) over the trials. Designs share the draws of a seed, so that trials are
@@ -102,11 +101,12 @@ def drivers_of_failures(records: Sequence[TrialRecord]) -> DriversOfFailures:
 
     Args:
         records: The trials.
+        carried: The moves of the task with an object in the hand.
     """
-    table = _Table(records)
+    table = _Table(records, carried)
     found: dict[_Kind, list[tuple[str, Aspect, float, float]]] = {}
     too_few = []
-    kinds = {kind for one in records if (kind := _kind(one)) is not None}
+    kinds = {kind for one in records if (kind := _kind(one, carried)) is not None}
     for kind in sorted(kinds, key=lambda each: (each[0].value, each[1])):
         counts = table.failures(kind)
         if not _FEWEST <= int((counts > 0).sum()) <= len(counts) - _FEWEST or not table.columns:
@@ -143,19 +143,20 @@ def drivers_of_failures(records: Sequence[TrialRecord]) -> DriversOfFailures:
 _Kind = tuple[Failure, str]
 
 
-def _kind(record: TrialRecord) -> _Kind | None:
+def _kind(record: TrialRecord, carried: Collection[str]) -> _Kind | None:
     """Failure and stage of a trial; None of one that succeeded."""
     if record.failure is None:
         return None
     phase = record.failed_phase
-    stage = _CARRY if phase in _CARRIED else "" if phase is None else phase.value
+    stage = _CARRY if phase in carried else "" if phase is None else phase
     return record.failure, stage
 
 
 class _Table:
     """Trials by seed: how many there are, how many failed, and the values of each column."""
 
-    def __init__(self, records: Sequence[TrialRecord]) -> None:
+    def __init__(self, records: Sequence[TrialRecord], carried: Collection[str]) -> None:
+        self._carried = carried
         self._records = records
         self.seeds = sorted({record.seed for record in records if record.draws or record.workload})
         self._row = {seed: index for index, seed in enumerate(self.seeds)}
@@ -164,7 +165,7 @@ class _Table:
 
     def failures(self, kind: _Kind) -> Array:
         """How many trials of each seed ended so."""
-        return self._counted(lambda record: _kind(record) == kind)
+        return self._counted(lambda record: _kind(record, self._carried) == kind)
 
     def compared(self, failed: Array) -> Iterator[tuple[str, Aspect, float, float]]:
         """Each column's name, aspect, AUC and p."""

@@ -52,7 +52,7 @@ class ConfirmedTrial:
         if record.failure is None:
             return "success" if record.success else "incomplete"
         phase = record.failed_phase
-        return record.failure.value if phase is None else f"{record.failure.value} at {phase.value}"
+        return record.failure.value if phase is None else f"{record.failure.value} at {phase}"
 
     @property
     def differing(self) -> tuple[int, ...]:

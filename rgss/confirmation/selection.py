@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from rgss.assessment import VariantMeasures
 from rgss.designs import DesignVariant
 from rgss.errors import DefinitionError
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.studies import Project
 from rgss.tradeoff import Decision
 
@@ -108,7 +108,7 @@ def selected_by_id(
 
 def _with_sample(measured: Sequence[VariantMeasures], confirmed: Collection[int], size: int) -> Selection:
     """A sample of the failures of designs that are not confirmed anyway, evenly over what went wrong and where."""
-    kinds: dict[tuple[str, str], list[tuple[int, int]]] = {}
+    kinds: dict[tuple[int, str], list[tuple[int, int]]] = {}
     planned = physical = 0
     for entry in measured:
         for record in entry.records:
@@ -119,8 +119,9 @@ def _with_sample(measured: Sequence[VariantMeasures], confirmed: Collection[int]
                 continue
             physical += 1
             if record.variant not in confirmed:
-                phase = list(Phase).index(record.failed_phase) if record.failed_phase is not None else 0
-                kinds.setdefault((f"{phase}", record.failure.value), []).append((record.seed, record.variant))
+                phases = [one.phase for one in record.phases]
+                place = phases.index(record.failed_phase) if record.failed_phase is not None else 0
+                kinds.setdefault((place, record.failure.value), []).append((record.seed, record.variant))
     queues = [_spread(sorted(trials)) for _, trials in sorted(kinds.items())]
     sample: list[tuple[int, int]] = []
     while len(sample) < size and any(queues):

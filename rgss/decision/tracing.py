@@ -102,7 +102,7 @@ def _trial(project: Project, entry: VariantMeasures, key: str, record: TrialReco
 def _outcome(record: TrialRecord) -> str:
     if record.failure is None or record.failed_phase is None:
         return "success"
-    return f"{record.failure.value} in {record.failed_phase.value}"
+    return f"{record.failure.value} in {record.failed_phase}"
 
 
 def _values(project: Project, entry: VariantMeasures, record: TrialRecord) -> dict[str, float | None]:

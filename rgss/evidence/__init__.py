@@ -1,11 +1,9 @@
 """Evidence of trials: records, their digests, and the store that keeps them."""
 
 from rgss.evidence.records import (
-    PLANNED_PHASES,
     Failure,
     Fidelity,
     Metric,
-    Phase,
     PhaseOutcome,
     PhaseRecord,
     Piece,

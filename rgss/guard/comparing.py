@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from rgss.errors import DefinitionError
-from rgss.evidence import EvidenceStore, Phase
+from rgss.evidence import EvidenceStore
 from rgss.findings import shown
 from rgss.guard.decision import decision_of, explained_by_noise, p_values
 from rgss.guard.inputs import inputs_of_trials, origin_of_trials
@@ -44,8 +44,6 @@ from rgss.regression import (
     value_changes,
 )
 from rgss.studies import Project, RegressionGuard
-
-_PHASES = tuple(phase.value for phase in Phase)
 
 
 def compare_with_baseline(
@@ -96,6 +94,7 @@ class _Comparing:
         self._baseline = baseline
         self._label = label
         self._watched = watched_trials(project, guard)
+        self._phases = project.study.task.phases
         self._seeds = {trials.run.id: 0 for trials in self._watched}
 
     def run(self, on_look: Callable[[int, int], None] | None, accepted: str) -> RegressionReport:
@@ -128,7 +127,7 @@ class _Comparing:
         return RegressionReport(
             study=self._project.study.label,
             baseline=self._label,
-            comparisons=tuple(latest[subject] for subject in sorted(latest, key=_order)),
+            comparisons=tuple(latest[subject] for subject in sorted(latest, key=self._order)),
             behaviour=self._behaviour(inputs),
             failing=(*failing, *unstable),
             notes=(*self._of_the_baseline(), *schema_notes(self._baseline, record_schema()), *notes),
@@ -153,7 +152,7 @@ class _Comparing:
             count = self._seeds[trials.run.id]
             seeds = trials.seeds(count)
             records = self._records.of(trials, count)
-            same = unchanged_phases(before, fingerprints_of(records, self._baseline), seeds, _PHASES)
+            same = unchanged_phases(before, fingerprints_of(records, self._baseline), seeds, self._phases)
             for metric, phase in subjects_of(self._guard, trials.run.id):
                 baseline = self._values(trials.run.id, metric.metric, phase)
                 if baseline is None:
@@ -244,7 +243,7 @@ class _Comparing:
                 count = self._seeds[trials.run.id]
                 records = self._records.of(trials, count)
                 changed += changed_trials(
-                    trials.run.id, before, fingerprints_of(records, self._baseline), trials.seeds(count)
+                    trials.run.id, before, fingerprints_of(records, self._baseline), trials.seeds(count), self._phases
                 )
                 compared += sum(len(set(row) & set(before.seeds)) for row in records.values())
         # A file may have changed where no trial reads it. A baseline without values cannot show that.
@@ -271,11 +270,11 @@ class _Comparing:
         by_luck = p_values(trials.project, before, now)
         return decision_changes(before, now, explained=explained, by_luck=by_luck, error_rate=self._guard.error_rate)
 
+    def _order(self, subject: Subject) -> tuple[str, str, int]:
+        place = self._phases.index(subject.phase) if subject.phase in self._phases else -1
+        return subject.run, subject.metric, place
+
 
 def _mean_of(series: Mapping[int, Mapping[int, float | None]]) -> float | None:
     known = [value for row in series.values() for value in row.values() if value is not None]
     return math.fsum(known) / len(known) if known else None
-
-
-def _order(subject: Subject) -> tuple[str, str, int]:
-    return subject.run, subject.metric, _PHASES.index(subject.phase) if subject.phase in _PHASES else -1

@@ -77,9 +77,6 @@ def collision_parts(
     def held(name: str, placement: Any, shape: Shape) -> Part:
         return Part(name=name, chain=joint, joint=joint, placement=to_joint * placement, shape=solid_of(shape))
 
-    def fixed(name: str, placement: Any, shape: Shape) -> Part:
-        return Part(name=name, chain=None, joint=0, placement=placement, shape=solid_of(shape))
-
     parts.append(held(GRIPPER_BASE_LINK, transform(gripper.base_pose), gripper.base))
     for finger in range(gripper.fingers):
         pose = gripper.finger_pose(finger, situation.opening_m)
@@ -96,7 +93,17 @@ def collision_parts(
             Part(name=workpiece.id, chain=None, joint=0, placement=transform(situation.standing @ at), shape=solid)
             for solid, at in object_solids(workpiece.shape)
         ]
-    parts.extend(fixed(body.id, transform(body.pose), body.shape) for body in scene.bodies)
+    parts += [
+        Part(
+            name=body.id,
+            chain=None,
+            joint=0,
+            placement=transform(body.pose if at == Pose() else body.pose @ at),
+            shape=solid,
+        )
+        for body in scene.bodies
+        for solid, at in object_solids(body.shape)
+    ]
     return tuple(parts)
 
 

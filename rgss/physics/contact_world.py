@@ -78,6 +78,23 @@ class ContactWorld(Protocol):
     def workpiece_pose(self) -> Pose:
         """Transform of the workpiece to the world."""
 
+    def object_pose(self, name: str) -> Pose:
+        """Transform of an object of the scene to the world.
+
+        Args:
+            name: The object.
+        """
+
+    def concern(self, scene: Scene) -> None:
+        """Let the workpiece be another object, or be released at another place.
+
+        Args:
+            scene: The scene with that object as its workpiece, where it now stands.
+
+        Raises:
+            SimulationError: The engine knows one object alone, and this is another.
+        """
+
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world at the true joint angles."""
 

@@ -83,7 +83,7 @@ class Stage:
         try:
             self.still, self.moving, self._machine = self._open(), self._open(), self._open()
             for body in scene.bodies:
-                self._add(self.still, _surface(body.shape), body.pose, body.colour)
+                self._add(self.still, _surface(body.primitive), body.pose, body.colour)
             mat = Cylinder(radius_m=scene.place.radius_m, height_m=_MAT_THICKNESS_M)
             centre = Pose(position_m=scene.place.centre_m).raised(_MAT_THICKNESS_M / 2)
             self._add(self.still, cylinder_surface(mat), centre, PLACE_COLOUR)

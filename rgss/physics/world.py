@@ -64,9 +64,10 @@ class World(ClientOwner):
             )
             builder.set_parameters()
             self._scene_names = builder.add_scene()
-            self._workpiece, self._principal = builder.add_workpiece()
-            self._is_offset = self._principal != Pose()
-            self._shape_in_principal = self._principal.inverse()
+            added = builder.add_objects()
+            self._objects = {name: number for name, (number, _) in added.items()}
+            self._principals = {name: principal for name, (_, principal) in added.items()}
+            self._attend(scene.workpiece.id)
             self._robot = builder.add_robot()
             self._index_robot(builder)
         except self._engine.error as error:
@@ -175,6 +176,28 @@ class World(ClientOwner):
         """
         self._rediscover(self._workpiece, -1)
 
+    def concern(self, scene: Scene) -> None:
+        """Let the workpiece be another object, or be released at another place.
+
+        Args:
+            scene: The scene with that object as its workpiece, where it now stands.
+        """
+        self.scene = scene
+        self._attend(scene.workpiece.id)
+        self._renewed_at = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)[1]
+        self._reader = self._reader_of_workpiece()
+
+    def object_pose(self, name: str) -> Pose:
+        """Transform of an object's shape to the world.
+
+        Args:
+            name: The object.
+        """
+        if self._objects[name] == self._workpiece:
+            return self.workpiece_pose()
+        position, turned = self._engine.getBasePositionAndOrientation(self._objects[name], self._client)
+        return Pose(position_m=position, quaternion_xyzw=turned) @ self._principals[name].inverse()
+
     def arm_state(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
         """Reported joint positions (rad), velocities (rad/s) and motor torques (N·m) of the arm after the last step.
 
@@ -254,6 +277,26 @@ class World(ClientOwner):
         # Setting a filter, even to what it is, takes the link out of the broad phase and puts it back.
         self._engine.setCollisionFilterGroupMask(body, link, 1, -1, physicsClientId=self._client)
 
+    def _attend(self, name: str) -> None:
+        """Let an object be the workpiece."""
+        self._workpiece, self._principal = self._objects[name], self._principals[name]
+        self._is_offset = self._principal != Pose()
+        self._shape_in_principal = self._principal.inverse()
+
+    def _reader_of_workpiece(self) -> ContactReader:
+        """Reader of the workpiece's contacts, to which the other objects are bodies of the scene."""
+        others = {number: name for name, number in self._objects.items() if number != self._workpiece}
+        return ContactReader(
+            self._engine,
+            self._client,
+            robot=self._robot,
+            workpiece=self._workpiece,
+            finger_links=self._finger_joints,
+            link_names=self._link_names,
+            scene_names={**self._scene_names, **others},
+            principal=self._principal,
+        )
+
     def _index_robot(self, builder: WorldBuilder) -> None:
         index = builder.index_robot(self._robot)
         arm = self.scene.robot.joints
@@ -263,14 +306,6 @@ class World(ClientOwner):
         self._finger_joints = index.finger_joints
         self._flange = index.flange
         self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
-        self._reader = ContactReader(
-            self._engine,
-            self._client,
-            robot=self._robot,
-            workpiece=self._workpiece,
-            finger_links=self._finger_joints,
-            link_names=index.link_names,
-            scene_names=self._scene_names,
-            principal=self._principal,
-        )
+        self._link_names = index.link_names
+        self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)

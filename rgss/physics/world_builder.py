@@ -16,7 +16,17 @@ from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body, add_object
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import Gripper, PadLayout, Pose, Scene, assembled_urdf, finger_joint, most_elements, pad_layouts
+from rgss.scenes import (
+    Gripper,
+    PadLayout,
+    Pose,
+    Scene,
+    SceneObject,
+    assembled_urdf,
+    finger_joint,
+    most_elements,
+    pad_layouts,
+)
 
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
@@ -79,14 +89,17 @@ class WorldBuilder:
         """Add the fixed bodies; the result names each by its number."""
         names = {}
         for body in self.scene.bodies:
-            number = add_body(self.engine, self.client, body.shape, body.pose, 0.0)
+            number = add_body(self.engine, self.client, body.primitive, body.pose, 0.0)
             self.engine.changeDynamics(number, -1, lateralFriction=body.friction, physicsClientId=self.client)
             names[number] = body.id
         return names
 
-    def add_workpiece(self) -> tuple[int, Pose]:
-        """Add the workpiece; its number, and the transform of its principal axes to its shape."""
-        workpiece = self.scene.workpiece
+    def add_objects(self) -> dict[str, tuple[int, Pose]]:
+        """Add the workpiece and the other objects; of each the number and the transform of its principal axes."""
+        return {one.workpiece.id: self._add_object(one) for one in self.scene.objects}
+
+    def _add_object(self, one: SceneObject) -> tuple[int, Pose]:
+        workpiece = one.workpiece
         if not 0.0 < workpiece.mass_kg < math.inf:
             # A body without mass would be static.
             raise SimulationError(
@@ -105,7 +118,7 @@ class WorldBuilder:
         )
         if workpiece.rolling_resistance_m:
             # The engine multiplies the length by the friction of the other body.
-            beneath = next(body.friction for body in self.scene.bodies if body.id == self.scene.support)
+            beneath = next(body.friction for body in self.scene.bodies if body.id == one.support)
             self.engine.changeDynamics(
                 body,
                 -1,

@@ -81,7 +81,11 @@ def run_failings(
 
 
 def changed_trials(
-    name: str, before: BaselineRun, now: Mapping[int, Mapping[int, str]], seeds: Sequence[int]
+    name: str,
+    before: BaselineRun,
+    now: Mapping[int, Mapping[int, str]],
+    seeds: Sequence[int],
+    phases: Sequence[str],
 ) -> Iterator[ChangedTrial]:
     """The trials whose records are not what they were.
 
@@ -90,13 +94,14 @@ def changed_trials(
         before: Its baseline.
         now: The fingerprint of each record by variant and seed.
         seeds: The seeds that were run.
+        phases: The phases in their order.
     """
     for variant in before.variants:
         was = dict(zip(before.seeds, before.fingerprints[str(variant)], strict=True))
         for seed in seeds:
             found = now.get(variant, {}).get(seed)
             if found is not None and found != was.get(seed, found):
-                phase = first_difference(was[seed], found)
+                phase = first_difference(was[seed], found, phases)
                 yield ChangedTrial(run=name, variant=variant, seed=seed, phase=phase)
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import replace
 from operator import attrgetter
 
 from rgss.documents import digest
-from rgss.evidence import Metric, Phase, PhaseOutcome, PhaseRecord, TrialRecord
+from rgss.evidence import Metric, PhaseOutcome, PhaseRecord, TrialRecord
 from rgss.evidence.records import record_digest
 from rgss.regression.comparing import WHOLE_TRIAL
 
@@ -33,13 +33,13 @@ def observed(record: TrialRecord, metric: str, phase: str) -> float | None:
     """
     if phase == WHOLE_TRIAL:
         return _number(record.metrics.get(metric))
-    state = next(one for one in record.phases if one.phase.value == phase)
+    state = next(one for one in record.phases if one.phase == phase)
     if metric == SUCCESS:
         return None if state.outcome is PhaseOutcome.NOT_RUN else float(state.outcome is PhaseOutcome.COMPLETED)
     if metric == "duration_s":
         return _number(state.duration_s)
     if metric in _OF_PLANNING:
-        planned = next((one for one in record.planning if one.subtask.value == phase), None)
+        planned = next((one for one in record.planning if one.subtask == phase), None)
         if planned is None or state.outcome is PhaseOutcome.NOT_RUN:
             return None
         return _number(_OF_PLANNING[metric](planned))
@@ -75,10 +75,16 @@ def fingerprint(
     return " ".join([record_digest(record), *parts])
 
 
-def first_difference(before: str, now: str) -> str:
-    """The first phase in which two fingerprints differ; ``trial`` if only the whole does."""
+def first_difference(before: str, now: str, phases: Sequence[str]) -> str:
+    """The first phase in which two fingerprints differ; ``trial`` if only the whole does.
+
+    Args:
+        before: The one.
+        now: The other.
+        phases: Names of the phases in order.
+    """
     pairs = zip(before.split()[1:], now.split()[1:], strict=False)
-    names = [phase.value for phase, (was, is_now) in zip(Phase, pairs, strict=False) if was != is_now]
+    names = [phase for phase, (was, is_now) in zip(phases, pairs, strict=False) if was != is_now]
     return names[0] if names else WHOLE_TRIAL
 
 

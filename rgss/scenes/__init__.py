@@ -22,9 +22,20 @@ from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS, pad_ribs
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
 from rgss.scenes.robot_file import load_robot
-from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, PlaceRegion, Scene, SceneBody, Task, Workpiece
+from rgss.scenes.scene import (
+    FORCE_WINDOW_S,
+    LANDING_LIMIT_M_S,
+    NamedPlace,
+    PlaceRegion,
+    Scene,
+    SceneBody,
+    SceneObject,
+    Task,
+    Workpiece,
+)
 from rgss.scenes.scene_file import load_scene
 from rgss.scenes.servos import Calibration, CalibrationDocument, JointServo, ServoControl, load_calibration
+from rgss.scenes.several_objects import Standing, initial_standings, scene_about
 from rgss.scenes.shapes import (
     Box,
     Cylinder,

@@ -181,6 +181,18 @@ class RobotPlacementEntry(DocumentModel):
     yaw: Radians = 0.0
 
 
+class OtherObjectEntry(WorkpieceEntry):
+    """An object beside the workpiece, with its own place region."""
+
+    place_region: PlaceRegionEntry
+
+
+class NamedPlaceEntry(PlaceRegionEntry):
+    """A place that belongs to no object."""
+
+    id: Identifier
+
+
 class SceneDocument(DocumentModel):
     """A scene file."""
 
@@ -190,6 +202,8 @@ class SceneDocument(DocumentModel):
     bodies: Annotated[tuple[BodyEntry, ...], Field(min_length=1)]
     workpiece: WorkpieceEntry
     place_region: PlaceRegionEntry
+    workpieces: tuple[OtherObjectEntry, ...] = ()
+    places: tuple[NamedPlaceEntry, ...] = ()
     task: TaskEntry
     uncertainty: dict[QuantityName, DistributionEntry] = Field(default_factory=dict)
     correlations: tuple[CorrelationEntry, ...] = ()

@@ -33,6 +33,7 @@ from rgss.scenes.shapes import Box, Cylinder, LyingCylinder, MeshShape, ObjectSh
 MOST_PARTS = 16
 """Most convex parts of an object: each is tried against each body and pad in every step."""
 
+_OWN: Location = ("workpiece",)
 _SHAPES = ("box", "cylinder", "mesh")
 _LARGEST_M, _SMALLEST_M = 3.0, 1.0e-3
 _CONVEX = 1.02
@@ -59,7 +60,13 @@ class ObjectSolid:
 
 
 def object_solid(
-    path: Path, entry: WorkpieceEntry, document: Document, findings: list[Finding], project: Path
+    path: Path,
+    entry: WorkpieceEntry,
+    document: Document,
+    findings: list[Finding],
+    project: Path,
+    *,
+    at: Location = _OWN,
 ) -> ObjectSolid | None:
     """The solid of an object, or None with what is wrong added to the findings.
 
@@ -69,19 +76,20 @@ def object_solid(
         document: The scene's document.
         findings: What is wrong so far.
         project: The folder that no file may lie outside of.
+        at: Where the entry stands.
     """
     before = len(findings)
-    findings.extend(_form_findings(entry, document))
-    if len(findings) > before or any(value <= 0.0 for _, value in object_lengths(entry)):
+    findings.extend(_form_findings(entry, document, at))
+    if len(findings) > before or any(value <= 0.0 for _, value in object_lengths(entry, at=at)):
         return None
     if entry.mesh is not None:
-        location = ("workpiece", "mesh")
+        location = (*at, "mesh")
         problems = list(named_file_findings(document, entry.mesh, location, folder=path.parent, project=project))
         findings.extend(problems)
         if problems:
             return None
         try:
-            return _mesh_solid(path.parent / entry.mesh, entry, document, findings)
+            return _mesh_solid(path.parent / entry.mesh, entry, document, findings, at)
         except DefinitionError as error:
             findings.append(document.finding("scene.mesh", str(error), location, hint=error.hint))
             return None
@@ -89,7 +97,7 @@ def object_solid(
     upright = _primitive(entry.model_copy(update={"rests": Rest.UPRIGHT}))[0]
     mass_kg = entry.mass if entry.mass is not None else _required(entry.density) * _volume_m3(upright)
     solid = _assembled(entry, shape, turn, mass_kg, (0.0, 0.0, 0.0), None)
-    findings.extend(_mass_findings(entry, solid, document))
+    findings.extend(_mass_findings(entry, solid, document, at))
     return solid
 
 
@@ -139,31 +147,31 @@ def candidates_of(rule: GraspRule | GraspCandidatesEntry) -> GraspCandidates | N
     )
 
 
-def object_lengths(entry: WorkpieceEntry) -> Iterator[tuple[Location, float]]:
+def object_lengths(entry: WorkpieceEntry, *, at: Location = _OWN) -> Iterator[tuple[Location, float]]:
     """Location and value of what must be above zero.
 
     Args:
         entry: The object.
+        at: Where the entry stands.
     """
     values: dict[Location, float | None] = {
-        ("workpiece", "radius"): entry.radius,
-        ("workpiece", "height"): entry.height,
-        ("workpiece", "mass"): entry.mass,
-        ("workpiece", "density"): entry.density,
-        ("workpiece", "scale"): entry.scale,
-        ("workpiece", "rolling_resistance"): entry.rolling_resistance,
+        (*at, "radius"): entry.radius,
+        (*at, "height"): entry.height,
+        (*at, "mass"): entry.mass,
+        (*at, "density"): entry.density,
+        (*at, "scale"): entry.scale,
+        (*at, "rolling_resistance"): entry.rolling_resistance,
     }
+    parts: dict[Location, float] = {}
     if entry.cylinder is not None:
-        values["workpiece", "cylinder", "radius"] = entry.cylinder.radius
-        values["workpiece", "cylinder", "height"] = entry.cylinder.height
-    for axis, edge in enumerate(entry.box or ()):
-        values["workpiece", "box", axis] = edge
-    for index, grasp in enumerate(entry.grasps):
-        values["workpiece", "grasps", index, "width"] = grasp.width
+        parts |= {("cylinder", "radius"): entry.cylinder.radius, ("cylinder", "height"): entry.cylinder.height}
+    parts |= {("box", axis): edge for axis, edge in enumerate(entry.box or ())}
+    parts |= {("grasps", index, "width"): grasp.width for index, grasp in enumerate(entry.grasps)}
+    values |= {(*at, *part): value for part, value in parts.items()}
     yield from ((location, value) for location, value in values.items() if value is not None)
 
 
-def _form_findings(entry: WorkpieceEntry, document: Document) -> Iterable[Finding]:
+def _form_findings(entry: WorkpieceEntry, document: Document, at: Location) -> Iterable[Finding]:
     """Whether it has one shape, one of mass and density, and only keys that its shape knows."""
     stated = [key for key in _SHAPES if getattr(entry, key) is not None]
     if entry.radius is not None or entry.height is not None:
@@ -172,32 +180,30 @@ def _form_findings(entry: WorkpieceEntry, document: Document) -> Iterable[Findin
         yield document.finding(
             "scene.shape",
             f"object {entry.id!r} needs exactly one of 'box', 'cylinder', 'mesh', and 'radius' with 'height'",
-            ("workpiece",),
+            at,
         )
     if (entry.mass is None) == (entry.density is None):
-        yield document.finding(
-            "scene.mass", f"object {entry.id!r} needs exactly one of 'mass' and 'density'", ("workpiece",)
-        )
+        yield document.finding("scene.mass", f"object {entry.id!r} needs exactly one of 'mass' and 'density'", at)
     if entry.mesh is None and (entry.scale != 1.0 or entry.collision is not None):
         key = "scale" if entry.scale != 1.0 else "collision"
-        yield document.finding("scene.shape", f"{key!r} is of a mesh alone", ("workpiece", key), hint="take it out")
+        yield document.finding("scene.shape", f"{key!r} is of a mesh alone", (*at, key), hint="take it out")
     is_round = entry.cylinder is not None or entry.radius is not None
     if is_round and entry.rests is Rest.LYING and entry.rolling_resistance is None:
         yield document.finding(
             "scene.rolling",
             f"object {entry.id!r} lies and would roll away",
-            ("workpiece", "rests"),
+            (*at, "rests"),
             hint="give 'rolling_resistance', a length: 0.5 mm on wood or laminate",
         )
     if entry.inertia is not None and entry.centre_of_mass is None:
         yield document.finding(
-            "scene.mass", "'inertia' is about the centre of mass", ("workpiece", "inertia"), hint="add centre_of_mass"
+            "scene.mass", "'inertia' is about the centre of mass", (*at, "inertia"), hint="add centre_of_mass"
         )
     names = [grasp.id for grasp in entry.grasps]
     for index, name in enumerate(names):
         if name in names[:index]:
             yield document.finding(
-                "scene.duplicate-id", f"id {name!r} is taken by an earlier grasp", ("workpiece", "grasps", index, "id")
+                "scene.duplicate-id", f"id {name!r} is taken by an earlier grasp", (*at, "grasps", index, "id")
             )
 
 
@@ -215,9 +221,11 @@ def _primitive(entry: WorkpieceEntry) -> tuple[Box | Cylinder | LyingCylinder, P
     return Cylinder(radius_m=_required(radius), height_m=_required(height)), Pose()
 
 
-def _mesh_solid(path: Path, entry: WorkpieceEntry, document: Document, findings: list[Finding]) -> ObjectSolid | None:
+def _mesh_solid(
+    path: Path, entry: WorkpieceEntry, document: Document, findings: list[Finding], at: Location
+) -> ObjectSolid | None:
     summary = mesh_summary(path, scale=(entry.scale,) * 3)
-    before, location = len(findings), ("workpiece", "mesh")
+    before, location = len(findings), (*at, "mesh")
     size = max(summary.extent_m)
     if not _SMALLEST_M <= size <= _LARGEST_M:
         hint = "give 'scale: 0.001' for a mesh in millimetres" if size > _LARGEST_M else "give 'scale'"
@@ -271,7 +279,7 @@ def _mesh_solid(path: Path, entry: WorkpieceEntry, document: Document, findings:
         centre, gyration = found.centre_m, found.gyration_m2
         mass_kg = entry.mass if entry.mass is not None else _required(entry.density) * found.volume_m3
     solid = _assembled(entry, shape, to_shape, _required(mass_kg), centre, gyration)
-    findings.extend(_mass_findings(entry, solid, document))
+    findings.extend(_mass_findings(entry, solid, document, at))
     return solid
 
 
@@ -308,14 +316,14 @@ def _turned(gyration: Gyration, turn: Pose) -> Gyration:
     return entries[0], entries[1], entries[2], entries[3], entries[4], entries[5]
 
 
-def _mass_findings(entry: WorkpieceEntry, solid: ObjectSolid, document: Document) -> Iterable[Finding]:
+def _mass_findings(entry: WorkpieceEntry, solid: ObjectSolid, document: Document, at: Location) -> Iterable[Finding]:
     """Whether the centre of mass lies in the hull, and the inertia is one that a body can have."""
     corners = np.array([corner for part in corners_of(solid.shape) for corner in part])
     if entry.centre_of_mass is not None and not _is_in_hull(np.array(solid.centre_m), corners):
         yield document.finding(
             "scene.centre-of-mass",
             "the centre of mass lies outside the object",
-            ("workpiece", "centre_of_mass"),
+            (*at, "centre_of_mass"),
             hint="it is given in the frame of the shape: of a box or cylinder, from its centre",
         )
     if entry.inertia is not None:
@@ -325,7 +333,7 @@ def _mass_findings(entry: WorkpieceEntry, solid: ObjectSolid, document: Document
             yield document.finding(
                 "scene.inertia",
                 "no body has this inertia: its principal moments must be positive, each at most the sum of the others",
-                ("workpiece", "inertia"),
+                (*at, "inertia"),
                 hint="give xx, yy, zz, xy, xz, yz about the centre of mass",
             )
 

@@ -9,7 +9,7 @@ from rgss.scenes.grasp_choice import GivenGrasp, GraspCandidates, TakenGrasp
 from rgss.scenes.mass_properties import Gyration
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
-from rgss.scenes.shapes import Cylinder, ObjectShape, Shape
+from rgss.scenes.shapes import Box, Cylinder, ObjectShape, Shape
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, Uncertainty
 
 LARGEST_DROP_M = 0.01
@@ -30,17 +30,24 @@ class SceneBody:
 
     Attributes:
         id: Its name.
-        shape: Its solid.
+        shape: Its solid: a box or a cylinder, unless it is another object that stands around.
         pose: Transform of the shape's frame to the world.
         friction: Its coefficient; a contact's coefficient is the product of both bodies'.
         colour: Colour in pictures.
     """
 
     id: str
-    shape: Shape
+    shape: ObjectShape
     pose: Pose
     friction: float
     colour: ColourRgba
+
+    @property
+    def primitive(self) -> Shape:
+        """Its solid as a box or a cylinder, which every body of a scene file is."""
+        if isinstance(self.shape, (Box, Cylinder)):
+            return self.shape
+        raise AssertionError("checked before: a body of a scene file is a box or a cylinder")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,6 +111,38 @@ class PlaceRegion:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SceneObject:
+    """An object with where it stands at the start and where it belongs.
+
+    Attributes:
+        workpiece: The object.
+        support: Id of the body on which it stands at the start.
+        place: Its place region.
+        place_support: Id of the body of its place region.
+    """
+
+    workpiece: Workpiece
+    support: str
+    place: PlaceRegion
+    place_support: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedPlace:
+    """A place region that belongs to no object.
+
+    Attributes:
+        id: Its name.
+        region: The region.
+        support: Id of the body that bears it.
+    """
+
+    id: str
+    region: PlaceRegion
+    support: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Task:
     """Waypoints of the pick-and-place task; the tool points down unless a grasp is chosen from candidates.
 
@@ -147,6 +186,8 @@ class Scene:
         place: Its place region.
         task: The waypoints.
         uncertainty: What differs from trial to trial, as the scene's file says.
+        others: The objects beside the workpiece.
+        places: Places that belong to no object.
     """
 
     id: str
@@ -159,6 +200,16 @@ class Scene:
     place: PlaceRegion
     task: Task
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
+    others: tuple[SceneObject, ...] = ()
+    places: tuple[NamedPlace, ...] = ()
+
+    @property
+    def objects(self) -> tuple[SceneObject, ...]:
+        """Every object, the workpiece first."""
+        own = SceneObject(
+            workpiece=self.workpiece, support=self.support, place=self.place, place_support=self.place_support
+        )
+        return (own, *self.others)
 
     @property
     def grasp(self) -> Pose:

@@ -12,10 +12,19 @@ from rgss.findings import Finding
 from rgss.scenes.document import BodyEntry, SceneDocument
 from rgss.scenes.findings import Location, named_file_findings, negative, not_positive
 from rgss.scenes.object_file import candidates_of, object_lengths, object_solid, workpiece_of
+from rgss.scenes.other_objects import (
+    colour_of,
+    name_findings,
+    named_places,
+    other_objects,
+    other_solids,
+    positive_values,
+    region_of,
+)
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
 from rgss.scenes.robot_file import load_robot
-from rgss.scenes.scene import ColourRgba, PlaceRegion, Scene, SceneBody, Task
+from rgss.scenes.scene import Scene, SceneBody, Task
 from rgss.scenes.shapes import Box, Cylinder, Shape
 from rgss.scenes.uncertainty import read_uncertainty
 
@@ -37,12 +46,15 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         *_body_findings(entry, document),
         *_workpiece_findings(entry, document),
         *_drop_findings(entry, document),
-        *not_positive(document, _positive_values(entry)),
+        *name_findings(entry, document),
+        *not_positive(document, (*_positive_values(entry), *positive_values(entry))),
         *negative(document, _values_from_zero(entry)),
     ]
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings, declared=())
     robot = _robot(path, entry, document, findings, path.parent if project is None else project)
-    solid = object_solid(path, entry.workpiece, document, findings, path.parent if project is None else project)
+    top = path.parent if project is None else project
+    solid = object_solid(path, entry.workpiece, document, findings, top)
+    others = other_solids(path, entry, document, findings, top)
     if findings or robot is None or solid is None:
         raise DocumentError(sorted(findings))
     tops = {body.id: _top(body) for body in entry.bodies}
@@ -54,14 +66,10 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         bodies=tuple(_body(body) for body in entry.bodies),
         support=workpiece.stands_on,
         place_support=place.stands_on,
-        workpiece=workpiece_of(workpiece, solid, top_m=tops[workpiece.stands_on], colour=_colour(workpiece.colour)),
-        place=PlaceRegion(
-            centre_m=(*place.at, tops[place.stands_on]),
-            radius_m=place.radius,
-            largest_tilt_rad=place.largest_tilt,
-            largest_drop_m=place.largest_drop,
-            largest_drag_m=place.largest_drag,
-        ),
+        workpiece=workpiece_of(workpiece, solid, top_m=tops[workpiece.stands_on], colour=colour_of(workpiece.colour)),
+        place=region_of(place, tops),
+        others=other_objects(entry, others, tops),
+        places=named_places(entry, tops),
         task=Task(
             approach_height_m=entry.task.approach_height,
             lift_height_m=entry.task.lift_height,
@@ -199,10 +207,5 @@ def _body(body: BodyEntry) -> SceneBody:
         shape=shape,
         pose=Pose.from_roll_pitch_yaw((x, y, z + shape.half_height_m), (0.0, 0.0, body.yaw)),
         friction=body.friction,
-        colour=_colour(body.colour),
+        colour=colour_of(body.colour),
     )
-
-
-def _colour(text: str) -> ColourRgba:
-    red, green, blue = (int(text[start : start + 2], 16) / 255 for start in (1, 3, 5))
-    return (red, green, blue, 1.0)

@@ -62,16 +62,6 @@ FidelityField = Annotated[
 MoveName = Literal["planned", "straight", "joint"]
 
 
-class MovesEntry(DocumentModel):
-    """Kind of each move that a planner would plan."""
-
-    move_to_grasp: MoveName = "planned"
-    move_to_grasp_departure: MoveName = "planned"
-    move_to_place_approach: MoveName = "planned"
-    move_to_place: MoveName = "planned"
-    move_to_grasp_approach: MoveName = "planned"
-
-
 class PhysicsEntry(DocumentModel):
     """Steps of the physics."""
 
@@ -95,13 +85,14 @@ class StudyDocument(DocumentModel):
     design_space: Text
     catalogue: Text
     scene: Text
+    task: Text | None = None
     seed: Annotated[int, Field(ge=0, le=2**31 - 1)]
     replicates: Annotated[int, Field(ge=1, le=MOST_REPLICATES)]
     fidelity: FidelityField = ("contact",)
     promotion: PromotionEntry | None = None
     until_decided: UntilDecidedEntry | None = None
     planning: PlanningEntry
-    moves: MovesEntry = MovesEntry()
+    moves: dict[Text, MoveName] = Field(default_factory=dict)
     timing: TimingEntry = TimingEntry()
     control: ControlEntry = ControlEntry()
     physics: PhysicsEntry

@@ -17,6 +17,7 @@ from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, Stakehol
 from rgss.scenes import CalibrationDocument, GripperDocument, RobotDocument, SceneDocument
 from rgss.studies.document import StudyDocument
 from rgss.studies.project_folders import REQUIREMENT_PARTS, SINGLE_FILES
+from rgss.tasks import TaskDocument
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,13 +80,20 @@ DOCUMENT_KINDS = (
         id="calibration", title="Calibration of a robot's servos", model=CalibrationDocument, place="scenes/robots/"
     ),
     DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
+    DocumentKind(id="task", title="Task", model=TaskDocument, place="scenes/tasks/"),
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
 
 _OF_REQUIREMENTS = (*REQUIREMENT_PARTS, *SINGLE_FILES)
 _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
     "designs": (("components", "catalogue"), ("parameters", "design-space")),
-    "scenes": (("bodies", "scene"), ("joints", "robot"), ("azimuths", "gripper"), ("servos", "calibration")),
+    "scenes": (
+        ("bodies", "scene"),
+        ("joints", "robot"),
+        ("azimuths", "gripper"),
+        ("servos", "calibration"),
+        ("steps", "task"),
+    ),
     "studies": (("study", "study"),),
 }
 

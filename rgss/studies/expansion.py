@@ -106,6 +106,7 @@ def _spec(
         settings=settings,
         uncertainty=project.uncertainty,
         workload=project.workload,
+        task=project.study.task,
     )
     values = values_of(variant, {**defaults, **file.settings})
     planner = values.get(PLANNER)

@@ -15,7 +15,7 @@ _LONGEST_LIST = 12
 
 
 def source_findings(
-    inputs: Iterable[InputSymbol], design_units: Mapping[str, str], document: Document
+    inputs: Iterable[InputSymbol], design_units: Mapping[str, str], document: Document, *, planned: int
 ) -> Iterator[Finding]:
     """Find inputs whose source is not there or measures something else.
 
@@ -23,6 +23,7 @@ def source_findings(
         inputs: The inputs of the measures, in the order of their file.
         design_units: The unit of each source that designs have; empty for a name.
         document: The measures' file, for positions.
+        planned: Number of planned moves of the task.
     """
     trial_units = {f"trial.{name}": kind.unit for name, kind in METRICS.items()}
     for index, symbol in enumerate(inputs):
@@ -39,8 +40,8 @@ def source_findings(
             message = f"{symbol.id}: {symbol.source!r} is measured in {unit!r}, not in {symbol.unit!r}"
             hint = "correct the source or the unit"
             yield document.finding("measures.source-unit", message, ("inputs", index, "unit"), hint=hint)
-        elif symbol.from_trial and symbol.length != METRICS[symbol.metric].length:
-            length = METRICS[symbol.metric].length
+        elif symbol.from_trial and symbol.length != METRICS[symbol.metric].length_in_trial(planned):
+            length = METRICS[symbol.metric].length_in_trial(planned)
             message = f"{symbol.id}: {symbol.source!r} is {'one number' if length is None else f'a row of {length}'}"
             hint = "remove 'length'" if length is None else f"write 'length: {length}'"
             yield document.finding("measures.source-length", message, ("inputs", index), hint=hint)

@@ -25,6 +25,7 @@ from rgss.studies.motion import motion_findings
 from rgss.studies.project_folders import DEFAULT_STUDY, REQUIREMENTS, measures_of, requirements_named
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings
+from rgss.tasks import default_task, task_findings
 from rgss.trace import MeasureTrace, check_trace
 
 EVIDENCE = ".rgss/evidence.sqlite"
@@ -155,12 +156,17 @@ class _Reader:
             document = read_document(folder / named["design_space"], label=named["design_space"])
             if scene is not None and study is not None:
                 written = read_document(path, label=label)
+                if study.task_file is not None:
+                    self._findings += task_findings(study.task_file, scene)
                 self._findings += uncertainty_findings(scene, study, written, grippers)
                 self._findings += design_findings(designs, document, grippers, scene.robot, study.planning)
                 self._findings += motion_findings(study.motion, study.rate_hz, written, designs, document, scene.robot)
             if measures is not None and named_set is not None:
                 document = read_document(folder / measures_of(named_set), label=measures_of(named_set))
-                self._findings.extend(source_findings(measures.inputs, designs.source_units(), document))
+                planned = len((default_task() if study is None else study.task).planned)
+                self._findings.extend(
+                    source_findings(measures.inputs, designs.source_units(), document, planned=planned)
+                )
         if (
             named_set is None
             or requirements is None

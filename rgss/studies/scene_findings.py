@@ -52,6 +52,7 @@ def check_scene(project: Project) -> SceneCheck:
                 geometry,
                 clearance_m=project.study.planning.clearance_m,
                 friction=_pad_friction(project, geometry),
+                task=project.study.task,
             ):
                 of_reach.setdefault(problem, []).append(file)
     except ImportError as error:
@@ -107,7 +108,7 @@ class _Places:
             named = [self._named(body) for body in pair if body in self.at]
             other = f" [{', '.join(named)}]" if named else ""
             of = f" with {', '.join(grippers)}" if grippers else ""
-            message = f"no configuration of the arm{of} serves {problem.waypoint.value}: {problem.reason}{other}"
+            message = f"no configuration of the arm{of} serves {problem.waypoint}: {problem.reason}{other}"
             hint = _remedy(problem)
             if grippers and self._workpiece in pair:
                 # The object does not fit between its fingers, but does between another's: a result, not a mistake.

@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 
 from rgss.documents import Document, FilePlace, load_document, place_of
 from rgss.errors import DocumentError
-from rgss.evidence import PLANNED_PHASES, Fidelity
+from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
 from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, PhysicsSettings
@@ -31,9 +31,9 @@ from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
+from rgss.tasks import LoadedTask, MoveKind, TaskProgram, default_task, load_task
 from rgss.tradeoff import Anchor
 from rgss.tradeoff.sequential import SequentialRule
-from rgss.trials import MoveKind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,6 +108,8 @@ class StudyDefinition:
     physics: PhysicsSettings | None = None
     assumptions: tuple[StudyAssumption, ...] = ()
     motion: MotionChoice = field(default_factory=MotionChoice)
+    task: TaskProgram = field(default_factory=default_task)
+    task_file: LoadedTask | None = None
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -152,7 +154,10 @@ def read_study(
     planning = read_planning(entry.planning, document, findings)
     motion = read_motion(entry.timing, entry.control, document, findings, rate_hz=entry.physics.rate)
     screening = read_screening(entry, document, findings)
-    regression = read_regression(entry.regression, document, findings)
+    loaded_task = _task(project, entry, findings)
+    program = default_task() if loaded_task is None else loaded_task.program
+    moves = _moves(entry, program, document, findings)
+    regression = read_regression(entry.regression, document, findings, phases=program.phases)
     until_decided = read_until_decided(entry.until_decided, document, findings, replicates=entry.replicates)
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings)
     workload = read_workload(entry.workload, document, findings)
@@ -175,9 +180,9 @@ def read_study(
         seed=entry.seed,
         replicates=entry.replicates,
         fidelity=Fidelity(entry.fidelity[-1]),
-        planning=replace(
-            planning, moves=tuple(MoveKind(getattr(entry.moves, phase.value)) for phase in PLANNED_PHASES)
-        ),
+        planning=replace(planning, moves=moves),
+        task=program,
+        task_file=loaded_task,
         motion=motion,
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
@@ -210,6 +215,8 @@ def _file_findings(document: Document, entry: StudyDocument, project: Path) -> l
     if problem is not None:
         findings.append(document.finding("study.requirements", problem[0], ("requirements",), hint=problem[1]))
     named = {"design_space": entry.design_space, "catalogue": entry.catalogue, "scene": entry.scene}
+    if entry.task is not None:
+        named["task"] = entry.task
     for key, name in named.items():
         place = place_of(project / name, project)
         if PurePath(name).is_absolute() or ".." in PurePath(name).parts or place is FilePlace.OUTSIDE:
@@ -236,6 +243,30 @@ def _requirements(folder: Path) -> RequirementSet | None:
         return load_requirements(folder)
     except DocumentError:
         return None
+
+
+def _task(project: Path, entry: StudyDocument, findings: list[Finding]) -> LoadedTask | None:
+    """The task that a study names; None if it names none, or if it cannot be read, with what is wrong noted."""
+    path = None if entry.task is None else named_file(project, entry.task)
+    if path is None:
+        return None
+    try:
+        return load_task(path, label=entry.task)
+    except DocumentError as error:
+        findings.extend(error.findings)
+        return None
+
+
+def _moves(
+    entry: StudyDocument, task: TaskProgram, document: Document, findings: list[Finding]
+) -> tuple[MoveKind, ...]:
+    """Kinds of the planned moves of the task, as the study has them."""
+    for name in entry.moves:
+        if name not in task.planned:
+            hint = f"planned moves: {', '.join(task.planned)}"
+            message = f"the task has no planned move {name!r}"
+            findings.append(document.finding("study.move", message, ("moves", name), hint=hint, at_key=True))
+    return tuple(MoveKind(entry.moves.get(name, "planned")) for name in task.planned)
 
 
 def value_anchors(trade_off: TradeOff, quantity_of: Callable[[Anchor, str], float]) -> tuple[ValueAnchors, ...]:

@@ -26,6 +26,7 @@ _KIND_OF_KEY: Mapping[str, str] = {
     "bodies": "scene",
     "joints": "robot",
     "azimuths": "gripper",
+    "steps": "task",
     "measures": "measures",
     "rules": "rules",
     "reviews": "reviews",
@@ -39,6 +40,7 @@ _FOLDER_OF_KIND: Mapping[str, str] = {
     "scene": "scenes",
     "robot": "scenes",
     "gripper": "scenes",
+    "task": "scenes",
 }
 _KINDS: Mapping[Callable[[int], bool], str] = {
     stat.S_ISDIR: "a folder",

@@ -9,8 +9,6 @@ from typing import TypeGuard
 
 from rgss.errors import RgssError
 from rgss.evidence import (
-    PLANNED_PHASES,
-    Phase,
     Piece,
     PieceKind,
     RunFailureKind,
@@ -92,10 +90,10 @@ def record_problem(spec: TrialSpec, record: object) -> str:
     record_to_json(record)
     if (record.variant, record.seed, record.fidelity) != (spec.variant, spec.seed, spec.fidelity):
         return "it is the record of another trial"
-    if tuple(each.phase for each in record.phases) != tuple(Phase):
-        return "it does not have the eight states in their order"
-    if tuple(each.subtask for each in record.planning) != PLANNED_PHASES:
-        return "it does not have the five planned moves in their order"
+    if tuple(each.phase for each in record.phases) != spec.task.phases:
+        return "it does not have the steps of the task in their order"
+    if tuple(each.subtask for each in record.planning) != spec.task.planned:
+        return "it does not have the planned moves of the task in their order"
     return ""
 
 

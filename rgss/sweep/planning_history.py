@@ -34,7 +34,7 @@ def planning_runs(project: Project, store: EvidenceStore) -> tuple[PlanningRun, 
     found = store.records(keys)
     return tuple(
         PlanningRun(
-            problem=f"{keys[key].gripper.geometry.id}: {planned.subtask.value}",
+            problem=f"{keys[key].gripper.geometry.id}: {planned.subtask}",
             planner=keys[key].planner,
             seed=record.seed,
             limit_s=keys[key].planning_limit_s,
@@ -46,5 +46,5 @@ def planning_runs(project: Project, store: EvidenceStore) -> tuple[PlanningRun, 
         )
         for key, record in found.items()
         for planned in record.planning
-        if planned.outcome is not PlanOutcome.NOT_RUN and planned.subtask in keys[key].settings.planning.searched
+        if planned.outcome is not PlanOutcome.NOT_RUN and planned.subtask in keys[key].searched
     )

@@ -93,7 +93,7 @@ class StoredSearches:
         made = self._plan(digests.plan)
         if made is None:
             return None
-        plan = plan_under(made, self._settings, wanted, limit_s=spec.planning_limit_s)
+        plan = plan_under(made, self._settings, wanted, planned=spec.task.planned, limit_s=spec.planning_limit_s)
         timing, execution = self._piece(digests.timing), self._piece(digests.execution)
         bench = self._piece(digests.bench) if digests.bench else None
         if plan is None or timing is None or execution is None or (digests.bench and bench is None):

@@ -5,12 +5,20 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
+    from rgss.tasks import MoveKind
     from rgss.trials.conditions import DrawnValue, conditions_of, drawn_values
     from rgss.trials.filming import Film
     from rgss.trials.impact import ClosingImpact, closing_impact
     from rgss.trials.lifecycle import Simulation, SimulationState
-    from rgss.trials.metrics import METRICS, PHASE_METRICS, Aggregation, Direction, MetricDescriptor, PhaseValue
-    from rgss.trials.move_kinds import MoveKind
+    from rgss.trials.metrics import (
+        FOR_EACH_MOVE,
+        METRICS,
+        PHASE_METRICS,
+        Aggregation,
+        Direction,
+        MetricDescriptor,
+        PhaseValue,
+    )
     from rgss.trials.planning import Obstacle, PlannedMove, TaskPlan, plan_of, searches_of, waypoint_configurations
     from rgss.trials.plants import (
         ControlMode,

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 
-from rgss.evidence import Metric, Phase
+from rgss.evidence import Metric
 from rgss.scenes import TakenGrasp
 from rgss.trials.phase_result import PhaseResult
 
 
-def with_chosen_grasp(results: Iterable[PhaseResult], taken: TakenGrasp | None) -> tuple[PhaseResult, ...]:
+def with_chosen_grasp(
+    results: Iterable[PhaseResult], taken: TakenGrasp | None, grips: Collection[str]
+) -> tuple[PhaseResult, ...]:
     """The phases, the grasp that was taken among the metrics of the grasp phase.
 
     Args:
         results: The phases.
         taken: The grasp; None where it is stated, which leaves the phases as they are.
+        grips: Names of the steps that close the hand.
     """
     if taken is None:
         return tuple(results)
@@ -28,6 +31,4 @@ def with_chosen_grasp(results: Iterable[PhaseResult], taken: TakenGrasp | None) 
         "chosen_grasp_position_m": taken.tool_in_object.position_m,
         "chosen_grasp_quaternion_1": taken.tool_in_object.quaternion_xyzw,
     }
-    return tuple(
-        replace(one, metrics={**one.metrics, **chosen}) if one.phase is Phase.GRASP else one for one in results
-    )
+    return tuple(replace(one, metrics={**one.metrics, **chosen}) if one.phase in grips else one for one in results)

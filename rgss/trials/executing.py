@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.physics import TorqueArm, open_world
-from rgss.scenes import grasp_opening_m
 from rgss.trials.chosen_grasp import with_chosen_grasp
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.execution import Execution
 from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plants import DynamicPlant, KinematicPlant
+from rgss.trials.plants import DynamicPlant, GripSequence, KinematicPlant
 from rgss.trials.program import run_program
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import TaskTiming
@@ -45,7 +44,7 @@ def execute(
     conditions = conditions_of(spec)
     physics, scene = spec.settings.physics, with_grasp_of(conditions.true_scene, cell)
     references = {}
-    for phase in Phase:
+    for phase in spec.task.phases:
         if phase in timing.trajectories:
             references[phase] = reference_of(
                 timing.trajectories[phase], cell.arm, step_s=physics.step_s, gravity_m_s2=scene.gravity_m_s2
@@ -56,11 +55,11 @@ def execute(
             cell.arm,
             scene.robot.joints,
             gripper,
-            grasp_opening_m(scene, gripper.geometry),
+            GripSequence(spec.task, scene, gripper.geometry),
             control,
             step_s=physics.step_s,
         )
-        return _with_quality(run_program(model, references, checkpoint=checkpoint), timing)
+        return _with_quality(run_program(model, references, task=spec.task, checkpoint=checkpoint), timing)
     if spec.fidelity is Fidelity.DYNAMIC:
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
             believed = conditions.scene.workpiece
@@ -74,13 +73,14 @@ def execute(
                 controller=spec.settings.controller,
                 believed=believed,
                 checkpoint=checkpoint,
+                task=spec.task,
             )
-            return _with_quality(run_program(plant, references), timing)
+            return _with_quality(run_program(plant, references, task=spec.task), timing)
     # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.
     firm = physics.passing(
         force_n=gripper.finger_force_n,
         speed_m_s=gripper.finger_velocity_m_s,
-        lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
+        lightest_kg=min(*(one.workpiece.mass_kg for one in scene.objects), gripper.finger_mass_kg),
     )
     with open_world(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
         execution = Execution(
@@ -91,6 +91,7 @@ def execute(
             estimate=_grip_estimate(spec, conditions),
             observer=observer,
             checkpoint=checkpoint,
+            task=spec.task,
         )
         return _with_quality(execution.run(), timing)
 
@@ -134,7 +135,7 @@ def execution_of(
     """
     cell = cell_of(spec)
     results = execute(spec, cell, timing, observer=observer, checkpoint=checkpoint)
-    return with_chosen_grasp(results, cell.scene.task.grasp)
+    return with_chosen_grasp(results, cell.scene.task.grasp, spec.task.grips)
 
 
 def _with_quality(results: tuple[PhaseResult, ...], timing: TaskTiming) -> tuple[PhaseResult, ...]:

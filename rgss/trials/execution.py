@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
-from rgss.evidence import Failure, Metric, Phase
+from rgss.evidence import Failure, Metric
 from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
+from rgss.tasks import CheckStep, GripStep, Stage, TaskProgram, default_task
+from rgss.trials.conditions_checked import violated_condition
 from rgss.trials.grip_control import GripControl
 from rgss.trials.monitors import (
     DragMonitor,
@@ -27,8 +30,8 @@ from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants import ControlSettings
 from rgss.trials.program import run_program
 from rgss.trials.reference import Array, Reference
+from rgss.trials.task_objects import TaskObjects
 
-CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 _OPEN_TOLERANCE_M = 5.0e-4
 _FAIR_PART = 0.5
 
@@ -39,13 +42,14 @@ class Execution:
     def __init__(
         self,
         world: ContactWorld,
-        references: Mapping[Phase, Reference],
+        references: Mapping[str, Reference],
         control: ControlSettings,
         kinematics: ToolKinematics,
         *,
         estimate: GripEstimate | None = None,
         observer: StepObserver | None = None,
         checkpoint: Callable[[], None] | None = None,
+        task: TaskProgram | None = None,
     ) -> None:
         """Prepare a run.
 
@@ -57,8 +61,11 @@ class Execution:
             estimate: What the robot knows of its grip; None where that is the truth.
             observer: Callback after each step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
+            task: The task; the packaged one if None.
         """
         self._world = world
+        self._task = task or default_task()
+        self._objects = TaskObjects(world, self._task)
         self._references = references
         self._control = control
         self._kinematics = kinematics
@@ -69,25 +76,26 @@ class Execution:
         self._held_at: Pose | None = None
         self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
+        self._estimate = estimate
         self._grip = GripControl(world, control, estimate)
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
         """Run the phases in order until one fails or has no move; return those that ran."""
-        return run_program(self, self._references)
+        return run_program(self, self._references, task=self._task)
 
     def start(self, configuration_rad: Sequence[float]) -> None:
         """Stand at rest at a configuration, the hand open."""
         self._configuration = tuple(configuration_rad)
         self._world.reset_arm(self._configuration)
 
-    def move(self, phase: Phase, reference: Reference) -> PhaseResult:
+    def move(self, phase: str, reference: Reference) -> PhaseResult:
         """Follow a timed motion, with what is held."""
-        world = self._world
-        carried_at = self._held_at if phase in CARRYING else None
+        world, stage = self._world, self._enter(phase)
+        carried_at = self._held_at if stage.is_carrying else None
         self._grip.begin_phase()
-        placed = PlacedObjectMonitor(world) if phase is Phase.MOVE_TO_GRASP_APPROACH else None
-        watch = self._watch(carried_at, self._resting_on(phase), reference.tool_m, placed)
+        placed = PlacedObjectMonitor(world) if stage.is_retreat else None
+        watch = self._watch(carried_at, self._objects.resting_on(stage), reference.tool_m, placed)
         positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
         world.solve_freely(free=carried_at is None)
@@ -126,17 +134,17 @@ class Execution:
         if carried_at is not None:
             metrics["tightenings"] = self._grip.tightenings
         if watch.failure is None:
-            self._judge_move(phase, watch, metrics)
+            self._judge_move(stage, watch, metrics)
         return self._result(phase, watch, steps, metrics)
 
-    def _judge_move(self, phase: Phase, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
+    def _judge_move(self, stage: Stage, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
         """Check after a move: the object must not have moved, or at the end must be in its place."""
-        if phase is Phase.MOVE_TO_GRASP:
+        if stage.is_approach:
             metrics["workpiece_displacement_m"], violation = check_displacement(
                 self._world, self._control.displaced_m, touched=watch.robot_touched_object
             )
             watch.note(violation)
-        elif phase is Phase.MOVE_TO_GRASP_APPROACH:
+        elif stage.is_retreat:
             self._judge_place(watch, metrics)
 
     def _judge_place(self, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
@@ -144,16 +152,10 @@ class Execution:
         metrics.update(placed)
         watch.note(violation)
 
-    def _resting_on(self, phase: Phase) -> str:
-        scene = self._world.scene
-        if phase in (Phase.MOVE_TO_GRASP, Phase.GRASP, Phase.LIFT):
-            return scene.support
-        if phase in (Phase.PLACE, Phase.MOVE_TO_GRASP_APPROACH):
-            return scene.place_support
-        return ""
-
-    def grasp(self) -> PhaseResult:
+    def grasp(self, phase: str | None = None) -> PhaseResult:
         """Close until every finger holds above the force that Coulomb friction needs."""
+        stage = self._enter(phase or self._task.grips[0])
+        name = stage.step.name
         world, gripper, control = self._world, self._world.gripper, self._control
         scene = world.scene
         watch = self._watch(None, scene.support)
@@ -170,7 +172,7 @@ class Execution:
         forces: tuple[float, ...] = (0.0,) * fingers
         while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(Phase.GRASP, watch, scene.gravity_m_s2)
+            contacts = self._observe(name, watch, scene.gravity_m_s2)
             steps += 1
             if steps % look_every == 0:
                 hand.look(steps)
@@ -191,10 +193,12 @@ class Execution:
         metrics["finger_travel_m"] = world.finger_travel_m()
         if watch.failure is None:
             metrics.update(grasp_metrics(world, hand.motion, self._held_at, self._memory))
-        return self._result(Phase.GRASP, watch, steps, metrics)
+        return self._result(name, watch, steps, metrics)
 
-    def place(self) -> PhaseResult:
+    def place(self, phase: str | None = None) -> PhaseResult:
         """Open to the initial position and wait until the object stands."""
+        stage = self._enter(phase or self._task.releases[0])
+        name = stage.step.name
         world, gripper, control = self._world, self._world.gripper, self._control
         watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world)
         drag = DragMonitor(world, control)
@@ -204,7 +208,7 @@ class Execution:
         contacts = world.contacts()
         while max(world.finger_travel_m()) > _OPEN_TOLERANCE_M and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(Phase.PLACE, watch, 0.0)
+            contacts = self._observe(name, watch, 0.0)
             watch.note(landing.after_step())
             watch.note(drag.after_step(contacts))
             steps += 1
@@ -217,7 +221,7 @@ class Execution:
         still_s, waited_s, stood_at = 0.0, 0.0, world.workpiece_pose()
         while still_s < control.settled_s - 1e-9 and waited_s < control.settling_timeout_s and watch.failure is None:
             self._hold_arm_and_step()
-            contacts = self._observe(Phase.PLACE, watch, 0.0)
+            contacts = self._observe(name, watch, 0.0)
             watch.note(landing.after_step())
             watch.note(drag.after_step(contacts))
             steps += 1
@@ -234,7 +238,41 @@ class Execution:
         metrics["opening_s"] = opening_s
         metrics["settling_s"] = waited_s - still_s
         self._judge_place(watch, metrics)
-        return self._result(Phase.PLACE, watch, steps, metrics)
+        self._objects.note_release(stage)
+        return self._result(name, watch, steps, metrics)
+
+    def wait(self, phase: str, duration_s: float) -> PhaseResult:
+        """Hold the configuration for a time, with what is held."""
+        stage, world = self._enter(phase), self._world
+        carried_at = self._held_at if stage.is_held else None
+        self._grip.begin_phase()
+        watch = self._watch(carried_at, self._objects.resting_on(stage))
+        steps, load_m_s2 = 0, world.scene.gravity_m_s2 if stage.is_held else 0.0
+        while steps * self._step_s < duration_s - 1e-9 and watch.failure is None:
+            self._hold_arm_and_step()
+            self._observe(phase, watch, load_m_s2)
+            steps += 1
+        watch.finish()
+        return self._result(phase, watch, steps, watch.metrics())
+
+    def check(self, step: CheckStep) -> PhaseResult:
+        """Check what must hold of an object as it is."""
+        before = self._world.object_pose(step.object or self._objects.stage(step.name).object)
+        rested = self.wait(step.name, self._control.settled_s)
+        problem = "" if rested.failure else violated_condition(self._world, self._control, step, before)
+        return replace(rested, failure=Failure.CHECK_FAILED, detail=problem) if problem else rested
+
+    def _enter(self, phase: str) -> Stage:
+        """Begin a phase: the world and the grip are about the object that it concerns."""
+        stage = self._objects.stage(phase)
+        if self._objects.enter(stage):
+            workpiece, rate_hz = self._world.scene.workpiece, self._world.settings.rate_hz
+            self._memory = GraspGeometryCache()
+            self._sensor = ForceSensor(workpiece.force_window_s, rate_hz)
+            # What the robot believes differs from the truth for the first object alone.
+            estimate = self._estimate if workpiece.id == self._objects.first else None
+            self._grip = GripControl(self._world, self._control, estimate)
+        return stage
 
     def _hold_arm_and_step(self) -> None:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
@@ -259,22 +297,25 @@ class Execution:
             sensor=self._sensor,
         )
 
-    def _observe(self, phase: Phase, watch: PhaseMonitor, load_m_s2: float) -> Contacts:
+    def _observe(self, phase: str, watch: PhaseMonitor, load_m_s2: float) -> Contacts:
         """Observe a step in which the arm is held."""
         contacts = watch.after_step(load_m_s2, None)
         if not self._is_alone:
             self._show(phase, watch, contacts)
         return contacts
 
-    def _show(self, phase: Phase, watch: PhaseMonitor, contacts: Contacts) -> None:
+    def _show(self, phase: str, watch: PhaseMonitor, contacts: Contacts) -> None:
         """Call the observer and the checkpoint, which may wait or end the task."""
         if self._observer is not None:
-            force_n = self._grip.force_n if phase is Phase.GRASP or phase in CARRYING else None
+            stage = self._objects.stage(phase)
+            is_closed = stage.is_carrying or isinstance(stage.step, GripStep)
+            force_n = self._grip.force_n if is_closed else None
             self._observer.after_step(self._world, phase, contacts, watch.grip_margin, force_n)
         if self._checkpoint is not None:
             self._checkpoint()
 
-    def _result(self, phase: Phase, watch: PhaseMonitor, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
+    def _result(self, phase: str, watch: PhaseMonitor, steps: int, metrics: dict[str, Metric]) -> PhaseResult:
+        watch.note(self._objects.displaced(self._control.displaced_m))
         pose = self._world.workpiece_pose()
         metrics["workpiece_position_m"] = pose.position_m
         metrics["workpiece_tilt_rad"] = pose.tilt_rad

@@ -9,19 +9,16 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Protocol
 
-from rgss.evidence import Phase
+import numpy as np
+from numpy.typing import NDArray
+
 from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, symmetric_turns
 from rgss.kinematics import Arm, CollisionModel, inverse_kinematics, straight_line
 from rgss.scenes import GraspCandidates, GripperGeometry, Scene, TakenGrasp, Waypoint, waypoint_poses
+from rgss.tasks import MoveKind
+from rgss.trials.route import Route, Stop
 
-_MEETING: Mapping[Waypoint, tuple[Phase, ...]] = {
-    Waypoint.GRASP_APPROACH: (Phase.MOVE_TO_GRASP, Phase.MOVE_TO_GRASP_APPROACH),
-    Waypoint.GRASP: (Phase.MOVE_TO_GRASP, Phase.LIFT),
-    Waypoint.LIFT: (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE),
-    Waypoint.GRASP_DEPARTURE: (Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH),
-    Waypoint.PLACE_APPROACH: (Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE),
-    Waypoint.PLACE: (Phase.MOVE_TO_PLACE, Phase.MOVE_TO_GRASP_APPROACH),
-}
+Vector = NDArray[np.float64]
 
 
 class Rejection(str, Enum):
@@ -41,8 +38,13 @@ class Cell(Protocol):
         ...
 
     @property
-    def planning(self) -> Mapping[Phase, CollisionModel]:
-        """Collision model of each move."""
+    def planning(self) -> Mapping[str, CollisionModel]:
+        """Collision model of each move by its name."""
+        ...
+
+    @property
+    def route(self) -> Route:
+        """The stops of the task and the moves between them."""
         ...
 
 
@@ -105,17 +107,18 @@ def search_grasp(
                 continue
             cell = build(tried)
             arm = cell.arm
-            found = _obstacle(cell, tried)
+            found = _obstacle(cell)
             if found is None:
                 return GraspSearch(scene=tried, taken=tried.task.grasp, ranked=ranked, rejected=dict(rejected))
             why.append(found[0])
-            if found[1] in _AT_GRASP:
+            if found[1]:
                 break
         rejected[_last(why)] += 1
     return GraspSearch(scene=first or scene, taken=None, ranked=ranked, rejected=dict(rejected))
 
 
 _AT_GRASP = (Waypoint.GRASP_APPROACH, Waypoint.GRASP, Waypoint.LIFT, Waypoint.GRASP_DEPARTURE)
+_AT_PLACE = (Waypoint.PLACE_APPROACH, Waypoint.PLACE)
 _STAGES = tuple(Rejection)
 
 
@@ -148,23 +151,31 @@ def _unreached(arm: Arm, scene: Scene) -> Waypoint | None:
     return next((waypoint for waypoint, pose in waypoint_poses(scene).items() if not inverse.solve(pose)), None)
 
 
-def _obstacle(cell: Cell, scene: Scene) -> tuple[Rejection, Waypoint] | None:
-    """The filter that rejects a grasp, and the waypoint where it does; None where the grasp can be carried out."""
-    inverse, poses = inverse_kinematics(cell.arm), waypoint_poses(scene)
-    grasping = []
-    for waypoint, pose in poses.items():
-        reached = inverse.solve(pose)
+def _obstacle(cell: Cell) -> tuple[Rejection, bool] | None:
+    """The filter that rejects a grasp, and whether it does before the object is at its place; None where none does."""
+    inverse, route = inverse_kinematics(cell.arm), cell.route
+    valid: dict[int, list[Vector]] = {}
+    for index, stop in enumerate(route.stops):
+        if stop.pose is None:
+            continue
+        reached = inverse.solve(stop.pose)
         if not reached:
-            return Rejection.REACH, waypoint
-        models = [cell.planning[phase] for phase in _MEETING[waypoint]]
-        valid = [q for q in reached if all(model.is_valid(q) for model in models)]
-        if not valid:
-            return Rejection.COLLISION, waypoint
-        if waypoint is Waypoint.GRASP:
-            grasping = valid
-    model = cell.planning[Phase.LIFT]
-    for q in grasping:
-        line = straight_line(inverse, q, poses[Waypoint.LIFT])
-        if line is not None and all(model.is_valid(state) for state in line):
-            return None
-    return Rejection.LIFT, Waypoint.LIFT
+            return Rejection.REACH, _is_before_place(stop)
+        models = [cell.planning[leg.step.name] for leg in route.legs if index in (leg.start, leg.goal)]
+        valid[index] = [q for q in reached if all(model.is_valid(q) for model in models)]
+        if not valid[index]:
+            return Rejection.COLLISION, _is_before_place(stop)
+    for leg in route.legs:
+        goal = route.stops[leg.goal]
+        if leg.step.mode is not MoveKind.STRAIGHT or goal.pose is None or leg.start not in valid:
+            continue
+        model = cell.planning[leg.step.name]
+        lines = (straight_line(inverse, q, goal.pose) for q in valid[leg.start])
+        if not any(line is not None and all(model.is_valid(state) for state in line) for line in lines):
+            return Rejection.LIFT, _is_before_place(goal)
+    return None
+
+
+def _is_before_place(stop: Stop) -> bool:
+    """Whether a stop is none at the place, so that another turn of the object there changes nothing."""
+    return not any(stop.name.startswith(waypoint.value) for waypoint in _AT_PLACE)

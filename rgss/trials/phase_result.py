@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from rgss.evidence import Failure, Metric, Phase
+from rgss.evidence import Failure, Metric
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,7 +21,7 @@ class PhaseResult:
             same ones for the phases that it shares.
     """
 
-    phase: Phase
+    phase: str
     failure: Failure | None
     detail: str
     duration_s: float

@@ -6,16 +6,15 @@ import math
 from collections.abc import Mapping, Sequence
 
 from rgss.evidence import (
-    PLANNED_PHASES,
     Failure,
     Metric,
-    Phase,
     PhaseOutcome,
     PhaseRecord,
     PlanningRecord,
     PlanOutcome,
     TrialRecord,
 )
+from rgss.tasks import TaskProgram
 from rgss.trials.conditions import conditions_of
 from rgss.trials.metrics import METRICS, Aggregation, Direction, MetricDescriptor
 from rgss.trials.phase_result import PhaseResult
@@ -30,13 +29,12 @@ _PLANNING_FAILURES = {
     PlanOutcome.MOVE_BLOCKED: Failure.MOVE_BLOCKED,
     PlanOutcome.MOVE_UNREACHABLE: Failure.MOVE_UNREACHABLE,
 }
-_CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 
 
 def assemble_record(
     spec: TrialSpec,
     plan: TaskPlan,
-    timing_failures: Mapping[Phase, tuple[Failure, str]],
+    timing_failures: Mapping[str, tuple[Failure, str]],
     execution: Sequence[PhaseResult],
     *,
     bench_payload_kg: float | None = None,
@@ -53,25 +51,27 @@ def assemble_record(
         execution: The phases that physics ran, in order.
         bench_payload_kg: What the gripper holds on the payload bench; None where that is not known.
     """
-    conditions = conditions_of(spec)
+    conditions, planned_phases = conditions_of(spec), spec.task.planned
     results = {result.phase: result for result in execution}
     phases: list[PhaseRecord] = []
     planning: list[PlanningRecord] = []
     failure: Failure | None = None
-    failed_phase: Phase | None = None
+    failed_phase: str | None = None
     detail = ""
-    for phase in Phase:
+    for phase in spec.task.phases:
         if failure is not None:
             phases.append(PhaseRecord(phase=phase, outcome=PhaseOutcome.NOT_RUN, duration_s=None, metrics={}))
-            if phase in PLANNED_PHASES:
+            if phase in planned_phases:
                 planning.append(_not_planned(phase))
             continue
-        if phase in PLANNED_PHASES:
-            planned = plan.move_within(phase, spec.planning_limit_s)
+        if phase in planned_phases:
+            limit_s = spec.task.move(phase).limit_s
+            limit_s = spec.planning_limit_s if limit_s is None else min(limit_s, spec.planning_limit_s)
+            planned = plan.move_within(phase, limit_s)
             planning.append(_planning_record(planned))
             if planned.outcome is not PlanOutcome.SOLVED:
                 failure, failed_phase = _PLANNING_FAILURES[planned.outcome], phase
-                detail = planned.detail or _limit_detail(planned, spec)
+                detail = planned.detail or _limit_detail(planned, spec, limit_s)
         if failure is None and phase in timing_failures:
             failure, detail = timing_failures[phase]
             failed_phase = phase
@@ -99,7 +99,7 @@ def assemble_record(
         failure_detail=detail,
         phases=tuple(phases),
         planning=tuple(planning),
-        metrics=_metrics(phases, planning, success=failure is None, bench_payload_kg=bench_payload_kg),
+        metrics=_metrics(spec.task, phases, planning, success=failure is None, bench_payload_kg=bench_payload_kg),
         workload=conditions.case,
         draws=dict(conditions.draws),
     )
@@ -116,7 +116,7 @@ def _planning_record(planned: PlannedMove) -> PlanningRecord:
     )
 
 
-def _not_planned(phase: Phase) -> PlanningRecord:
+def _not_planned(phase: str) -> PlanningRecord:
     return PlanningRecord(
         subtask=phase,
         outcome=PlanOutcome.NOT_RUN,
@@ -127,13 +127,12 @@ def _not_planned(phase: Phase) -> PlanningRecord:
     )
 
 
-def _limit_detail(planned: PlannedMove, spec: TrialSpec) -> str:
-    return (
-        f"{spec.planned_by.algorithm} found no path in {spec.planning_limit_s:g} s ({planned.checks} validity checks)"
-    )
+def _limit_detail(planned: PlannedMove, spec: TrialSpec, limit_s: float) -> str:
+    return f"{spec.planned_by.algorithm} found no path in {limit_s:g} s ({planned.checks} validity checks)"
 
 
 def _metrics(
+    task: TaskProgram,
     phases: Sequence[PhaseRecord],
     planning: Sequence[PlanningRecord],
     *,
@@ -150,25 +149,25 @@ def _metrics(
             None if record.outcome is PlanOutcome.NOT_RUN else record.checks for record in planning
         ),
         "path_length_m": tuple(record.path_length_m for record in planning),
-        **_durations(phases, planning, success=success),
-        "grasp_force_closure_share_1": _force_closure_share(phases),
+        **_durations(task, phases, planning, success=success),
+        "grasp_force_closure_share_1": _force_closure_share(task, phases),
         "bench_payload_kg": bench_payload_kg,
     }
     return {
-        name: computed[name] if metric.trial is Aggregation.COMPUTED else _aggregated(metric, phases)
+        name: computed[name] if metric.trial is Aggregation.COMPUTED else _aggregated(metric, task, phases)
         for name, metric in METRICS.items()
     }
 
 
-def _aggregated(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Metric:
+def _aggregated(metric: MetricDescriptor, task: TaskProgram, phases: Sequence[PhaseRecord]) -> Metric:
     """The value of the trial by the metric's rule; None where no phase has a value."""
     rule = metric.trial
     if rule is Aggregation.AT_GRASP:
-        return next(phase for phase in phases if phase.phase is Phase.GRASP).metrics.get(metric.source)
+        return _at_grasps(metric, [phase for phase in phases if phase.phase in task.grips])
     if rule is Aggregation.OF_GREATEST:
         return _of_greatest(metric, phases)
     if rule in (Aggregation.WORST_CARRIED, Aggregation.SUM_CARRIED):
-        phases = [phase for phase in phases if phase.phase in _CARRIED]
+        phases = [phase for phase in phases if phase.phase in task.carried]
     values = [value for phase in phases if (value := phase.metrics.get(metric.name)) is not None]
     if not values:
         return None
@@ -189,21 +188,37 @@ def _aggregated(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Metr
 
 
 def _durations(
-    phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], *, success: bool
+    task: TaskProgram, phases: Sequence[PhaseRecord], planning: Sequence[PlanningRecord], *, success: bool
 ) -> dict[str, float | None]:
     motion_s = math.fsum(phase.duration_s for phase in phases if phase.duration_s is not None)
     planning_s = math.fsum(record.time_s for record in planning if record.time_s is not None)
     by_phase = {phase.phase: phase for phase in phases}
-    closing, opening_s = by_phase[Phase.GRASP], by_phase[Phase.PLACE].metrics.get("opening_s")
-    cycle_s = None
-    if closing.outcome is PhaseOutcome.COMPLETED and isinstance(opening_s, float) and closing.duration_s is not None:
-        cycle_s = closing.duration_s + opening_s
+    cycles_s: list[float | None] = []
+    for grip, release in zip(task.grips, task.releases, strict=False):
+        closing, opening_s = by_phase[grip], by_phase[release].metrics.get("opening_s")
+        closing_s = closing.duration_s if closing.outcome is PhaseOutcome.COMPLETED else None
+        has_cycle = closing_s is not None and isinstance(opening_s, float)
+        cycles_s.append(closing_s + opening_s if has_cycle else None)  # type: ignore[operator]
     return {
         "motion_time_s": motion_s,
         "task_time_s": motion_s + planning_s if success else None,
         "attempt_time_s": motion_s + planning_s,
-        "grasp_cycle_time_s": cycle_s,
+        # Of several cycles the longest, if all were carried out.
+        "grasp_cycle_time_s": None
+        if None in cycles_s
+        else max((one for one in cycles_s if one is not None), default=None),
     }
+
+
+def _at_grasps(metric: MetricDescriptor, grasps: Sequence[PhaseRecord]) -> Metric:
+    """The value at the grasp; of several, the worst number, or else that of the first."""
+    values = [value for phase in grasps if (value := phase.metrics.get(metric.source)) is not None]
+    if len(values) < 2:
+        return values[0] if values else None
+    numbers = [value for value in values if isinstance(value, (int, float))]
+    if len(numbers) < len(values):
+        return values[0]
+    return min(numbers) if metric.better is Direction.HIGHER else max(numbers)
 
 
 def _of_greatest(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Metric:
@@ -216,9 +231,13 @@ def _of_greatest(metric: MetricDescriptor, phases: Sequence[PhaseRecord]) -> Met
     return max(found, key=lambda pair: pair[0])[1] if found else None
 
 
-def _force_closure_share(phases: Sequence[PhaseRecord]) -> float | None:
+def _force_closure_share(task: TaskProgram, phases: Sequence[PhaseRecord]) -> float | None:
     samples, closed = (
-        sum(value for phase in phases if phase.phase in _CARRIED and isinstance(value := phase.metrics.get(name), int))
+        sum(
+            value
+            for phase in phases
+            if phase.phase in task.carried and isinstance(value := phase.metrics.get(name), int)
+        )
         for name in ("grasp_samples", "grasp_samples_closed")
     )
     return closed / samples if samples else None

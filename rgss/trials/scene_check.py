@@ -15,10 +15,10 @@ from rgss.scenes import (
     ObjectShape,
     Pose,
     Scene,
-    Waypoint,
     corners_of,
     half_extents_m,
 )
+from rgss.tasks import TaskProgram
 from rgss.trials.planning import GoalReason, unserved_waypoints
 from rgss.trials.workcell import Workcell, grasp_search_of
 
@@ -67,7 +67,7 @@ class SceneProblem:
     first: str
     second: str = ""
     distance_m: float = math.nan
-    waypoint: Waypoint | None = None
+    waypoint: str | None = None
     reason: GoalReason | None = None
     detail: str = ""
 
@@ -82,7 +82,12 @@ def scene_problems(scene: Scene) -> tuple[SceneProblem, ...]:
 
 
 def reach_problems(
-    scene: Scene, geometry: GripperGeometry, *, clearance_m: float, friction: float = 0.0
+    scene: Scene,
+    geometry: GripperGeometry,
+    *,
+    clearance_m: float,
+    friction: float = 0.0,
+    task: TaskProgram | None = None,
 ) -> tuple[SceneProblem, ...]:
     """Problems of the arm with a gripper: a collision at home, or a waypoint without a valid configuration.
 
@@ -91,17 +96,18 @@ def reach_problems(
         geometry: The gripper's shape.
         clearance_m: Distance that planned paths keep from everything.
         friction: Coefficient of the pads, by which grasp candidates are chosen; not used where the grasp is stated.
+        task: The task; the packaged one if None.
 
     Raises:
         DefinitionError: The robot is ill defined.
     """
     found = []
     if scene.task.candidates is not None:
-        search = grasp_search_of(scene, geometry, friction=friction, clearance_m=clearance_m)
+        search = grasp_search_of(scene, geometry, friction=friction, clearance_m=clearance_m, task=task)
         scene = search.scene
         if search.taken is None:
             found.append(SceneProblem(kind=SceneProblemKind.NO_GRASP, first=scene.workpiece.id, detail=search.reasons))
-    cell = Workcell(scene, geometry, clearance_m=clearance_m)
+    cell = Workcell(scene, geometry, clearance_m=clearance_m, task=task)
     model = next(iter(cell.planning.values()))
     pair = model.nearest_pair(scene.robot.home_rad)
     if pair is not None and pair.distance_m < 0.0:

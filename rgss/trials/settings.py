@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from rgss.evidence import PLANNED_PHASES, Phase
 from rgss.motion import ClockKind, OnUnverified, PlanningClock
 from rgss.physics import PhysicsSettings
-from rgss.trials.move_kinds import MoveKind
+from rgss.tasks import MoveKind
 from rgss.trials.plants import ControlSettings, JointController
 from rgss.trials.timing_settings import TimingSettings
 
@@ -30,7 +30,7 @@ class PlanningSettings:
         simplification_limit_s: Longest time of simplifying a path by the planning clock, the final check of
             its result included. A move's planning time is at most the planning limit and this one together.
         clearance_m: Distance that planned paths keep from everything; what runs keeps a quarter of it.
-        moves: Kind of each of the moves of `PLANNED_PHASES`.
+        moves: Kind of each of the planned moves of the task, in their order; all are planned if it is empty.
     """
 
     clock: PlanningClock
@@ -41,13 +41,15 @@ class PlanningSettings:
     simplification_checks: int = 1500
     simplification_limit_s: float = 2.0
     clearance_m: float = 0.008
-    moves: tuple[MoveKind, ...] = (MoveKind.PLANNED,) * len(PLANNED_PHASES)
+    moves: tuple[MoveKind, ...] = ()
 
-    @property
-    def searched(self) -> frozenset[Phase]:
-        """The moves that a planner searches for."""
-        kinds = zip(PLANNED_PHASES, self.moves, strict=True)
-        return frozenset(phase for phase, kind in kinds if kind is MoveKind.PLANNED)
+    def kinds(self, planned: Sequence[str]) -> dict[str, MoveKind]:
+        """Kind of each move that the task leaves to the planner.
+
+        Args:
+            planned: Names of those moves.
+        """
+        return dict(zip(planned, self.moves or (MoveKind.PLANNED,) * len(planned), strict=True))
 
     @property
     def search_checks(self) -> int:

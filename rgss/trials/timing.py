@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from rgss.evidence import PLANNED_PHASES, Failure, Phase
+from rgss.evidence import Failure
 from rgss.motion import (
     JointPath,
     MotionLimits,
@@ -15,8 +15,8 @@ from rgss.motion import (
     time_move,
     time_move_by_trapezoids,
 )
+from rgss.tasks import MoveKind, MoveStep, TaskProgram
 from rgss.trials.conditions import conditions_of
-from rgss.trials.move_kinds import MoveKind
 from rgss.trials.path_quality import PathQuality, path_quality
 from rgss.trials.planning import TaskPlan
 from rgss.trials.reference import Array
@@ -52,9 +52,9 @@ class TaskTiming:
         qualities: Clearance and manipulability along each trajectory.
     """
 
-    trajectories: Mapping[Phase, Trajectory]
-    failures: Mapping[Phase, tuple[Failure, str]]
-    qualities: Mapping[Phase, PathQuality]
+    trajectories: Mapping[str, Trajectory]
+    failures: Mapping[str, tuple[Failure, str]]
+    qualities: Mapping[str, PathQuality]
 
 
 def time_task(
@@ -74,25 +74,23 @@ def time_task(
         settings: Resolution of the check, and the kinds of the moves.
         timing: The velocity profile, and the shares of the joints' limits that it uses.
     """
-    limits = timing.limits(
-        cell.scene.robot.joints,
-        tool_speed_m_s=tool_speed_m_s,
-        tool_acceleration_m_s2=cell.scene.robot.tool_acceleration_m_s2,
-    )
-    trajectories: dict[Phase, Trajectory] = {}
-    failures: dict[Phase, tuple[Failure, str]] = {}
-    for phase, path in _paths(plan).items():
+    limits = _limits(cell, timing, tool_speed_m_s)
+    trajectories: dict[str, Trajectory] = {}
+    failures: dict[str, tuple[Failure, str]] = {}
+    for step, path in _paths(cell.task, plan):
+        phase = step.name
         if path is None:
             failures[phase] = (
                 Failure.UNREACHABLE_WAYPOINT,
-                "the arm cannot follow the straight line of the lift without collision",
+                f"the arm cannot follow the straight line of the {phase.replace('_', ' ')} without collision",
             )
             continue
-        result = _timed(cell, phase, JointPath(path), limits, settings, timing.profile)
+        own = limits if step.speed_share == 1.0 else _limits(cell, timing, step.speed_share * tool_speed_m_s)
+        result = _timed(cell, step, JointPath(path), own, settings, timing.profile)
         if result.trajectory is None:
             failures[phase] = _FAILURES[result.outcome]
         elif result.trajectory.duration_s > LONGEST_MOVE_S:
-            failures[phase] = (Failure.TRAJECTORY_INFEASIBLE, _too_slow(result.trajectory, limits))
+            failures[phase] = (Failure.TRAJECTORY_INFEASIBLE, _too_slow(result.trajectory, own))
         else:
             trajectories[phase] = result.trajectory
     qualities = {
@@ -113,19 +111,24 @@ def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:
     return time_task(cell_of(spec), plan, tool_speed_m_s=speed_m_s, settings=settings.planning, timing=settings.timing)
 
 
+def _limits(cell: Workcell, timing: TimingSettings, tool_speed_m_s: float) -> MotionLimits:
+    robot = cell.scene.robot
+    acceleration_m_s2 = robot.tool_acceleration_m_s2
+    return timing.limits(robot.joints, tool_speed_m_s=tool_speed_m_s, tool_acceleration_m_s2=acceleration_m_s2)
+
+
 def _timed(
     cell: Workcell,
-    phase: Phase,
+    step: MoveStep,
     path: JointPath,
     limits: MotionLimits,
     settings: PlanningSettings,
     profile: TimingProfile,
 ) -> TimedMove:
-    validity, resolution_rad = cell.running[phase], settings.verified_every_rad
+    validity, resolution_rad = cell.running[step.name], settings.verified_every_rad
     if profile is TimingProfile.TIME_OPTIMAL:
         return time_move(path, validity, cell.arm, limits, resolution_rad=resolution_rad)
-    kinds = dict(zip(PLANNED_PHASES, settings.moves, strict=True))
-    is_curve = kinds.get(phase, MoveKind.STRAIGHT) is MoveKind.STRAIGHT
+    is_curve = settings.kinds(cell.task.planned).get(step.name, step.mode) is MoveKind.STRAIGHT
     return time_move_by_trapezoids(path, validity, cell.arm, limits, resolution_rad=resolution_rad, is_curve=is_curve)
 
 
@@ -136,12 +139,10 @@ def _too_slow(trajectory: Trajectory, limits: MotionLimits) -> str:
     )
 
 
-def _paths(plan: TaskPlan) -> dict[Phase, Array | None]:
-    """The paths to be timed: those found, and the lift; a lift that is impossible is None."""
-    paths: dict[Phase, Array | None] = {}
-    for phase in Phase:
-        if phase is Phase.LIFT:
-            paths[phase] = plan.lift_rad
-        elif phase in plan.moves and (path := plan.moves[phase].path_rad) is not None:
-            paths[phase] = path
-    return paths
+def _paths(task: TaskProgram, plan: TaskPlan) -> Iterator[tuple[MoveStep, Array | None]]:
+    """The moves to be timed with their paths: those found, and the straight ones; one that is impossible is None."""
+    for step in task.moves:
+        if step.name in plan.direct:
+            yield step, plan.direct[step.name]
+        elif step.name in plan.moves and (path := plan.moves[step.name].path_rad) is not None:
+            yield step, path

@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from rgss.evidence import Phase, TrialRecord
+from rgss.evidence import TrialRecord
 from rgss.evidence.records import PhaseSpan, TrialTrace
 from rgss.kinematics import Arm
 from rgss.physics import Contacts, ContactWorld
@@ -65,13 +65,13 @@ class TraceRecorder:
     def after_step(
         self,
         world: ContactWorld,
-        phase: Phase,
+        phase: str,
         contacts: Contacts,
         grip_margin: float | None,
         commanded_force_n: float | None,
     ) -> None:
         """Take a sample, or merge the step's forces and margin into the last one."""
-        new_phase = not self._spans or self._spans[-1].phase is not phase
+        new_phase = not self._spans or self._spans[-1].phase != phase
         self._phase_steps = 0 if new_phase else self._phase_steps + 1
         start_s = self._steps * self._step_s if new_phase else self._spans.pop().start_s
         self._steps += 1
@@ -86,7 +86,7 @@ class TraceRecorder:
         end_s = self._steps * self._step_s
         self._spans.append(PhaseSpan(phase=phase, start_s=start_s, end_s=end_s, last=len(self._times_s) - 1))
 
-    def trace(self, phases: Collection[Phase]) -> TrialTrace | None:
+    def trace(self, phases: Collection[str]) -> TrialTrace | None:
         """The course of these phases, which must be the first ones that ran; None if there are none."""
         spans = tuple(span for span in self._spans if span.phase in phases)
         if not spans:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rgss.evidence import Fidelity
 from rgss.motion import PlannerSettings
 from rgss.scenes import Gripper, Scene
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, ONE_WORKLOAD, Uncertainty, Workload
+from rgss.tasks import MoveKind, TaskProgram, default_task
 from rgss.trials.settings import TrialSettings
 
 
@@ -28,6 +29,7 @@ class TrialSpec:
         planner_settings: The planner with its parameters; the one of OMPL with that name if None.
         uncertainty: What differs from the files; the seed draws it.
         workload: The objects that are carried; the seed chooses one.
+        task: The steps.
     """
 
     variant: int
@@ -42,6 +44,13 @@ class TrialSpec:
     planner_settings: PlannerSettings | None = None
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
     workload: Workload = ONE_WORKLOAD
+    task: TaskProgram = field(default_factory=default_task)
+
+    @property
+    def searched(self) -> frozenset[str]:
+        """The moves that a planner searches for."""
+        kinds = self.settings.planning.kinds(self.task.planned)
+        return frozenset(name for name, kind in kinds.items() if kind is MoveKind.PLANNED)
 
     @property
     def planned_by(self) -> PlannerSettings:

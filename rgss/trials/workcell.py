@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 
-from rgss.evidence import Phase
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
-from rgss.scenes import GripperGeometry, Scene, grasp_opening_m
+from rgss.scenes import GripperGeometry, Scene
+from rgss.tasks import TaskProgram, default_task
 from rgss.trials.conditions import conditions_of
 from rgss.trials.grasp_search import GraspSearch, search_grasp
+from rgss.trials.route import route_of
 from rgss.trials.trial_spec import TrialSpec
 
 _SHARE_KEPT = 0.25
@@ -23,39 +24,52 @@ class Workcell:
     shape share it; it holds no state that a use changes.
     """
 
-    def __init__(self, scene: Scene, geometry: GripperGeometry, *, clearance_m: float) -> None:
+    def __init__(
+        self, scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram | None = None
+    ) -> None:
         """Build the models.
 
         Args:
             scene: The scene with its robot.
             geometry: The gripper's shape.
             clearance_m: Distance that planned paths keep from everything.
+            task: The task; the packaged one if None.
         """
         self.scene = scene
         self.geometry = geometry
+        self.task = task or default_task()
         self.arm = Arm(scene.robot, geometry.grasp_centre)
-        found = situations(scene, geometry)
-        self.planning: Mapping[Phase, CollisionModel] = {
-            phase: CollisionModel(scene, geometry, situation, clearance_m=clearance_m)
-            for phase, situation in found.items()
-        }
+        self.route = route_of(scene, geometry, self.task)
+        contexts = {leg.step.name: (leg.scene, leg.context) for leg in self.route.legs}
+        self.planning: Mapping[str, CollisionModel] = _models(contexts, geometry, clearance_m)
         # Between two checked states, and where a held object gives way, some clearance may be lost.
-        self.running: Mapping[Phase, CollisionModel] = {
-            phase: CollisionModel(scene, geometry, situation, clearance_m=_SHARE_KEPT * clearance_m)
-            for phase, situation in found.items()
-        }
+        self.running: Mapping[str, CollisionModel] = _models(contexts, geometry, _SHARE_KEPT * clearance_m)
+
+
+def _models(
+    contexts: Mapping[str, tuple[Scene, CollisionContext]], geometry: GripperGeometry, clearance_m: float
+) -> dict[str, CollisionModel]:
+    """The collision model of each move; moves in the same context share one."""
+    built: dict[tuple[Scene, CollisionContext], CollisionModel] = {}
+    for scene, context in contexts.values():
+        if (scene, context) not in built:
+            built[scene, context] = CollisionModel(scene, geometry, context, clearance_m=clearance_m)
+    return {name: built[key] for name, key in contexts.items()}
 
 
 @lru_cache(maxsize=4)
-def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float) -> Workcell:
+def workcell_of(
+    scene: Scene, geometry: GripperGeometry, clearance_m: float, task: TaskProgram | None = None
+) -> Workcell:
     """The workcell of a scene and a gripper shape, built once in a process.
 
     Args:
         scene: The scene with its robot.
         geometry: The gripper's shape.
         clearance_m: Distance that planned paths keep from everything.
+        task: The task; the packaged one if None.
     """
-    return Workcell(scene, geometry, clearance_m=clearance_m)
+    return Workcell(scene, geometry, clearance_m=clearance_m, task=task)
 
 
 def cell_of(spec: TrialSpec) -> Workcell:
@@ -67,13 +81,20 @@ def cell_of(spec: TrialSpec) -> Workcell:
     perceived, clearance_m = conditions_of(spec).perceived_scene, spec.settings.planning.clearance_m
     if perceived.task.candidates is not None:
         perceived = grasp_search_of(
-            perceived, spec.gripper.geometry, friction=spec.gripper.friction, clearance_m=clearance_m
+            perceived, spec.gripper.geometry, friction=spec.gripper.friction, clearance_m=clearance_m, task=spec.task
         ).scene
-    return workcell_of(perceived, spec.gripper.geometry, clearance_m)
+    return workcell_of(perceived, spec.gripper.geometry, clearance_m, spec.task)
 
 
 @lru_cache(maxsize=16)
-def grasp_search_of(scene: Scene, geometry: GripperGeometry, *, friction: float, clearance_m: float) -> GraspSearch:
+def grasp_search_of(
+    scene: Scene,
+    geometry: GripperGeometry,
+    *,
+    friction: float,
+    clearance_m: float,
+    task: TaskProgram | None = None,
+) -> GraspSearch:
     """The grasp that is taken of the candidates that a scene states.
 
     Args:
@@ -81,6 +102,7 @@ def grasp_search_of(scene: Scene, geometry: GripperGeometry, *, friction: float,
         geometry: The gripper's shape.
         friction: Coefficient of the pads.
         clearance_m: Distance that planned paths keep from everything.
+        task: The task; the packaged one if None.
     """
     if scene.task.candidates is None:
         raise AssertionError("asked before: the task states candidates")
@@ -89,7 +111,7 @@ def grasp_search_of(scene: Scene, geometry: GripperGeometry, *, friction: float,
         geometry,
         scene.task.candidates,
         friction=friction,
-        build=lambda tried: Workcell(tried, geometry, clearance_m=clearance_m),
+        build=lambda tried: Workcell(tried, geometry, clearance_m=clearance_m, task=task),
     )
 
 
@@ -102,25 +124,3 @@ def with_grasp_of(scene: Scene, cell: Workcell) -> Scene:
     """
     taken = cell.scene.task.grasp
     return scene if taken is None else replace(scene, task=replace(scene.task, grasp=taken))
-
-
-def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, CollisionContext]:
-    """Collision context of each move: the held object, or the pose of the standing one."""
-    workpiece = scene.workpiece
-    opening = geometry.largest_opening_m
-    held = scene.grasp.inverse() @ workpiece.pose
-    carrying = CollisionContext(
-        opening_m=grasp_opening_m(scene, geometry),
-        carried=held,
-        largest_tilt_rad=scene.task.largest_carry_tilt_rad,
-    )
-    leaving = replace(carrying, allowed=frozenset({(workpiece.id, scene.support)}))
-    placed = (scene.place_pose @ held).raised(-scene.task.place_clearance_m)
-    return {
-        Phase.MOVE_TO_GRASP: CollisionContext(opening_m=opening, standing=workpiece.pose),
-        Phase.LIFT: leaving,
-        Phase.MOVE_TO_GRASP_DEPARTURE: carrying,
-        Phase.MOVE_TO_PLACE_APPROACH: carrying,
-        Phase.MOVE_TO_PLACE: carrying,
-        Phase.MOVE_TO_GRASP_APPROACH: CollisionContext(opening_m=opening, standing=placed),
-    }

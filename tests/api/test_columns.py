@@ -82,7 +82,7 @@ def test_what_a_trial_with_contact_knows_is_described(gripped):
     assert metrics <= set(columns)
     assert set(gripped.record.metrics) == set(METRICS)
     for phase in gripped.record.phases:
-        row = phases.loc[4, 1, phase.phase.value]
+        row = phases.loc[4, 1, phase.phase]
         for name, value in phase.metrics.items():
             if isinstance(value, tuple):
                 assert tuple(row[f"item_{number}_{name}"] for number in range(1, len(value) + 1)) == value

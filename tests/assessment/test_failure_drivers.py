@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 from scipy import stats
 
 from rgss.assessment import Aspect, drivers_of_failures
-from rgss.evidence import Failure, Fidelity, Phase, TrialRecord
+from rgss.evidence import Failure, Fidelity, TrialRecord
 from rgss.reports import driver_lines, drivers_to_json
+from tests.fixtures.eight_states import CARRYING, Phase
+
+compared = partial(drivers_of_failures, carried=CARRYING)
 
 
 def record(seed, draws, failure=None, *, variant=1, workload="", phase=None):
@@ -37,7 +42,7 @@ def test_the_auc_and_p_of_one_design_are_those_of_mann_and_whitney():
     draws = drawn(40)
     rng = np.random.default_rng(5)
     failed = [draw["workpiece.friction"] + rng.normal() < -0.5 for draw in draws]
-    found = drivers_of_failures(
+    found = compared(
         [
             record(seed, draw, Failure.OBJECT_DROPPED if fails else None)
             for seed, (draw, fails) in enumerate(zip(draws, failed, strict=True))
@@ -55,7 +60,7 @@ def test_the_auc_and_p_of_one_design_are_those_of_mann_and_whitney():
 
 def test_an_error_of_either_sign_is_found_by_its_size():
     draws = drawn(60)
-    found = drivers_of_failures(
+    found = compared(
         [
             record(seed, draw, Failure.NO_FIRM_GRASP if abs(draw["perception.x"]) > 1.2 else None)
             for seed, draw in enumerate(draws)
@@ -68,7 +73,7 @@ def test_an_error_of_either_sign_is_found_by_its_size():
 
 
 def test_a_case_of_the_workload_can_be_a_driver():
-    found = drivers_of_failures(
+    found = compared(
         [
             record(
                 seed, {}, Failure.OBJECT_DROPPED if seed % 3 == 0 else None, workload=("heavy", "cup", "mug")[seed % 3]
@@ -91,7 +96,7 @@ def test_designs_that_share_a_seed_are_one_observation():
             for variant in range(20)
             for seed, draw in enumerate(draws)
         ]
-        found = drivers_of_failures(records)
+        found = compared(records)
         named += bool(found.failures[0].significant)
         values = np.array([draw["perception.x"] for draw in draws for _ in range(20)])
         failed = np.repeat(np.arange(20) < 5, 20)
@@ -103,7 +108,7 @@ def test_designs_that_share_a_seed_are_one_observation():
 
 def test_what_is_too_rare_is_not_compared():
     draws = drawn(20)
-    found = drivers_of_failures(
+    found = compared(
         [record(seed, draw, Failure.ARM_COLLISION if seed < 2 else None) for seed, draw in enumerate(draws)]
     )
 
@@ -114,7 +119,7 @@ def test_what_is_too_rare_is_not_compared():
 
 
 def test_without_draws_there_is_nothing_to_compare():
-    found = drivers_of_failures([record(seed, {}, Failure.OBJECT_DROPPED) for seed in range(10)])
+    found = compared([record(seed, {}, Failure.OBJECT_DROPPED) for seed in range(10)])
 
     assert list(driver_lines(found)) == [
         "Nothing was drawn for these trials: neither the scene nor the study has 'uncertainty' or 'workload'."
@@ -123,7 +128,7 @@ def test_without_draws_there_is_nothing_to_compare():
 
 def test_the_document_has_what_the_lines_say():
     draws = drawn(40)
-    found = drivers_of_failures(
+    found = compared(
         [
             record(seed, draw, Failure.OBJECT_DROPPED if draw["workpiece.friction"] < -0.5 else None)
             for seed, draw in enumerate(draws)
@@ -146,7 +151,7 @@ def test_an_object_that_is_dropped_on_its_way_is_told_from_one_that_is_dropped_a
             return {"failure": Failure.OBJECT_DROPPED, "phase": Phase.LIFT}
         return {"failure": Failure.OBJECT_DROPPED, "phase": Phase.PLACE} if draw["perception.x"] > 0.8 else {}
 
-    found = drivers_of_failures([record(seed, draw, **ends(draw)) for seed, draw in enumerate(draws)])
+    found = compared([record(seed, draw, **ends(draw)) for seed, draw in enumerate(draws)])
 
     named = {(one.stage, one.significant[0].quantity) for one in found.failures}
     assert named == {("carry", "workpiece.friction"), ("place", "perception.x")}

@@ -20,10 +20,8 @@ from rgss.assessment.measuring import measure_variants
 from rgss.decision.study_decision import decide_study
 from rgss.decision.tracing import trace_evidence
 from rgss.evidence import (
-    PLANNED_PHASES,
     EvidenceStore,
     Failure,
-    Phase,
     PhaseOutcome,
     PhaseRecord,
     PlanningRecord,
@@ -39,6 +37,7 @@ from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
 from rgss.trace.model.model import build_trace_model
 from rgss.trials.metrics import METRICS
+from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 from tests.fixtures.shipped_project import copy_project
 
 REPOSITORY = Path(__file__).parents[2]

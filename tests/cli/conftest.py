@@ -12,10 +12,8 @@ import pytest
 
 from rgss.cli.main import main
 from rgss.evidence import (
-    PLANNED_PHASES,
     EvidenceStore,
     Failure,
-    Phase,
     PhaseOutcome,
     PhaseRecord,
     PlanningRecord,
@@ -27,6 +25,7 @@ from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
 from rgss.trials.metrics import METRICS
+from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 from tests.fixtures.shipped_project import copy_project
 
 

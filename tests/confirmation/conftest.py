@@ -12,11 +12,12 @@ from rgss.confirmation import (
     Selection,
     SettingResult,
 )
-from rgss.evidence import Failure, Fidelity, Phase, TrialRecord
+from rgss.evidence import Failure, Fidelity, TrialRecord
 from rgss.measures import Verdict
 from rgss.physics import PhysicsSettings
 from rgss.physics.mujoco import MujocoSettings
 from rgss.tradeoff import DecisionStatus
+from tests.fixtures.eight_states import Phase
 
 SETTINGS = (
     ConfirmationSetting(aspect=Aspect.STUDY, physics=PhysicsSettings(solver_iterations=20)),

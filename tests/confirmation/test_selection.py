@@ -7,7 +7,8 @@ import pytest
 
 from rgss.confirmation import MOST_RIVALS, select, selected_by_id
 from rgss.errors import DefinitionError
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
+from tests.fixtures.eight_states import Phase
 
 
 @dataclass

@@ -2,9 +2,10 @@
 
 import json
 
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.measures import Verdict
 from rgss.reports.confirmation import confirmation_lines, confirmation_to_json, confirmation_to_markdown
+from tests.fixtures.eight_states import Phase
 
 
 def first_lines(confirmation, count=3):

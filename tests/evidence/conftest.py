@@ -12,11 +12,9 @@ import pytest
 from hypothesis import strategies as st
 
 from rgss.evidence import (
-    PLANNED_PHASES,
     EvidenceStore,
     Failure,
     Fidelity,
-    Phase,
     PhaseOutcome,
     PhaseRecord,
     PlanningRecord,
@@ -27,6 +25,7 @@ from rgss.evidence import (
     trial_key,
 )
 from rgss.evidence.store.ledger import write_ledger
+from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 
 
 def make_record(variant: int = 1, seed: int = 7, **changes: object) -> TrialRecord:

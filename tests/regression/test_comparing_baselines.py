@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import Phase
 from rgss.regression.comparing_baselines import (
     changed_trials,
     decision_changes,
@@ -16,6 +15,7 @@ from rgss.regression.comparing_baselines import (
     unchanged_phases,
 )
 from rgss.regression.observing import first_difference
+from tests.fixtures.eight_states import Phase
 
 UNITS = {"success": "1", "time_s": "s"}
 PHASES = tuple(phase.value for phase in Phase)
@@ -88,12 +88,12 @@ def test_a_run_that_is_new():
 def test_changed_trials_and_the_phases_that_are_as_they_were(baseline):
     run = baseline.runs["planning"]
     now = {variant: dict(zip(run.seeds, run.fingerprints[str(variant)], strict=True)) for variant in run.variants}
-    assert list(changed_trials("planning", run, now, (1, 2, 3))) == []
+    assert list(changed_trials("planning", run, now, (1, 2, 3), PHASES)) == []
     assert unchanged_phases(run, now, (1, 2), PHASES) == {"trial", *PHASES}
     parts = now[9][2].split()
     parts[0] = parts[2] = parts[5] = "ffff"
     now[9][2] = " ".join(parts)
-    (changed,) = changed_trials("planning", run, now, (1, 2, 3))
+    (changed,) = changed_trials("planning", run, now, (1, 2, 3), PHASES)
     assert (changed.variant, changed.seed, changed.phase) == (9, 2, "grasp")
     assert unchanged_phases(run, now, (1, 2), PHASES) == set(PHASES) - {"grasp", "move_to_place_approach"}
     # With the seeds that were not run, nothing is said of them.
@@ -104,7 +104,7 @@ def test_changed_trials_and_the_phases_that_are_as_they_were(baseline):
 
 
 def test_only_the_whole_differs():
-    assert first_difference("a b b", "c b b") == "trial"
+    assert first_difference("a b b", "c b b", PHASES) == "trial"
 
 
 def test_a_decision_that_moved(baseline):

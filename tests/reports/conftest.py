@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.evidence import Failure, Fidelity, Phase, PhaseOutcome, PhaseRecord, TrialRecord
+from rgss.evidence import Failure, Fidelity, PhaseOutcome, PhaseRecord, TrialRecord
 from rgss.evidence.records.trial_trace import PhaseSpan, TrialTrace
+from tests.fixtures.eight_states import Phase
 
 PHASES = list(Phase)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.quantities import dimension
 from rgss.requirements import (
     BehaviourKind,
@@ -21,6 +21,7 @@ from rgss.requirements import (
     VerificationMethod,
     load_requirements,
 )
+from tests.fixtures.eight_states import Phase
 
 ROOT = Path(__file__).parents[2]
 

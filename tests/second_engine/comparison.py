@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from rgss.evidence import Failure, Phase, PhaseOutcome
+from rgss.evidence import Failure, PhaseOutcome
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Scene
 from rgss.studies.expansion import trial_specs
@@ -17,6 +17,7 @@ from rgss.trials.second_engine import mujoco_settings
 from rgss.trials.timing import TaskTiming, time_task
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell
+from tests.fixtures.eight_states import Phase
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,8 +2,9 @@
 
 import pytest
 
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.physics.mujoco import MujocoWorld
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 

@@ -47,7 +47,7 @@ FINDINGS = [
     (
         "metric: success",
         "metric: path_length_m",
-        "8:16: error: path_length_m is a row of 5 numbers (write 'phases: all')",
+        "8:16: error: path_length_m is a row of numbers, one per planned move (write 'phases: all')",
     ),
     (
         "metric: success",

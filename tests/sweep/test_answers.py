@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from rgss.errors import SimulationError
-from rgss.evidence import EvidenceStore, Phase, RunFailureKind
+from rgss.evidence import EvidenceStore, RunFailureKind
 from rgss.evidence.store.verification import verify
 from rgss.studies.expansion import trial_specs
 from rgss.sweep.answers import answer_problem, is_end_of, wrong_answer
@@ -17,6 +17,7 @@ from rgss.sweep.running import sweep
 from rgss.sweep.task_end import Ended, TaskError
 from rgss.sweep.trial_keys import key_of, trials_of
 from rgss.trials.pieces.pieces import TrialTask, tasks_of
+from tests.fixtures.eight_states import Phase
 
 DOUBLES = Path(__file__).parent / "doubles"
 

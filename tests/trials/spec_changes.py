@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rgss.evidence import PLANNED_PHASES
 from rgss.scenes import Box, Pose, SceneBody
-from rgss.trials.move_kinds import MoveKind
+from rgss.tasks import MoveKind
+from tests.fixtures.eight_states import PLANNED_PHASES
 
 
 def with_scene(spec, **changes):

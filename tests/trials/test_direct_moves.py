@@ -9,15 +9,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.evidence import PLANNED_PHASES, Failure, Fidelity, Phase, PlanOutcome
+from rgss.evidence import Failure, Fidelity, PlanOutcome
 from rgss.kinematics import inverse_kinematics
 from rgss.motion import ClockKind, PlanningClock
 from rgss.scenes import Waypoint, waypoint_poses
-from rgss.trials.move_kinds import MoveKind
+from rgss.tasks import MoveKind
 from rgss.trials.pieces import Pieces
 from rgss.trials.pieces.plan_json import plan_from_json, plan_to_json
 from rgss.trials.planning import direct_move, plan_of
 from rgss.trials.workcell import cell_of
+from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 
 from .spec_changes import with_moves
 
@@ -75,7 +76,7 @@ def test_the_other_moves_are_the_same_bit_for_bit(reference, planned):
         one, other = made.moves[phase], planned.moves[phase]
         assert np.array_equal(one.path_rad, other.path_rad)
         assert (one.checks, one.time_s) == (other.checks, other.time_s)
-    assert np.array_equal(made.lift_rad, planned.lift_rad)
+    assert np.array_equal(made.direct["lift"], planned.direct["lift"])
 
 
 def test_a_trial_with_straight_moves_keeps_the_tool_speed_and_plans_sooner(reference):
@@ -114,7 +115,7 @@ def test_a_trial_with_straight_moves_keeps_the_tool_speed_and_plans_sooner(refer
 def test_a_blocked_move_ends_the_trial_and_says_where_and_by_what(reference, phase, kind, detail):
     spec = with_moves(reference, **{phase: kind})
     record = Pieces().record(spec)
-    move = next(one for one in record.planning if one.subtask is Phase(phase))
+    move = next(one for one in record.planning if one.subtask == Phase(phase))
 
     assert (record.failure, record.failed_phase) == (Failure.MOVE_BLOCKED, Phase(phase))
     assert record.failure_detail == detail

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from rgss.evidence import Failure, Phase, PhaseOutcome, PlanOutcome, TrialRecord
+from rgss.evidence import Failure, PhaseOutcome, PlanOutcome, TrialRecord
 from rgss.physics import World
 from rgss.scenes import Cylinder, Pose
 from rgss.trials import timing as timing_module
@@ -18,6 +18,7 @@ from rgss.trials.planning import TaskPlan, plan_task
 from rgss.trials.record import assemble_record
 from rgss.trials.timing import TaskTiming, time_task
 from rgss.trials.workcell import Workcell
+from tests.fixtures.eight_states import Phase
 
 from .spec_changes import (
     with_body,

@@ -9,13 +9,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rgss.evidence import Fidelity, Phase, PhaseOutcome, record_digest
+from rgss.evidence import Fidelity, PhaseOutcome, record_digest
 from rgss.kinematics import Arm
 from rgss.physics import camera
 from rgss.physics.camera import VIEWS, Camera
 from rgss.trials.filming import Film
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.tracing import run_traced_trial
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 

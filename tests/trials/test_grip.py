@@ -9,13 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.kinematics import Arm, CollisionContext, CollisionModel, inverse_kinematics
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, load_gripper, load_scene
 from rgss.trials.execution import Execution
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import reference_of
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 
@@ -46,9 +47,9 @@ class Notes:
         self.grasping_n = []
 
     def after_step(self, world, phase, contacts, grip_margin, commanded_force_n):
-        if phase is Phase.GRASP:
+        if phase == Phase.GRASP:
             self.grasping_n.append(commanded_force_n)
-        if phase is Phase.LIFT:
+        if phase == Phase.LIFT:
             self.margins.append(grip_margin)
             self.commanded_n.append(commanded_force_n)
             self.normals_n.append(contacts.finger_force_sum_n)

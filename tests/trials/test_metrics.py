@@ -44,7 +44,7 @@ def test_what_is_the_worst_has_a_preferred_direction():
 def test_the_guard_reads_the_metrics_that_are_fields_of_a_phases_record(recorded):
     trial = recorded[Fidelity.KINEMATIC]
     recorded_ones = {name for name, metric in PHASE_METRICS.items() if metric.phase is PhaseValue.RECORDED}
-    phases = [one.phase.value for one in trial.phases]
+    phases = [one.phase for one in trial.phases]
     found = {name for name in recorded_ones if any(observed(trial, name, phase) is not None for phase in phases)}
 
     assert recorded_ones

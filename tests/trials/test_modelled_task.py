@@ -14,13 +14,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, PlanOutcome
+from rgss.evidence import Failure, PhaseOutcome, PlanOutcome
 from rgss.motion import PlanningClock, TimingOutcome
 from rgss.physics import Contacts, HandView, PhysicsSettings
 from rgss.requirements import StateKind, load_requirements
 from rgss.scenes import Pose
+from rgss.tasks import default_task
 from rgss.trials import timing
-from rgss.trials.execution import CARRYING, Execution
+from rgss.trials.execution import Execution
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.plants.control import ControlSettings
@@ -28,6 +29,7 @@ from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference
 from rgss.trials.timing import time_task
+from tests.fixtures.eight_states import CARRYING, PLANNED_PHASES, Phase
 
 PHASES = tuple(Phase)
 MOVES = tuple(phase for phase in Phase if phase not in (Phase.GRASP, Phase.PLACE))
@@ -71,13 +73,13 @@ class ScriptedPlant:
         pass
 
     def move(self, phase, reference):
-        failure = self._by if phase is self._fails_in else None
+        failure = self._by if phase == self._fails_in else None
         return PhaseResult(phase=phase, failure=failure, detail="", duration_s=1.0, metrics={})
 
-    def grasp(self):
+    def grasp(self, phase=Phase.GRASP):
         return self.move(Phase.GRASP, None)
 
-    def place(self):
+    def place(self, phase=Phase.PLACE):
         return self.move(Phase.PLACE, None)
 
 
@@ -114,7 +116,7 @@ def move(phase, outcome=PlanOutcome.SOLVED):
 def plan(lift_rad=(0.0,), **outcomes):
     moves = {phase: move(phase, outcomes.get(phase.value, PlanOutcome.SOLVED)) for phase in PLANNED_PHASES}
     lift = None if lift_rad is None else np.zeros((2, 6))
-    return TaskPlan(moves=moves, lift_rad=lift, clock=PlanningClock(charge_s=0.001))
+    return TaskPlan(moves=moves, direct={"lift": lift}, clock=PlanningClock(charge_s=0.001))
 
 
 @pytest.mark.verifies("SYS-023")
@@ -132,7 +134,7 @@ def test_each_state_does_the_activity_of_its_name(machine):
 @pytest.mark.verifies("SYS-023")
 @pytest.mark.parametrize("phase", Phase)
 def test_a_failure_ends_program_and_model_in_the_same_state(machine, modelled_failures, phase):
-    failures = [failure for where, failure in modelled_failures if where is phase]
+    failures = [failure for where, failure in modelled_failures if where == phase]
     assert failures
     for failure in failures:
         results = run_program(ScriptedPlant(phase, failure), REFERENCES)
@@ -143,7 +145,7 @@ def test_a_failure_ends_program_and_model_in_the_same_state(machine, modelled_fa
 @pytest.mark.parametrize("phase", MOVES)
 def test_a_move_without_a_motion_is_the_last_state_of_record_and_model(machine, spec_of, phase):
     """The program ends before it, and the record names it as the one that failed."""
-    missing = {each: reference() for each in MOVES if each is not phase}
+    missing = {each: reference() for each in MOVES if each != phase}
     failure = Failure.TRAJECTORY_INFEASIBLE
     results = run_program(ScriptedPlant(), missing)
     record = assemble_record(spec_of(), plan(), {phase: (failure, "")}, results)
@@ -160,7 +162,7 @@ def test_what_may_end_a_state_is_what_does(modelled_failures, spec_of, monkeypat
 
 def test_every_failure_but_that_of_a_run_is_modelled(modelled_failures):
     """A run that crashes is a failure of the computer, not of the task."""
-    assert {failure for _, failure in modelled_failures} == set(Failure) - {Failure.RUN_CRASHED}
+    assert {failure for _, failure in modelled_failures} == set(Failure) - {Failure.RUN_CRASHED, Failure.CHECK_FAILED}
 
 
 def named(failures):
@@ -179,7 +181,7 @@ def planning_failures(spec):
 
 def timing_failures(spec, monkeypatch):
     found = set()
-    cell = SimpleNamespace(scene=spec.scene, running=dict.fromkeys(Phase), arm=None)
+    cell = SimpleNamespace(scene=spec.scene, running=dict.fromkeys(Phase), arm=None, task=default_task())
     for outcome in set(TimingOutcome) - {TimingOutcome.TIMED}:
         untimed = SimpleNamespace(outcome=outcome, trajectory=None)
         monkeypatch.setattr(timing, "time_move", lambda *_, result=untimed, **__: result)
@@ -209,9 +211,9 @@ def physical_failures(spec):
 
 
 def result_of(execution, world, phase):
-    if phase is Phase.GRASP:
+    if phase == Phase.GRASP:
         return execution.grasp()
-    if phase is Phase.PLACE:
+    if phase == Phase.PLACE:
         return execution.place()
     return execution.move(phase, reference(world.scene.grasp.position_m))
 

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from rgss.evidence import Phase
 from rgss.trials.path_quality import manipulability, path_quality
 from rgss.trials.planning import plan_of
 from rgss.trials.timing import timing_of
 from rgss.trials.workcell import cell_of
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.program import run_program
 from rgss.trials.reference import Reference
+from tests.fixtures.eight_states import Phase
 
 MOVES = tuple(phase for phase in Phase if phase not in (Phase.GRASP, Phase.PLACE))
 START_RAD = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
@@ -28,16 +29,16 @@ class ScriptedPlant:
         self.calls.append(("move", phase, reference))
         return self._result(phase)
 
-    def grasp(self):
+    def grasp(self, phase=Phase.GRASP):
         self.calls.append(("grasp",))
         return self._result(Phase.GRASP)
 
-    def place(self):
+    def place(self, phase=Phase.PLACE):
         self.calls.append(("place",))
         return self._result(Phase.PLACE)
 
     def _result(self, phase):
-        failure = Failure.OBJECT_DROPPED if phase is self.fails_at else None
+        failure = Failure.OBJECT_DROPPED if phase == self.fails_at else None
         detail = "" if failure is None else "it fell"
         return PhaseResult(phase=phase, failure=failure, detail=detail, duration_s=1.0, metrics={})
 

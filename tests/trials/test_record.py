@@ -10,12 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, PlanOutcome, record_from_json, record_to_json
+from rgss.evidence import Failure, PhaseOutcome, PlanOutcome, record_from_json, record_to_json
 from rgss.motion import PlanningClock
 from rgss.trials.metrics import METRICS
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.record import assemble_record
+from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 
 CHARGE_S = 0.001
 CLOCK = PlanningClock(charge_s=CHARGE_S)
@@ -45,7 +46,7 @@ def plan_of(*checks, **changes):
     moves = {phase: move(phase, count) for phase, count in zip(PLANNED_PHASES, checks, strict=False)}
     for name, change in changes.items():
         moves[Phase(name)] = change
-    return TaskPlan(moves=moves, lift_rad=np.zeros((2, 6)), clock=CLOCK)
+    return TaskPlan(moves=moves, direct={"lift": np.zeros((2, 6))}, clock=CLOCK)
 
 
 def result(phase, **changes):
@@ -67,13 +68,13 @@ def result(phase, **changes):
         "joint_saturated_s": (0.0, 0.0, 0.0, 0.0, 0.0, 0.25),
         "most_loaded_joint": number,
     }
-    if phase is Phase.GRASP or phase in CARRYING:
+    if phase == Phase.GRASP or phase in CARRYING:
         metrics |= {"grasp_q_msv_1": float(number), "held_distance_m": 1e-4 * number, "contacts_slipping": number}
     if phase in CARRYING:
         metrics |= {"grasp_samples": 10, "grasp_samples_closed": 9}
-    if phase is Phase.PLACE:
+    if phase == Phase.PLACE:
         metrics |= {"opening_s": 0.25, "place_error_m": 0.9, "place_tilt_rad": 0.8}
-    if phase is Phase.MOVE_TO_GRASP_APPROACH:
+    if phase == Phase.MOVE_TO_GRASP_APPROACH:
         metrics |= {"place_error_m": 0.002, "place_tilt_rad": 0.001}
     values = {"phase": phase, "failure": None, "detail": "", "duration_s": 1.0 + number, "metrics": metrics}
     return PhaseResult(**(values | changes))
@@ -137,7 +138,7 @@ def test_every_metric_is_named_with_its_length(spec, checks, execution):
 
     assert set(metrics) == set(METRICS)
     for name, kind in METRICS.items():
-        assert kind.length is None or metrics[name] is None or len(metrics[name]) == kind.length
+        assert (length := kind.length_in_trial(5)) is None or metrics[name] is None or len(metrics[name]) == length
 
 
 def test_the_load_of_each_joint_is_that_of_all_phases(spec):
@@ -342,7 +343,7 @@ def test_exactly_one_phase_fails_and_nothing_runs_after_it(whole_spec, checks, l
     assert record.failed_phase == (None if record.success else PHASES[completed])
     late = [count > limit for count in checks]
     if record.failure is Failure.PLANNING_LIMIT:
-        assert record.failed_phase is PLANNED_PHASES[late.index(True)]
+        assert record.failed_phase == PLANNED_PHASES[late.index(True)]
     spent = [planning.time_s for planning in record.planning if planning.outcome is PlanOutcome.BUDGET_SPENT]
     assert len(spent) <= 1
     assert all(math.isclose(time_s, limit * CHARGE_S) for time_s in spent)

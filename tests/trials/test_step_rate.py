@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.evidence import Phase
 from rgss.physics import World
 from rgss.trials.execution import Execution
 from rgss.trials.pieces.run import run_trial
@@ -16,6 +15,7 @@ from rgss.trials.planning import plan_task
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell
+from tests.fixtures.eight_states import Phase
 
 pytestmark = [pytest.mark.engine, pytest.mark.slow]
 

@@ -6,9 +6,10 @@ import math
 
 import pytest
 
-from rgss.evidence import Fidelity, Phase, PlanOutcome
+from rgss.evidence import Fidelity, PlanOutcome
 from rgss.studies.expansion import trial_specs
 from rgss.trials.pieces.run import Pieces
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 
@@ -34,7 +35,7 @@ def nominal(project):
 
 
 def phase_of(record, phase):
-    return next(each for each in record.phases if each.phase is phase)
+    return next(each for each in record.phases if each.phase == phase)
 
 
 def of_phases(record, name):

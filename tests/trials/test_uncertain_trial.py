@@ -7,12 +7,13 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import Failure, Phase, record_digest, record_from_json, record_to_json
+from rgss.evidence import Failure, record_digest, record_from_json, record_to_json
 from rgss.scenes.uncertainty import Constant, Normal, Uncertainty, UncertainValue
 from rgss.trials.conditions import conditions_of
 from rgss.trials.payload_bench.bench import PayloadResult
 from rgss.trials.payload_bench.rig import PayloadLimit
 from rgss.trials.pieces.run import Pieces, run_trial
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 
@@ -46,7 +47,7 @@ def drawn(spec, **values):
 
 
 def phase_of(record, phase):
-    return next(one for one in record.phases if one.phase is phase)
+    return next(one for one in record.phases if one.phase == phase)
 
 
 def test_a_hand_drops_what_is_heavier_than_coulomb_s_law_lets_it_hold(spec_of, pieces):

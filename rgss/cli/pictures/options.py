@@ -171,11 +171,12 @@ def _make(order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: Tria
 
 def captioned(film: Film, index: int, record: TrialRecord) -> CaptionedPicture:
     """A frame of a film with its time and phase written into it, and in the last how the trial ended."""
-    from rgss.evidence import Phase
     from rgss.reports.trials import CaptionedPicture, words
 
-    def titled(phase: Phase) -> str:
-        return f"{list(Phase).index(phase) + 1} {words(phase.value)}"
+    phases = [one.phase for one in record.phases]
+
+    def titled(phase: str) -> str:
+        return f"{phases.index(phase) + 1} {words(phase)}"
 
     frame = film.frame(index)
     phase = frame.span.phase

@@ -46,7 +46,7 @@ class TrialTally:
             self.run_now.add(record.variant)
         self.counts["succeeded" if record.success else "failed"] += 1
         if record.failure is not None and record.failed_phase is not None:
-            self.failures[f"{record.failure.value} at {record.failed_phase.value}"] += 1
+            self.failures[f"{record.failure.value} at {record.failed_phase}"] += 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

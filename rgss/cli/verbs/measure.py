@@ -91,7 +91,8 @@ def _print_drivers(project: Project, measured: Sequence[VariantMeasures], *, as_
     from rgss.cli.output import print_json, print_lines
     from rgss.reports import case_lines, cases_to_json, driver_lines, drivers_to_json
 
-    found = drivers_of_failures([record for entry in measured for record in entry.records])
+    records = [record for entry in measured for record in entry.records]
+    found = drivers_of_failures(records, carried=project.study.task.carried)
     cases = success_by_case(project, measured)
     if as_json:
         print_json({**drivers_to_json(found), "cases": cases_to_json(cases)})

@@ -84,7 +84,7 @@ def _as_json(record: Any, digest: str) -> dict[str, Any]:
         "failure_detail": record.failure_detail,
         "phases": [
             {
-                "phase": phase.phase.value,
+                "phase": phase.phase,
                 "outcome": phase.outcome.value,
                 "duration_s": phase.duration_s,
                 "metrics": dict(phase.metrics),
@@ -93,7 +93,7 @@ def _as_json(record: Any, digest: str) -> dict[str, Any]:
         ],
         "planning": [
             {
-                "subtask": planning.subtask.value,
+                "subtask": planning.subtask,
                 "outcome": planning.outcome.value,
                 "checks": planning.checks,
                 "simplification_checks": planning.simplification_checks,
@@ -118,7 +118,7 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
         rows.append(
             [
                 str(position),
-                phase.phase.value,
+                phase.phase,
                 phase.outcome.value,
                 number(phase.duration_s),
                 "" if planned is None else str(planned.checks),
@@ -140,7 +140,7 @@ def _show(record: Any, digest: str, drawn: Sequence[DrawnValue], control: str) -
         where = "" if stands is None else f": the object stands {number(1e3 * stands, 3)} mm from the place"
         print(f"Success in {number(metrics['task_time_s'])} s (planning included){where}.")
     else:
-        print(f"Failed at {record.failed_phase.value}: {record.failure.value}: {record.failure_detail}")
+        print(f"Failed at {record.failed_phase}: {record.failure.value}: {record.failure_detail}")
     print(f"digest {digest}")
 
 

@@ -219,7 +219,7 @@ def study_decision(
         gaps=_gaps(project, measured, decision),
         readings=readings,
         assumptions=assumptions,
-        drivers=None if found is None else _drivers(measured),
+        drivers=None if found is None else _drivers(project, measured),
         cases=success_by_case(project, measured),
         seeds=sequential_seeds(project, measured),
     )
@@ -232,8 +232,9 @@ def _readings(
     return readings_among(project, assumptions) if assumptions else reading_outcomes(project, measured)
 
 
-def _drivers(measured: Sequence[VariantMeasures]) -> DriversOfFailures:
-    return drivers_of_failures([record for entry in measured for record in entry.records])
+def _drivers(project: Project, measured: Sequence[VariantMeasures]) -> DriversOfFailures:
+    records = [record for entry in measured for record in entry.records]
+    return drivers_of_failures(records, carried=project.study.task.carried)
 
 
 def _gaps(project: Project, measured: Sequence[VariantMeasures], decision: Decision) -> tuple[ModelGap, ...]:

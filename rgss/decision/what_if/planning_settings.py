@@ -10,10 +10,9 @@ from typing import Any
 from rgss.decision.what_if.setting import ModelSetting, count_from, in_words, one_of, quantity_from
 from rgss.designs import PLANNER_PREFIX, PLANNER_QUANTITIES, ParameterKind
 from rgss.errors import DefinitionError, QuantityError
-from rgss.evidence import PLANNED_PHASES
 from rgss.motion import OnUnverified, ParameterType, PlannerSettings, available_planners
 from rgss.studies import PlanningChoice, Project, read_parameter
-from rgss.trials import MoveKind
+from rgss.tasks import MoveKind
 
 _MOST_CHECKS = 1_000_000
 
@@ -68,11 +67,12 @@ def settings_of_planning(project: Project) -> Iterator[ModelSetting]:
             project, on_unverified=OnUnverified(one_of("planning.on_unverified", text, ("fail", "repair")))
         ),
     )
-    for index, phase in enumerate(PLANNED_PHASES):
-        name = f"moves.{phase.value}"
+    planned = project.study.task.planned
+    for index, phase in enumerate(planned):
+        name = f"moves.{phase}"
         yield ModelSetting(
             id=name,
-            value=planning.moves[index].value,
+            value=(planning.moves[index] if planning.moves else MoveKind.PLANNED).value,
             example=f"{name}=straight",
             changed=partial(_with_move, project, name, index),
         )
@@ -158,7 +158,7 @@ def _with_count(project: Project, name: str, text: str) -> Project:
 
 def _with_move(project: Project, name: str, index: int, text: str) -> Project:
     kind = MoveKind(one_of(name, text, tuple(one.value for one in MoveKind)))
-    moves = project.study.planning.moves
+    moves = project.study.planning.moves or (MoveKind.PLANNED,) * len(project.study.task.planned)
     return _with(project, moves=(*moves[:index], kind, *moves[index + 1 :]))
 
 

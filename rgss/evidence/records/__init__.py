@@ -4,7 +4,7 @@ from rgss.evidence.records.codec import plain_json, read_json, read_plain, recor
 from rgss.evidence.records.digests import is_digest, record_digest, text_digest, trial_key
 from rgss.evidence.records.numerics import Numerics, numerics_difference, numerics_text, require_alike, results_of
 from rgss.evidence.records.origin import code_revision, file_digests, machine
-from rgss.evidence.records.outcomes import PLANNED_PHASES, Failure, Fidelity, Phase, PhaseOutcome, PlanOutcome
+from rgss.evidence.records.outcomes import Failure, Fidelity, PhaseOutcome, PlanOutcome
 from rgss.evidence.records.packing import LARGEST_TEXT, unpack
 from rgss.evidence.records.pieces import Piece, PieceKind, piece_row, read_piece
 from rgss.evidence.records.planning_runs import PlanningRun

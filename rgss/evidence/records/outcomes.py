@@ -5,29 +5,6 @@ from __future__ import annotations
 from enum import Enum
 
 
-class Phase(str, Enum):
-    """The eight states of the pick-and-place task, in their order."""
-
-    MOVE_TO_GRASP = "move_to_grasp"
-    GRASP = "grasp"
-    LIFT = "lift"
-    MOVE_TO_GRASP_DEPARTURE = "move_to_grasp_departure"
-    MOVE_TO_PLACE_APPROACH = "move_to_place_approach"
-    MOVE_TO_PLACE = "move_to_place"
-    PLACE = "place"
-    MOVE_TO_GRASP_APPROACH = "move_to_grasp_approach"
-
-
-PLANNED_PHASES: tuple[Phase, ...] = (
-    Phase.MOVE_TO_GRASP,
-    Phase.MOVE_TO_GRASP_DEPARTURE,
-    Phase.MOVE_TO_PLACE_APPROACH,
-    Phase.MOVE_TO_PLACE,
-    Phase.MOVE_TO_GRASP_APPROACH,
-)
-"""The five moves that a planner plans: the sub-tasks of the sums over n = 1..5 (eq. 4.3, 4.4)."""
-
-
 class PhaseOutcome(str, Enum):
     """Outcome of a phase."""
 
@@ -70,6 +47,7 @@ class Failure(str, Enum):
     NOT_RELEASED = "not_released"
     NOT_IN_PLACE_REGION = "not_in_place_region"
     NOT_UPRIGHT = "not_upright"
+    CHECK_FAILED = "check_failed"
     RUN_CRASHED = "run_crashed"
 
 

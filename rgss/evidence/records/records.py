@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from rgss.evidence.records.outcomes import Failure, Fidelity, Phase, PhaseOutcome, PlanOutcome
+from rgss.evidence.records.outcomes import Failure, Fidelity, PhaseOutcome, PlanOutcome
 
 Metric = float | int | None | tuple[float | int | None, ...]
 """A number, a row of numbers, or None where the trial cannot know it."""
@@ -22,7 +22,7 @@ class PhaseRecord:
         metrics: What was observed in it, by name with unit, such as ``slip_m``.
     """
 
-    phase: Phase
+    phase: str
     outcome: PhaseOutcome
     duration_s: float | None
     metrics: Mapping[str, Metric]
@@ -41,7 +41,7 @@ class PlanningRecord:
         path_length_m: Length of the tool's path; None if there is no path.
     """
 
-    subtask: Phase
+    subtask: str
     outcome: PlanOutcome
     checks: int
     simplification_checks: int
@@ -73,7 +73,7 @@ class TrialRecord:
     fidelity: Fidelity
     success: bool
     failure: Failure | None
-    failed_phase: Phase | None
+    failed_phase: str | None
     failure_detail: str
     phases: tuple[PhaseRecord, ...]
     planning: tuple[PlanningRecord, ...]

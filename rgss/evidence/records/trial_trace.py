@@ -7,8 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.evidence.records.outcomes import Phase
-
 Series = NDArray[np.float64]
 
 
@@ -23,7 +21,7 @@ class PhaseSpan:
         last: Index of its last sample.
     """
 
-    phase: Phase
+    phase: str
     start_s: float
     end_s: float
     last: int

@@ -104,7 +104,7 @@ def _cells(trial: StoredTrial) -> Iterator[_Cell]:
         if name != _SAID:
             yield from _metric(_METRICS, 0, "", name, value)
     for number, phase in enumerate(record.phases):
-        title = phase.phase.value
+        title = phase.phase
         yield f"{title}_outcome", phase.outcome.value, (_PHASES, number, "", 0), str
         yield f"{title}_duration_s", _number(phase.duration_s, "duration_s"), (_PHASES, number, "", 1), float
         for name, value in phase.metrics.items():
@@ -134,7 +134,7 @@ def _head(trial: StoredTrial | None) -> Iterator[_Cell]:
         ("fidelity", str, record and record.fidelity.value),
         ("success", bool, record and record.success),
         ("failure", str, record and record.failure and record.failure.value),
-        ("failed_phase", str, record and record.failed_phase and record.failed_phase.value),
+        ("failed_phase", str, record and record.failed_phase and record.failed_phase),
         ("failure_detail", str, record and _text(record.failure_detail)),
     ]
     for place, (name, kind, cell) in enumerate(cells):

@@ -127,7 +127,7 @@ class _Builder:
         for body in self._scene.bodies:
             name = f"scene:{body.id}"
             self.scene_bodies[name] = body.id
-            _add_geom(self._world, name, body.shape, body.pose, touches=_SCENE)
+            _add_geom(self._world, name, body.primitive, body.pose, touches=_SCENE)
 
     def add_robot(self) -> None:
         """Add the arm with a motor of rated torque on each joint, and the hand on its flange."""

@@ -165,6 +165,18 @@ class MujocoWorld:
         """Transform of the workpiece to the world."""
         return self._pose_of(self._workpiece)
 
+    def object_pose(self, name: str) -> Pose:
+        """Transform of the workpiece to the world; this engine has no other object."""
+        if name != self.scene.workpiece.id:
+            raise SimulationError("this engine knows one object", hint="run several objects in PyBullet")
+        return self.workpiece_pose()
+
+    def concern(self, scene: Scene) -> None:
+        """Let the workpiece be released at another place, or be gripped again where it stands."""
+        if scene.workpiece.id != self.scene.workpiece.id:
+            raise SimulationError("this engine knows one object", hint="run several objects in PyBullet")
+        self.scene = scene
+
     def tool_pose(self) -> Pose:
         """Transform of the grasp-centre frame to the world at the true joint angles."""
         return self.hand_view().tool

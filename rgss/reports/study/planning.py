@@ -58,7 +58,7 @@ def planning_columns(project: Project, measured: Sequence[VariantMeasures]) -> P
         rows += [
             (spec.planner, plain_number(planned.time_s if planned.outcome is PlanOutcome.SOLVED else None), group, spec)
             for planned in record.planning
-            if planned.outcome is not PlanOutcome.NOT_RUN and planned.subtask in spec.settings.planning.searched
+            if planned.outcome is not PlanOutcome.NOT_RUN and planned.subtask in spec.searched
         ]
     planners = sorted({row[0] for row in rows})
     document: Plain = {

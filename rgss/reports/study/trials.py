@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rgss.assessment import VariantMeasures
-from rgss.evidence import Failure, Phase, PhaseOutcome, TrialRecord
+from rgss.evidence import Failure, PhaseOutcome, TrialRecord
 from rgss.reports.plain_numbers import Plain, condensed, plain_number, plain_numbers
 from rgss.trace.evidence import KEY_DIGITS
 
@@ -72,13 +72,14 @@ def trial_columns(measured: Sequence[VariantMeasures], notable: Sequence[Notable
         for place, entry in enumerate(measured)
         for key, record in zip(entry.trials, entry.records, strict=True)
     ]
-    failures, phases = list(Failure), list(Phase)
+    failures = list(Failure)
+    phases = list(dict.fromkeys(phase.phase for _, _, record in rows for phase in record.phases))
     wanted = {one.key for one in notable}
     every = len(rows) <= MOST_TIMELINES
     return {
         "key_digits": KEY_DIGITS,
         "failures": [_words(one.value) for one in failures],
-        "phases": [_words(one.value) for one in phases],
+        "phases": [_words(one) for one in phases],
         "variant": [place for place, _, _ in rows],
         "seed": [record.seed for _, _, record in rows],
         "key": [key[:KEY_DIGITS] for _, key, _ in rows],

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.documents import replaced_file
-from rgss.evidence import Phase, PhaseOutcome, PhaseRecord, TrialRecord
+from rgss.evidence import PhaseOutcome, PhaseRecord, TrialRecord
 from rgss.reports.trials.lettering import FAINT_INK, INK, OUTCOME_INK, PAPER, font, headline, words
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ _LEAST_COLUMNS = 3
 _EMPTY = (236, 238, 241)
 
 
-def write_filmstrip(path: Path, record: TrialRecord, pictures: Mapping[Phase, NDArray[np.uint8]]) -> None:
+def write_filmstrip(path: Path, record: TrialRecord, pictures: Mapping[str, NDArray[np.uint8]]) -> None:
     """Write the filmstrip of a trial as a PNG.
 
     Args:
@@ -40,7 +40,7 @@ def write_filmstrip(path: Path, record: TrialRecord, pictures: Mapping[Phase, ND
         image.quantize(256).save(part, format="PNG", optimize=True)
 
 
-def filmstrip(record: TrialRecord, pictures: Mapping[Phase, NDArray[np.uint8]]) -> Image:
+def filmstrip(record: TrialRecord, pictures: Mapping[str, NDArray[np.uint8]]) -> Image:
     """Rows of up to four panels: title, outcome, time and picture of each state that was entered.
 
     The panel of the state that failed has a red frame; the states that the trial did not get to are
@@ -95,7 +95,7 @@ def filmstrip(record: TrialRecord, pictures: Mapping[Phase, NDArray[np.uint8]]) 
 def _not_run(record: TrialRecord, width: int, size: int) -> list[str]:
     """Lines that name the states that the trial did not get to; none if it got to all."""
     missing = [
-        f"{number} {words(phase.phase.value)}"
+        f"{number} {words(phase.phase)}"
         for number, phase in enumerate(record.phases, start=1)
         if phase.outcome is PhaseOutcome.NOT_RUN
     ]
@@ -113,7 +113,7 @@ def _not_run(record: TrialRecord, width: int, size: int) -> list[str]:
 def _label(pen: ImageDraw, place: tuple[int, int], number: int, phase: PhaseRecord, size: int) -> None:
     x, y = place
     first, second = y + size, y + round(2.7 * size)  # baselines
-    title = f"{number}  {words(phase.phase.value)}"
+    title = f"{number}  {words(phase.phase)}"
     pen.text((x, first), title, font=font(size, bold=True), fill=INK, anchor="ls")
     outcome = words(phase.outcome.value)
     pen.text((x, second), outcome, font=font(size), fill=OUTCOME_INK[phase.outcome], anchor="ls")

@@ -45,7 +45,7 @@ def headline(record: TrialRecord) -> str:
     """Outcome of a trial in one line."""
     trial = f"Variant {record.variant}, seed {record.seed}"
     if record.failure is not None and record.failed_phase is not None:
-        return f"{trial}: failed at {words(record.failed_phase.value)}, {words(record.failure.value)}"
+        return f"{trial}: failed at {words(record.failed_phase)}, {words(record.failure.value)}"
     total, motion = record.metrics.get("task_time_s"), record.metrics.get("motion_time_s")
     if isinstance(total, float) and isinstance(motion, float):
         return f"{trial}: done in {total:.1f} s, of which {total - motion:.1f} s are planning"

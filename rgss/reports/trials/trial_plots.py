@@ -134,7 +134,7 @@ def _name_phases(ax: Axes, trace: TrialTrace) -> None:
     """Name the phases above the plots, slanted so that the short ones have room too."""
     for number, span in enumerate(trace.spans, start=1):
         ax.annotate(
-            f"{number} {words(span.phase.value)}",
+            f"{number} {words(span.phase)}",
             xy=((span.start_s + span.end_s) / 2, 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(-3, 5),

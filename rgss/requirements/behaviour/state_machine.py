@@ -27,7 +27,7 @@ class State:
     kind: StateKind
     name: Text
     phase: Identifier | None = None
-    """A value of `rgss.evidence.Phase`."""
+    """Name of a phase of the task."""
     does: Identifier | None = None
 
 

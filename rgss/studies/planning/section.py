@@ -9,11 +9,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from rgss.documents import Document, DocumentModel, Identifier, Metres, Radians, Seconds, Text
-from rgss.evidence import PLANNED_PHASES
 from rgss.findings import Finding
 from rgss.motion import OnUnverified, PlannerSettings
 from rgss.studies.planning.declared_planners import PlannerField, planner_problem, read_planners
-from rgss.trials import MoveKind
+from rgss.tasks import MoveKind
 
 
 class PlanningEntry(DocumentModel):
@@ -51,7 +50,7 @@ class PlanningChoice:
         time_limit_s: Longest planning time of one move where no design sets it; None if the file has none.
         planners: The planners that the file declares, by their names there.
         references: Names of planners that are compared with those of the designs.
-        moves: Kind of each of the moves of `PLANNED_PHASES`.
+        moves: Kind of each of the planned moves of the task, in their order; all are planned if it is empty.
     """
 
     counted: bool
@@ -66,7 +65,7 @@ class PlanningChoice:
     on_unverified: OnUnverified = OnUnverified.FAIL
     planners: Mapping[str, PlannerSettings] = field(default_factory=dict)
     references: tuple[str, ...] = ()
-    moves: tuple[MoveKind, ...] = (MoveKind.PLANNED,) * len(PLANNED_PHASES)
+    moves: tuple[MoveKind, ...] = ()
 
     def planner_settings(self, name: str) -> PlannerSettings:
         """The planner of a name: one that the file declares, else that of OMPL.

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rgss.documents import Document
 from rgss.errors import QuantityError
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.quantities import parse_quantity
 from rgss.regression import SUCCESS, WHOLE_TRIAL, Guard
 from rgss.studies.regression.document import RegressionEntry, RegressionMetricEntry, RegressionRunEntry
 from rgss.studies.regression.guard import GuardedMetric, RegressionGuard, WatchedRun
-from rgss.trials import METRICS, PHASE_METRICS
-
-_PHASES = tuple(phase.value for phase in Phase)
+from rgss.trials import FOR_EACH_MOVE, METRICS, PHASE_METRICS
 
 
 def read_regression(
-    entry: RegressionEntry | None, document: Document, findings: list[Finding]
+    entry: RegressionEntry | None, document: Document, findings: list[Finding], *, phases: Sequence[str]
 ) -> RegressionGuard | None:
     """Read the section.
 
@@ -24,15 +24,17 @@ def read_regression(
         entry: The section as it stands in the file; None if there is none.
         document: The file.
         findings: Takes what is wrong.
+        phases: Names of the steps of the task.
 
     Returns:
         The guard; None if there is none. It can be used if nothing was found.
     """
-    return None if entry is None else _Reader(document, findings).read(entry)
+    return None if entry is None else _Reader(document, findings, phases).read(entry)
 
 
 class _Reader:
-    def __init__(self, document: Document, findings: list[Finding]) -> None:
+    def __init__(self, document: Document, findings: list[Finding], phases: Sequence[str]) -> None:
+        self._phases = tuple(phases)
         self._document = document
         self._findings = findings
 
@@ -80,14 +82,16 @@ class _Reader:
                 self._unknown_run(run, (*at, "runs", number), runs)
         unit = self._unit(entry, at)
         margin, relative = (1.0, 0.0) if unit is None else self._margins(entry, unit, at)
-        phases = (WHOLE_TRIAL,) if entry.phases is None else _PHASES if entry.phases == "all" else tuple(entry.phases)
+        phases = (
+            (WHOLE_TRIAL,) if entry.phases is None else self._phases if entry.phases == "all" else tuple(entry.phases)
+        )
         for key, names in (("runs", entry.runs or ()), ("phases", phases)):
             for number, name in enumerate(names):
                 if name in names[:number]:
                     self._report(f"{name} is named twice", (*at, key, number), "keep one")
         for number, phase in enumerate(phases):
-            if phase not in (*_PHASES, WHOLE_TRIAL):
-                hint = f"phases: {', '.join(_PHASES)}"
+            if phase not in (*self._phases, WHOLE_TRIAL):
+                hint = f"phases: {', '.join(self._phases)}"
                 self._report(f"unknown phase {phase!r}", (*at, "phases", number), hint)
         return GuardedMetric(
             metric=entry.metric,
@@ -114,7 +118,8 @@ class _Reader:
             return None
         length = metric.length_in_phase if in_phases else metric.length
         if length is not None:
-            count = f"{length} numbers" if length else "numbers, one per finger"
+            known = {0: "numbers, one per finger", FOR_EACH_MOVE: "numbers, one per planned move"}
+            count = known.get(length, f"{length} numbers")
             is_number_of_phase = name in PHASE_METRICS and PHASE_METRICS[name].length_in_phase is None
             hint = "write 'phases: all'" if is_number_of_phase else "guard one that is a single number"
             self._report(f"{name} is a row of {count}", (*at, "metric"), hint)

@@ -106,9 +106,9 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
     )
 
 
-def _stops(scene: Scene, geometry: GripperGeometry) -> Mapping[Waypoint, Array]:
+def _stops(scene: Scene, geometry: GripperGeometry) -> Mapping[str, Array]:
     """Valid configurations at the waypoints, with the least travel from one to the next."""
-    return waypoint_configurations(Workcell(scene, geometry, clearance_m=_CLEARANCE_M))[0]
+    return waypoint_configurations(Workcell(scene, geometry, clearance_m=_CLEARANCE_M))
 
 
 def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:

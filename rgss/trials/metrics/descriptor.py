@@ -58,6 +58,10 @@ _SUFFIXES = {
 }
 
 
+FOR_EACH_MOVE = -1
+"""Length of a row that has an entry for each planned move of the task."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MetricDescriptor:
     """All that is stated of a metric, from which records, frames, the guard, schemas and documentation are made.
@@ -70,8 +74,8 @@ class MetricDescriptor:
         trial: How the value of a trial is made; None if only phases have one.
         phase: Origin of the values of phases; None if only the trial has one.
         fidelities: Fidelities in which it is observed. A trial may lack it nevertheless, such as after a failure.
-        length: Number of entries of a row; 0 for one per finger, None for a single number. A recorded value of a
-            phase is always a single number.
+        length: Number of entries of a row; 0 for one per finger, `FOR_EACH_MOVE` for one per planned move of the task,
+            None for a single number. A recorded value of a phase is always a single number.
         phase_meaning: Definition for one phase, where it differs.
         source: The metric that is taken at the grasp, for `Aggregation.AT_GRASP`; the one that decides between the
             phases, for `Aggregation.OF_GREATEST`.
@@ -97,6 +101,14 @@ class MetricDescriptor:
     def meaning_in_phase(self) -> str:
         """Definition of the value of a phase."""
         return self.phase_meaning or self.meaning
+
+    def length_in_trial(self, planned: int) -> int | None:
+        """Number of entries of the value of a trial; None for a single number.
+
+        Args:
+            planned: Number of planned moves of the task.
+        """
+        return planned if self.length == FOR_EACH_MOVE else self.length
 
     @property
     def length_in_phase(self) -> int | None:

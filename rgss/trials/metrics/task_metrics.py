@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from rgss.evidence import PLANNED_PHASES
 from rgss.trials.metrics.descriptor import (
+    FOR_EACH_MOVE,
     WITH_CONTACT,
     WITH_TORQUES,
     Aggregation,
@@ -12,7 +12,6 @@ from rgss.trials.metrics.descriptor import (
     PhaseValue,
 )
 
-_MOVES = len(PLANNED_PHASES)
 _JOINTS = 6
 
 TASK_METRICS: tuple[MetricDescriptor, ...] = (
@@ -48,7 +47,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.LOWER,
         trial=Aggregation.COMPUTED,
         phase=PhaseValue.RECORDED,
-        length=_MOVES,
+        length=FOR_EACH_MOVE,
     ),
     MetricDescriptor(
         name="planning_checks",
@@ -58,7 +57,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.LOWER,
         trial=Aggregation.COMPUTED,
         phase=PhaseValue.RECORDED,
-        length=_MOVES,
+        length=FOR_EACH_MOVE,
     ),
     MetricDescriptor(
         name="path_length_m",
@@ -68,7 +67,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.LOWER,
         trial=Aggregation.COMPUTED,
         phase=PhaseValue.RECORDED,
-        length=_MOVES,
+        length=FOR_EACH_MOVE,
     ),
     MetricDescriptor(
         name="motion_time_s",

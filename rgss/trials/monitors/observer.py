@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from rgss.evidence import Phase
 from rgss.physics import Contacts, ContactWorld
 
 
@@ -14,7 +13,7 @@ class StepObserver(Protocol):
     def after_step(
         self,
         world: ContactWorld,
-        phase: Phase,
+        phase: str,
         contacts: Contacts,
         grip_margin: float | None,
         commanded_force_n: float | None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
-from rgss.evidence import Failure, Phase, Piece, PieceKind, TrialRecord
+from rgss.evidence import Failure, Piece, PieceKind, TrialRecord
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.pieces.bench_json import bench_from_json
 from rgss.trials.pieces.execution_json import execution_from_json
@@ -40,7 +40,7 @@ def record_under(spec: TrialSpec, plan: TaskPlan, pieces: Mapping[PieceKind, Pie
 
 # One piece serves many trials, and every assumption that is questioned.
 @lru_cache(maxsize=_READ_KEPT)
-def _timing_failures(text: str) -> Mapping[Phase, tuple[Failure, str]]:
+def _timing_failures(text: str) -> Mapping[str, tuple[Failure, str]]:
     return timing_from_json(text).failures
 
 

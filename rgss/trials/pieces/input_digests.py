@@ -16,7 +16,8 @@ from typing import Any
 from rgss.documents import digest
 from rgss.evidence import Fidelity
 from rgss.motion import Objective
-from rgss.scenes import ObjectShape, Robot, Scene, Workpiece, centre_of_mass
+from rgss.scenes import ObjectShape, Robot, Scene, SceneObject, Workpiece, centre_of_mass
+from rgss.tasks import TaskProgram
 from rgss.trials.code import ENTRIES, versions_of
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.payload_bench import BenchSpec, bench_of
@@ -74,6 +75,7 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         _digest_of(spec.planned_by),
         _potential_digest(spec),
         spec.seed,
+        _task_digest(spec.task),
         _digest_of(spec.settings.planning),
         used["plan"],
     )
@@ -134,7 +136,16 @@ def physics_inputs(scene: Scene) -> dict[str, Any]:
         ],
         "torques_n_m": [joint.torque_n_m for joint in scene.robot.joints],
         **_stated_inertia(workpiece),
+        # Colours of the other objects are no input.
+        **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
+        **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),
     }
+
+
+def _object_inputs(one: SceneObject) -> dict[str, Any]:
+    inputs: dict[str, Any] = to_plain(one)
+    del inputs["workpiece"]["colour"]
+    return inputs
 
 
 def _stated_inertia(workpiece: Workpiece) -> dict[str, Any]:
@@ -163,6 +174,12 @@ def _potential_digest(spec: TrialSpec) -> float:
 def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:
     """Digest of settings that differ from the default, which is no input: it is what pieces had without them."""
     return () if settings == type(settings)() else (_digest_of(settings),)
+
+
+@lru_cache(maxsize=_KEPT)
+def _task_digest(task: TaskProgram) -> str:
+    """Digest of the steps of a task; its name is no input."""
+    return digest([to_plain(task.start), [[type(step).__name__, to_plain(step)] for step in task.steps]])
 
 
 @lru_cache(maxsize=_KEPT)
@@ -235,6 +252,8 @@ def _geometry_digest(scene: Scene) -> str:
         "supports": [scene.support, scene.place_support],
         "place": to_plain(scene.place.centre_m),
         "task": to_plain(scene.task),
+        **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
+        **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),
     }
     return digest(geometry)
 

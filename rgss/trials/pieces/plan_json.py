@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from rgss.documents import canonical_json
 from rgss.errors import EvidenceError
-from rgss.evidence import Phase, PlanOutcome, read_json
+from rgss.evidence import PlanOutcome, read_json
 from rgss.motion import PlanningClock
 from rgss.trials.pieces.float_array import Array, FloatArray
 from rgss.trials.pieces.plain_values import to_plain
@@ -17,7 +17,7 @@ _LARGEST_ARM = 16
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Move:
-    phase: Phase
+    phase: str
     outcome: PlanOutcome
     checks: int
     simplification_checks: int
@@ -32,9 +32,15 @@ class _Move:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class _Direct:
+    phase: str
+    path_rad: FloatArray | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Plan:
     moves: tuple[_Move, ...]
-    lift_rad: FloatArray | None
+    direct: tuple[_Direct, ...]
     clock: PlanningClock
 
 
@@ -61,8 +67,11 @@ def plan_to_json(plan: TaskPlan) -> str:
         )
         for move in plan.moves.values()
     )
-    lift = None if plan.lift_rad is None else FloatArray.of(plan.lift_rad)
-    return canonical_json(to_plain(_Plan(moves=moves, lift_rad=lift, clock=plan.clock)))
+    direct = tuple(
+        _Direct(phase=phase, path_rad=None if path is None else FloatArray.of(path))
+        for phase, path in plan.direct.items()
+    )
+    return canonical_json(to_plain(_Plan(moves=moves, direct=direct, clock=plan.clock)))
 
 
 def plan_from_json(text: str) -> TaskPlan:
@@ -92,11 +101,12 @@ def plan_from_json(text: str) -> TaskPlan:
         )
         for move in read.moves
     }
-    if len(moves) != len(read.moves):
+    direct = {move.phase: _path(move.path_rad) for move in read.direct}
+    if len(moves) != len(read.moves) or len(direct) != len(read.direct) or not moves.keys().isdisjoint(direct):
         raise EvidenceError("the plan has two moves of one phase")
     if any((move.path_rad is not None) != (move.outcome is PlanOutcome.SOLVED) for move in moves.values()):
         raise EvidenceError("the plan has a path where there is none, or none where there is one")
-    return TaskPlan(moves=moves, lift_rad=_path(read.lift_rad), clock=read.clock)
+    return TaskPlan(moves=moves, direct=direct, clock=read.clock)
 
 
 def _path(kept: FloatArray | None) -> Array | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from rgss.documents import canonical_json
 from rgss.errors import EvidenceError
-from rgss.evidence import Failure, Phase, read_json
+from rgss.evidence import Failure, read_json
 from rgss.motion import SmoothPath, Trajectory
 from rgss.trials.path_quality import PathQuality
 from rgss.trials.pieces.float_array import FloatArray
@@ -16,7 +16,7 @@ from rgss.trials.timing import TaskTiming
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Motion:
-    phase: Phase
+    phase: str
     breaks: FloatArray
     coefficients: FloatArray
     stops: tuple[int, ...]
@@ -32,7 +32,7 @@ class _Motion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Untimed:
-    phase: Phase
+    phase: str
     failure: Failure
     detail: str
 
@@ -106,7 +106,7 @@ def _trajectory(motion: _Motion) -> Trajectory:
         or knots[0] < 2
         or not motion.parameters.shape == motion.rates.shape == knots
     ):
-        raise EvidenceError(f"the motion of {motion.phase.value} has arrays that do not belong together")
+        raise EvidenceError(f"the motion of {motion.phase} has arrays that do not belong together")
     return Trajectory(
         path=SmoothPath(
             breaks=motion.breaks.array(),

@@ -12,7 +12,7 @@ from rgss.evidence import PlanOutcome
 from rgss.kinematics import CollisionModel, InverseKinematics, LineBreak, follow_line
 from rgss.motion import ClockKind, PlanningClock, segment_states
 from rgss.scenes import Pose
-from rgss.trials.move_kinds import MoveKind
+from rgss.tasks import MoveKind
 from rgss.trials.reference import Array
 
 _SAME_CONFIGURATION_RAD = 1e-6

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
-from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
+from rgss.evidence import PlanOutcome
 from rgss.motion import ClockKind
+from rgss.tasks import MoveKind
 from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
 from rgss.trials.settings import PlanningSettings
 
 _WITHOUT_SEARCH = (PlanOutcome.INVALID_START, PlanOutcome.INVALID_GOAL)
 
 
-def plan_under(plan: TaskPlan, before: PlanningSettings, after: PlanningSettings, *, limit_s: float) -> TaskPlan | None:
+def plan_under(
+    plan: TaskPlan, before: PlanningSettings, after: PlanningSettings, *, planned: Sequence[str], limit_s: float
+) -> TaskPlan | None:
     """The plan of a trial under other settings, as far as its planning limit lets it go.
 
     A search is a prefix of the same search with a larger budget, and depends on neither the charge of a check nor the
@@ -22,6 +26,7 @@ def plan_under(plan: TaskPlan, before: PlanningSettings, after: PlanningSettings
         plan: The plan that was made.
         before: The settings that it was made with.
         after: The other settings; they may differ in the charge, the search limit and the simplification limit alone.
+        planned: Names of the planned moves of the task.
         limit_s: The planning limit of the trial, at most the search limit of `after`.
 
     Returns:
@@ -31,8 +36,9 @@ def plan_under(plan: TaskPlan, before: PlanningSettings, after: PlanningSettings
     if {before.clock.kind, after.clock.kind} != {ClockKind.COUNTED}:
         return None
     budget = after.clock.checks_within(limit_s)
-    moves: dict[Phase, PlannedMove] = {}
-    for phase in PLANNED_PHASES:
+    moves: dict[str, PlannedMove] = {}
+    kinds = after.kinds(planned)
+    for phase in planned:
         move = plan.moves.get(phase)
         if move is None:
             break
@@ -42,11 +48,11 @@ def plan_under(plan: TaskPlan, before: PlanningSettings, after: PlanningSettings
             # Nothing comes after it; the plan itself tells what the limit makes of it.
             moves[phase] = move
             break
-        timed = _timed(move, before, after, is_searched=phase in after.searched)
+        timed = _timed(move, before, after, is_searched=kinds[phase] is MoveKind.PLANNED)
         if timed is None:
             return None
         moves[phase] = timed
-    return TaskPlan(moves=moves, lift_rad=plan.lift_rad, clock=after.clock)
+    return TaskPlan(moves=moves, direct=plan.direct, clock=after.clock)
 
 
 def _timed(

@@ -1,17 +1,15 @@
-"""The plan of a task: one configuration for each waypoint, one search for each of the five moves."""
+"""The plan of a task: one configuration for each waypoint, one search for each planned move."""
 
 from __future__ import annotations
 
 import hashlib
 import itertools
-from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from functools import lru_cache
 
 import numpy as np
 
-from rgss.evidence import PLANNED_PHASES, Phase, PlanOutcome
-from rgss.kinematics import choose_branches, inverse_kinematics, straight_line
+from rgss.evidence import PlanOutcome
+from rgss.kinematics import inverse_kinematics
 from rgss.motion import (
     PlannerSettings,
     PlanningProblem,
@@ -20,26 +18,17 @@ from rgss.motion import (
     plan,
     segment_states,
 )
-from rgss.scenes import Scene, Waypoint, waypoint_poses
-from rgss.trials.move_kinds import MoveKind
+from rgss.scenes import Scene
+from rgss.tasks import MoveKind, MoveStep
 from rgss.trials.planning.direct_moves import direct_move
-from rgss.trials.planning.goal_reasons import GoalReason, reason_against
 from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
 from rgss.trials.planning.planning_costs import state_cost
+from rgss.trials.planning.task_stops import goal_pose_of, stops_of
 from rgss.trials.reference import Array
+from rgss.trials.route import Leg
 from rgss.trials.settings import PlanningSettings
 from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell, cell_of
-
-_ENDS: Mapping[Phase, tuple[Waypoint, Waypoint]] = {
-    Phase.MOVE_TO_GRASP: (Waypoint.GRASP_APPROACH, Waypoint.GRASP),
-    Phase.LIFT: (Waypoint.GRASP, Waypoint.LIFT),
-    Phase.MOVE_TO_GRASP_DEPARTURE: (Waypoint.LIFT, Waypoint.GRASP_DEPARTURE),
-    Phase.MOVE_TO_PLACE_APPROACH: (Waypoint.GRASP_DEPARTURE, Waypoint.PLACE_APPROACH),
-    Phase.MOVE_TO_PLACE: (Waypoint.PLACE_APPROACH, Waypoint.PLACE),
-    Phase.MOVE_TO_GRASP_APPROACH: (Waypoint.PLACE, Waypoint.GRASP_APPROACH),
-}
-"""Where each move begins and ends."""
 
 
 def plan_task(
@@ -62,26 +51,28 @@ def plan_task(
         settings: Clock, limit, resolutions.
         past_failures: Whether the moves after one that finds no path are planned too, as planners are compared.
     """
-    scene, models = cell.scene, cell.planning
-    stops, lift, reasons = waypoint_configurations(cell)
+    stops = stops_of(cell)
     chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
-    moves: dict[Phase, PlannedMove] = {}
-    for phase, kind in zip(PLANNED_PHASES, settings.moves, strict=True):
-        start, goal = (stops.get(waypoint) for waypoint in _ENDS[phase])
+    kinds = settings.kinds(cell.task.planned)
+    moves: dict[str, PlannedMove] = {}
+    for leg in (leg for leg in cell.route.legs if leg.step.name in kinds):
+        phase, kind = leg.step.name, kinds[leg.step.name]
+        start, goal = stops.configurations.get(leg.start), stops.configurations.get(leg.goal)
         if start is None or goal is None:
             outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL
-            waypoint = _ENDS[phase][start is not None]
-            why = reasons.get(waypoint, "none leads to it from the waypoint before")
-            moves[phase] = _ill_posed(phase, outcome, f"no configuration serves {waypoint.value}: {why}")
+            index = leg.start if start is None else leg.goal
+            why = stops.reasons.get(index, "none leads to it from the waypoint before")
+            name = cell.route.stops[index].name
+            moves[phase] = _ill_posed(phase, outcome, f"no configuration serves {name}: {why}")
             break
         if kind is not MoveKind.PLANNED:
-            moves[phase] = _direct(phase, kind, start, goal, cell, settings)
+            moves[phase] = _direct(leg, kind, start, goal, cell, settings)
             if moves[phase].outcome is not PlanOutcome.SOLVED:
                 break
             continue
         result = plan(
-            _problem(scene, start, goal, settings),
-            models[phase],
+            _problem(cell.scene, start, goal, _settings_of(leg.step, settings)),
+            cell.planning[phase],
             chosen,
             seed=_move_seed(seed, phase),
             clock=settings.clock,
@@ -95,7 +86,7 @@ def plan_task(
         moves[phase] = _planned(phase, result, cell, settings)
         if result.outcome is not PlanOutcome.SOLVED and not past_failures:
             break
-    return TaskPlan(moves=moves, lift_rad=lift, clock=settings.clock)
+    return TaskPlan(moves=moves, direct=stops.direct, clock=settings.clock)
 
 
 def plan_of(spec: TrialSpec) -> TaskPlan:
@@ -110,64 +101,12 @@ def plan_of(spec: TrialSpec) -> TaskPlan:
     return plan_task(cell_of(spec), spec.planned_by, seed=spec.seed, settings=spec.settings.planning)
 
 
-@lru_cache(maxsize=4)
-def waypoint_configurations(
-    cell: Workcell,
-) -> tuple[Mapping[Waypoint, Array], Array | None, Mapping[Waypoint, GoalReason]]:
-    """One configuration for each waypoint: collision-free in every move that meets there, least travel.
-
-    They are the same for every planner and seed, and so worked out once for a workcell. Beside them are
-    the straight lift, and why waypoints that have no configuration have none.
-
-    Args:
-        cell: Scene, arm and collision models.
-    """
-    models = cell.planning
-    inverse = inverse_kinematics(cell.arm)
-    poses = waypoint_poses(cell.scene)
-    candidates: dict[Waypoint, list[Array]] = {}
-    for waypoint, pose in poses.items():
-        meeting = [models[phase] for phase, ends in _ENDS.items() if waypoint in ends]
-        candidates[waypoint] = [q for q in inverse.solve(pose) if all(model.is_valid(q) for model in meeting)]
-    reasons = unserved_waypoints(cell, (waypoint for waypoint, found in candidates.items() if not found))
-    # The task is planned up to the first unreachable waypoint.
-    order = list(itertools.takewhile(lambda waypoint: candidates[waypoint], poses))
-    legs = [(order.index(start), order.index(goal)) for start, goal in _ENDS.values() if {start, goal} <= {*order}]
-    if not legs:
-        return {waypoint: candidates[waypoint][0] for waypoint in order}, None, reasons
-    chosen = choose_branches([candidates[waypoint] for waypoint in order], legs=legs, home=cell.scene.robot.home_rad)
-    if chosen is None:
-        return {}, None, reasons
-    stops = dict(zip(order, chosen, strict=True))
-    if Waypoint.LIFT not in stops:
-        return stops, None, reasons
-    lift = straight_line(inverse, stops[Waypoint.GRASP], poses[Waypoint.LIFT])
-    if lift is None or not all(models[Phase.LIFT].is_valid(q) for q in lift):
-        del stops[Waypoint.LIFT]
-        return stops, None, reasons
-    stops[Waypoint.LIFT] = lift[-1]
-    lift.setflags(write=False)
-    return stops, lift, reasons
-
-
-def unserved_waypoints(cell: Workcell, among: Iterable[Waypoint] = tuple(Waypoint)) -> dict[Waypoint, GoalReason]:
-    """Why waypoints have no configuration that is valid in every move that meets there.
-
-    Args:
-        cell: Scene, arm and collision models.
-        among: The waypoints that are looked at.
-
-    Returns:
-        The reason of each that has none, in the task's order.
-    """
-    inverse, poses, wanted = inverse_kinematics(cell.arm), waypoint_poses(cell.scene), set(among)
-    found = {}
-    for waypoint in (one for one in poses if one in wanted):
-        meeting = [cell.planning[phase] for phase, ends in _ENDS.items() if waypoint in ends]
-        reached = inverse.solve(poses[waypoint])
-        if not any(all(model.is_valid(q) for model in meeting) for q in reached):
-            found[waypoint] = reason_against(inverse, meeting, poses[waypoint], reached)
-    return found
+def _settings_of(step: MoveStep, settings: PlanningSettings) -> PlanningSettings:
+    """The settings with the resolution of the step, where it has its own."""
+    if step.resolution_rad is None:
+        return settings
+    verification_rad = min(step.resolution_rad, settings.verified_every_rad)
+    return replace(settings, resolution_rad=step.resolution_rad, verification_resolution_rad=verification_rad)
 
 
 def _problem(scene: Scene, start: Array, goal: Array, settings: PlanningSettings) -> PlanningProblem:
@@ -181,7 +120,7 @@ def _problem(scene: Scene, start: Array, goal: Array, settings: PlanningSettings
     )
 
 
-def _planned(phase: Phase, result: PlanResult, cell: Workcell, settings: PlanningSettings) -> PlannedMove:
+def _planned(phase: str, result: PlanResult, cell: Workcell, settings: PlanningSettings) -> PlannedMove:
     path = None if result.path is None else result.path.points_rad
     return PlannedMove(
         phase=phase,
@@ -207,23 +146,23 @@ def _unverified_detail(result: PlanResult, settings: PlanningSettings) -> str:
 
 
 def _direct(
-    phase: Phase, kind: MoveKind, start: Array, goal: Array, cell: Workcell, settings: PlanningSettings
+    leg: Leg, kind: MoveKind, start: Array, goal: Array, cell: Workcell, settings: PlanningSettings
 ) -> PlannedMove:
     """A move without a search, in the place of a planned one."""
     found = direct_move(
         kind,
         start,
         goal,
-        waypoint_poses(cell.scene)[_ENDS[phase][1]],
+        goal_pose_of(cell, cell.route.stops[leg.goal]),
         inverse=inverse_kinematics(cell.arm),
-        model=cell.planning[phase],
+        model=cell.planning[leg.step.name],
         clock=settings.clock,
-        resolution_rad=settings.resolution_rad,
+        resolution_rad=_settings_of(leg.step, settings).resolution_rad,
         limit_s=settings.search_limit_s,
     )
     path = found.path_rad
     length_m = None if path is None else _tool_path_length(cell, path, settings.resolution_rad)
-    move = replace(_ill_posed(phase, found.outcome, found.detail), checks=found.checks, time_s=found.time_s)
+    move = replace(_ill_posed(leg.step.name, found.outcome, found.detail), checks=found.checks, time_s=found.time_s)
     return replace(move, search_time_s=found.time_s, path_rad=path, path_length_m=length_m)
 
 
@@ -235,7 +174,7 @@ def _tool_path_length(cell: Workcell, path: Array, resolution_rad: float) -> flo
     return path_length(cell.arm.tool_position(np.vstack(states)))
 
 
-def _ill_posed(phase: Phase, outcome: PlanOutcome, detail: str) -> PlannedMove:
+def _ill_posed(phase: str, outcome: PlanOutcome, detail: str) -> PlannedMove:
     return PlannedMove(
         phase=phase,
         outcome=outcome,
@@ -249,6 +188,6 @@ def _ill_posed(phase: Phase, outcome: PlanOutcome, detail: str) -> PlannedMove:
     )
 
 
-def _move_seed(seed: int, phase: Phase) -> int:
+def _move_seed(seed: int, phase: str) -> int:
     """A seed of its own for each move: 31 bits of a hash, since the planner's seed is a C unsigned long."""
-    return int.from_bytes(hashlib.sha256(f"{seed}:{phase.value}".encode()).digest()[:4], "big") >> 1 or 1
+    return int.from_bytes(hashlib.sha256(f"{seed}:{phase}".encode()).digest()[:4], "big") >> 1 or 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from rgss.evidence import Phase, PlanOutcome
+from rgss.evidence import PlanOutcome
 from rgss.motion import ClockKind, PlanningClock
 from rgss.trials.reference import Array
 
@@ -30,7 +30,7 @@ class PlannedMove:
             result; None if its own did.
     """
 
-    phase: Phase
+    phase: str
     outcome: PlanOutcome
     checks: int
     simplification_checks: int
@@ -46,19 +46,19 @@ class PlannedMove:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaskPlan:
-    """The five planned moves and the straight lift.
+    """The planned moves of a task, and those that are straight lines by definition.
 
     Attributes:
         moves: The planned moves; those after a problem that is ill posed are missing.
-        lift_rad: Configurations (k, n) of the straight lift; None if there is none.
+        direct: Configurations (k, n) of each move that is a straight line by definition; None if there is none.
         clock: The clock that the searches were counted by.
     """
 
-    moves: Mapping[Phase, PlannedMove]
-    lift_rad: Array | None
+    moves: Mapping[str, PlannedMove]
+    direct: Mapping[str, Array | None]
     clock: PlanningClock
 
-    def move_within(self, phase: Phase, limit_s: float) -> PlannedMove:
+    def move_within(self, phase: str, limit_s: float) -> PlannedMove:
         """A move's planning as it would have been under a limit.
 
         A search is a prefix of the same search with a longer limit, so the limit is read off it.

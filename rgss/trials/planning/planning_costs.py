@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from rgss.evidence import Phase
 from rgss.kinematics import ArmDynamics
 from rgss.motion import Objective, StateCost
 from rgss.scenes import Scene
@@ -13,7 +12,7 @@ from rgss.trials.workcell import Workcell
 _LEAST_CLEARANCE_M = 0.001
 
 
-def state_cost(cell: Workcell, phase: Phase, objective: Objective | None) -> StateCost | None:
+def state_cost(cell: Workcell, phase: str, objective: Objective | None) -> StateCost | None:
     """The cost of a state in a move, of which the objective takes the increases along a path.
 
     With d the distance from what moves to what stands, of at least 1 mm, it is 1/d in 1/m for `Objective.CLEARANCE`.

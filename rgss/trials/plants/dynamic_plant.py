@@ -12,13 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rgss.evidence import Failure, Metric, Phase
+from rgss.evidence import Failure, Metric
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
-from rgss.scenes import Gripper, Scene, Workpiece, grasp_opening_m
+from rgss.scenes import Gripper, Pose, Scene, Workpiece, grasp_opening_m
+from rgss.tasks import CheckStep, TaskProgram, default_task
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
+from rgss.trials.plants.grip_sequence import GripSequence
 from rgss.trials.plants.joint_controller import JointController, control_law
 from rgss.trials.reference import Array, Reference
 
@@ -38,6 +40,7 @@ class DynamicPlant:
         controller: JointController | None = None,
         believed: Workpiece | None = None,
         checkpoint: Callable[[], None] | None = None,
+        task: TaskProgram | None = None,
     ) -> None:
         """Prepare the plant.
 
@@ -51,6 +54,7 @@ class DynamicPlant:
             controller: Mode and gains; computed torque by default.
             believed: The object as the controller's model has it; that of the scene by default.
             checkpoint: Called before each step; it may wait, or end the task by raising.
+            task: The task, which says what is gripped when; the packaged one if None.
         """
         self._machine = machine
         self._arm = arm
@@ -63,15 +67,11 @@ class DynamicPlant:
         self._checkpoint = checkpoint
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
-        empty, loaded = (
-            gripper_loads(gripper, opening_m),
-            gripper_loads(gripper, grasp_opening_m(scene, gripper.geometry)),
-        )
-        self._held = None if scene.grasp_in_object is None else scene.grasp_in_object.inverse()
-        centre = gripper.geometry.grasp_centre if self._held is None else gripper.geometry.grasp_centre @ self._held
-        held = workpiece_load(scene.workpiece if believed is None else believed, centre)
+        self._believed = scene.workpiece if believed is None else believed
+        self._grips = GripSequence(task or default_task(), scene, gripper.geometry)
+        empty = gripper_loads(gripper, opening_m)
         self._empty = ArmDynamics(scene.robot, empty, gravity_m_s2=scene.gravity_m_s2)
-        self._loaded = ArmDynamics(scene.robot, (*loaded, held), gravity_m_s2=scene.gravity_m_s2)
+        self._loaded: dict[str, ArmDynamics] = {}
         self._model = self._empty
         self._at_rad: Array = np.zeros(len(scene.robot.joints))
 
@@ -80,7 +80,7 @@ class DynamicPlant:
         self._at_rad = np.array(configuration_rad)
         self._machine.reset(configuration_rad, 0.0)
 
-    def move(self, phase: Phase, reference: Reference) -> PhaseResult:
+    def move(self, phase: str, reference: Reference) -> PhaseResult:
         """Follow the targets until the end is reached."""
         log = self._log()
         target = reference.positions_rad
@@ -99,23 +99,46 @@ class DynamicPlant:
             failure, detail = Failure.TRACKING_ERROR, log.arm.tracking_failure(tool["tracking_error_m"])
         return self._result(phase, log, failure, detail, {})
 
-    def grasp(self) -> PhaseResult:
+    def grasp(self, phase: str | None = None) -> PhaseResult:
         """Close: the arm holds still for the fingers' travel and the time of a firm grasp."""
-        result = self._wait(Phase.GRASP, self._finger_time_s() + self._control.firm_grasp_s, {})
-        self._machine.hold_fingers(self._finger_travel_m())
-        self._machine.attach(self._scene.workpiece, self._held)
-        self._model = self._loaded
+        name = phase or self._grips.first_grip
+        result = self._wait(name, self._finger_time_s(name) + self._control.firm_grasp_s, {})
+        self._machine.hold_fingers(self._grips.travel_m(name))
+        view = self._grips.view_of(name)
+        self._machine.attach(view.workpiece, _held_at(view))
+        self._model = self._loaded_with(view)
         return result
 
-    def place(self) -> PhaseResult:
+    def place(self, phase: str | None = None) -> PhaseResult:
         """Open: the arm holds still for the fingers' travel."""
+        name = phase or self._grips.first_release
         self._machine.detach()
         self._machine.hold_fingers(0.0)
         self._model = self._empty
-        opening_s = self._finger_time_s()
-        return self._wait(Phase.PLACE, opening_s, {"opening_s": opening_s})
+        opening_s = self._finger_time_s(name)
+        return self._wait(name, opening_s, {"opening_s": opening_s})
 
-    def _wait(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
+    def wait(self, phase: str, duration_s: float) -> PhaseResult:
+        """Hold the configuration with what is held."""
+        return self._wait(phase, duration_s, {})
+
+    def check(self, step: CheckStep) -> PhaseResult:
+        """Take the conditions for granted: nothing is known of objects that are not held."""
+        return self._result(step.name, self._log(), None, "", {})
+
+    def _loaded_with(self, view: Scene) -> ArmDynamics:
+        """Dynamics of the arm as the controller knows them with the object of a scene in the hand."""
+        workpiece = view.workpiece
+        if workpiece.id not in self._loaded:
+            gripper = self._gripper
+            known = self._believed if workpiece.id == self._believed.id else workpiece
+            loads, at = gripper_loads(gripper, grasp_opening_m(view, gripper.geometry)), _held_at(view)
+            centre = gripper.geometry.grasp_centre
+            held = workpiece_load(known, centre if at is None else centre @ at)
+            self._loaded[workpiece.id] = ArmDynamics(view.robot, (*loads, held), gravity_m_s2=view.gravity_m_s2)
+        return self._loaded[workpiece.id]
+
+    def _wait(self, phase: str, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
         log = self._log()
         still = np.zeros(len(self._at_rad))
         for _ in range(math.ceil(duration_s / self._step_s)):
@@ -126,7 +149,7 @@ class DynamicPlant:
         return _Log(arm=ArmObservations(self._scene.robot.joints, self._step_s))
 
     def _result(
-        self, phase: Phase, log: _Log, failure: Failure | None, detail: str, metrics: dict[str, Metric]
+        self, phase: str, log: _Log, failure: Failure | None, detail: str, metrics: dict[str, Metric]
     ) -> PhaseResult:
         observed = log.arm.metrics() if log.steps else {}
         return PhaseResult(
@@ -158,12 +181,13 @@ class DynamicPlant:
             self._drive(self._at_rad, still, still, log)
         return False
 
-    def _finger_time_s(self) -> float:
-        return self._finger_travel_m() / self._gripper.finger_velocity_m_s
+    def _finger_time_s(self, phase: str) -> float:
+        return self._grips.travel_m(phase) / self._gripper.finger_velocity_m_s
 
-    def _finger_travel_m(self) -> float:
-        geometry = self._gripper.geometry
-        return min(geometry.stroke_m, geometry.largest_opening_m - grasp_opening_m(self._scene, geometry))
+
+def _held_at(view: Scene) -> Pose | None:
+    """Transform of the held object to the grasp centre; None for a cylinder that is held down its axis."""
+    return None if view.grasp_in_object is None else view.grasp_in_object.inverse()
 
 
 @dataclass(slots=True)

@@ -13,11 +13,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from rgss.evidence import Metric, Phase
+from rgss.evidence import Metric
 from rgss.scenes import Gripper, Joint
+from rgss.tasks import CheckStep
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
+from rgss.trials.plants.grip_sequence import GripSequence
 from rgss.trials.plants.joint_motion import speed_metrics
 from rgss.trials.reference import Array, Reference, ToolPositions
 
@@ -48,7 +50,7 @@ class KinematicPlant:
         tool: ToolPositions,
         joints: Sequence[Joint],
         gripper: Gripper,
-        opening_m: float,
+        grips: GripSequence,
         control: ControlSettings,
         *,
         step_s: float,
@@ -60,7 +62,7 @@ class KinematicPlant:
             tool: Kinematics of the tool.
             joints: The arm's joints with their limits.
             gripper: The hand; its fingers move at their velocity.
-            opening_m: Distance of the pads from the gripper's axis where they hold the object.
+            grips: What the hand grips in which step, and how far it opens round it.
             control: Thresholds of the task program.
             step_s: Time between two targets.
             response: How the joints follow.
@@ -68,7 +70,7 @@ class KinematicPlant:
         self._tool = tool
         self._joints = joints
         self._gripper = gripper
-        self._opening_m = opening_m
+        self._grips = grips
         self._control = control
         self._step_s = step_s
         self._response = response or JointResponse()
@@ -76,7 +78,7 @@ class KinematicPlant:
     def start(self, configuration_rad: Sequence[float]) -> None:
         """Stand at a configuration; the model has no state between moves, as each ends at rest."""
 
-    def move(self, phase: Phase, reference: Reference) -> PhaseResult:
+    def move(self, phase: str, reference: Reference) -> PhaseResult:
         """Follow the targets with the joints' response and wait until the end is reached."""
         deviation = self._deviation(reference.positions_rad)
         held = np.vstack([reference.positions_rad, np.repeat(reference.positions_rad[-1:], len(deviation), axis=0)])
@@ -95,19 +97,27 @@ class KinematicPlant:
             },
         )
 
-    def grasp(self) -> PhaseResult:
+    def grasp(self, phase: str | None = None) -> PhaseResult:
         """Close: the travel at the finger velocity, then the time for which a grasp must be firm."""
-        return self._result(Phase.GRASP, self._finger_time_s() + self._control.firm_grasp_s, {})
+        name = phase or self._grips.first_grip
+        return self._result(name, self._finger_time_s(name) + self._control.firm_grasp_s, {})
 
-    def place(self) -> PhaseResult:
+    def place(self, phase: str | None = None) -> PhaseResult:
         """Open: the same travel back."""
-        opening_s = self._finger_time_s()
-        return self._result(Phase.PLACE, opening_s, {"opening_s": opening_s})
+        name = phase or self._grips.first_release
+        opening_s = self._finger_time_s(name)
+        return self._result(name, opening_s, {"opening_s": opening_s})
 
-    def _finger_time_s(self) -> float:
-        geometry = self._gripper.geometry
-        travel_m = min(geometry.stroke_m, geometry.largest_opening_m - self._opening_m)
-        return travel_m / self._gripper.finger_velocity_m_s
+    def wait(self, phase: str, duration_s: float) -> PhaseResult:
+        """Hold the configuration."""
+        return self._result(phase, duration_s, {})
+
+    def check(self, step: CheckStep) -> PhaseResult:
+        """Take the conditions for granted: nothing is known of objects."""
+        return self._result(step.name, 0.0, {})
+
+    def _finger_time_s(self, phase: str) -> float:
+        return self._grips.travel_m(phase) / self._gripper.finger_velocity_m_s
 
     def _deviation(self, positions_rad: Array) -> Array:
         """Deviation (m, n) of the joints from their targets at each step, until the end is reached.
@@ -129,7 +139,7 @@ class KinematicPlant:
         end = int(np.argmax(reached)) if reached.any() else len(reached) - 1
         return rows[: last + end + 1]
 
-    def _result(self, phase: Phase, duration_s: float, metrics: Mapping[str, Metric]) -> PhaseResult:
+    def _result(self, phase: str, duration_s: float, metrics: Mapping[str, Metric]) -> PhaseResult:
         return PhaseResult(phase=phase, failure=None, detail="", duration_s=duration_s, metrics=metrics)
 
 

@@ -11,7 +11,8 @@ from PIL import Image
 
 from rgss.cli.main import main
 from rgss.cli.pictures.options import captioned, made_pictures
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
+from tests.fixtures.eight_states import Phase
 
 REPOSITORY = Path(__file__).parents[3]
 RUN = ["run", "65", "--seed", "1", "--project", str(REPOSITORY), "--study", "studies/nominal_world.yaml"]

@@ -16,8 +16,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from rgss.errors import EvidenceError
-from rgss.evidence import Fidelity, Phase, record_digest, record_from_json, record_to_json, trial_key
+from rgss.evidence import Fidelity, record_digest, record_from_json, record_to_json, trial_key
 from rgss.evidence.records.codec import read_json
+from tests.fixtures.eight_states import Phase
 
 
 @given(data=st.data())

@@ -13,7 +13,6 @@ from rgss.errors import EvidenceError
 from rgss.evidence import (
     EvidenceStore,
     Failure,
-    Phase,
     PhaseOutcome,
     PhaseRecord,
     PlanningRecord,
@@ -24,6 +23,7 @@ from rgss.evidence import (
 )
 from rgss.evidence.store.exporting import export_trials, require_exportable
 from rgss.evidence.store.trial_table import trial_frame
+from tests.fixtures.eight_states import Phase
 
 AWKWARD = (0.1 + 0.2, 1e-308, 5e-324, 1.7976931348623157e308, -0.0, 1 / 3, 2**53, -123456789.123456789)
 

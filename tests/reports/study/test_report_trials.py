@@ -6,8 +6,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from rgss.evidence import Failure, Phase, PhaseOutcome
+from rgss.evidence import Failure, PhaseOutcome
 from rgss.reports.study.trials import notable_trials
+from tests.fixtures.eight_states import Phase
 
 
 def trial(variant, seed, failure=None, ended=8):

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.reports.trials.filmstrip import filmstrip, write_filmstrip
+from tests.fixtures.eight_states import Phase
 
 WIDTH, HEIGHT = 200, 150
 PHASES = list(Phase)

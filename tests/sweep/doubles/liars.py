@@ -15,10 +15,11 @@ from pathlib import Path
 
 import worker_doubles
 
-from rgss.evidence import Phase, Piece, PieceKind, TrialRecord
+from rgss.evidence import Piece, PieceKind, TrialRecord
 from rgss.sweep.worker_process import Answer
 from rgss.sweep.worker_wire import frame
 from rgss.trials.pieces.pieces import Task, TrialTask
+from tests.fixtures.eight_states import Phase
 
 _MARK = frame(b"")[:8]
 

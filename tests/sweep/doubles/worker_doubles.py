@@ -12,7 +12,7 @@ import threading
 from pathlib import Path
 
 from rgss.errors import SimulationError
-from rgss.evidence import Phase, Piece, PieceKind, PlanOutcome, TrialRecord
+from rgss.evidence import Piece, PieceKind, PlanOutcome, TrialRecord
 from rgss.motion import PlanningClock
 from rgss.trials.payload_bench.bench import PayloadResult
 from rgss.trials.payload_bench.rig import PayloadLimit
@@ -24,6 +24,7 @@ from rgss.trials.pieces.plan_json import plan_to_json
 from rgss.trials.pieces.timing_json import timing_to_json
 from rgss.trials.planning import PlannedMove, TaskPlan
 from rgss.trials.timing import TaskTiming
+from tests.fixtures.eight_states import Phase
 
 FOLDER = "WORKER_DOUBLES_FOLDER"
 """Names the folder in which workers leave their marks."""
@@ -53,7 +54,7 @@ def quick(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
         path_length_m=None,
     )
     text = {
-        PieceKind.PLAN: lambda: plan_to_json(TaskPlan(moves={move.phase: move}, lift_rad=None, clock=clock)),
+        PieceKind.PLAN: lambda: plan_to_json(TaskPlan(moves={move.phase: move}, direct={}, clock=clock)),
         PieceKind.TIMING: lambda: timing_to_json(TaskTiming(trajectories={}, failures={}, qualities={})),
         PieceKind.EXECUTION: lambda: execution_to_json(()),
         PieceKind.BENCH: lambda: bench_to_json(

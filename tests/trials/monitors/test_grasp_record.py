@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.trials.metrics import CARRY_METRICS, GRASP_METRICS, METRICS, Aggregation, Direction
 from rgss.trials.monitors.grasp_record import worst_of
 from rgss.trials.pieces.run import run_trial
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 
@@ -20,12 +21,12 @@ CARRIED = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROA
 
 
 def phase_metrics(record, phase):
-    (found,) = (entry.metrics for entry in record.phases if entry.phase is phase)
+    (found,) = (entry.metrics for entry in record.phases if entry.phase == phase)
     return found
 
 
 def duration_s(record, phase):
-    (found,) = (entry.duration_s for entry in record.phases if entry.phase is phase)
+    (found,) = (entry.duration_s for entry in record.phases if entry.phase == phase)
     return found
 
 
@@ -139,7 +140,7 @@ def test_a_cup_that_slips_is_seen_to_slip(spec_of):
     record = run_trial(spec)
     lift = phase_metrics(record, Phase.LIFT)
 
-    assert record.failed_phase is Phase.LIFT
+    assert record.failed_phase == Phase.LIFT
     assert lift["contacts_slipping"] == lift["grasp_contact_count"] > 0
     assert lift["contacts_rolling"] == 0
     # It slides down in the hand: a contact's slip is the object's speed in the hand, give or take its turning.

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from rgss.evidence import Failure, Phase
+from rgss.evidence import Failure
 from rgss.kinematics import Arm, inverse_kinematics
 from rgss.physics import Contacts, FingerContact, PhysicsSettings, World
 from rgss.scenes import FORCE_WINDOW_S, LANDING_LIMIT_M_S, Pose
@@ -21,6 +21,7 @@ from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import workcell_of
+from tests.fixtures.eight_states import Phase
 
 CONTROL = ControlSettings()
 
@@ -220,7 +221,7 @@ def test_a_finger_that_drags_the_object_while_the_hand_opens_ends_the_trial(run_
 def test_what_may_be_dragged_while_the_hand_opens_is_the_scene_s(run_with_return):
     """And then the object is still in its place region: nothing else would have found it out."""
     result = run_with_return(0.0, opening_m=there_and_back(0.02, steps=72), largest_drag_m=0.1)
-    assert result.phase is Phase.MOVE_TO_GRASP_APPROACH
+    assert result.phase == Phase.MOVE_TO_GRASP_APPROACH
     assert result.failure is None
     assert 1e-3 < result.metrics["place_error_m"] < 0.04
 
@@ -228,7 +229,7 @@ def test_what_may_be_dragged_while_the_hand_opens_is_the_scene_s(run_with_return
 @pytest.mark.engine
 def test_an_arm_that_strays_without_touching_drags_nothing(run_with_return):
     result = run_with_return(0.0, opening_m=[0.0] * 24 + there_and_back(0.002, steps=72))
-    assert result.phase is Phase.MOVE_TO_GRASP_APPROACH
+    assert result.phase == Phase.MOVE_TO_GRASP_APPROACH
     assert result.failure is None
 
 

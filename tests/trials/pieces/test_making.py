@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import EvidenceError, MotionError
-from rgss.evidence import Failure, Fidelity, Phase, Piece, PieceKind, record_digest
+from rgss.evidence import Failure, Fidelity, Piece, PieceKind, record_digest
 from rgss.motion import PlannerSettings, PlanningClock
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.executing import execution_of
@@ -26,6 +26,7 @@ from rgss.trials.planning import TaskPlan, plan_of, plan_task
 from rgss.trials.record import assemble_record
 from rgss.trials.timing import time_task, timing_of
 from rgss.trials.workcell import workcell_of
+from tests.fixtures.eight_states import Phase
 
 AWKWARD = [0.1, -0.0, 5e-324, 1.7976931348623157e308, 1 / 3, -1e-9, 0.1 + 0.2]
 
@@ -93,7 +94,7 @@ def test_a_plan_and_a_timing_are_read_back_bit_for_bit(spec_of, made):
     for phase, move in plan.moves.items():
         assert bits(read.moves[phase].path_rad) == bits(move.path_rad)
         assert replace(read.moves[phase], path_rad=None) == replace(move, path_rad=None)
-    assert bits(read.lift_rad) == bits(plan.lift_rad)
+    assert bits(read.direct["lift"]) == bits(plan.direct["lift"])
     assert read.clock == plan.clock
     assert list(timed.trajectories) == list(timing.trajectories)
     assert len(timed.trajectories) == 6
@@ -217,7 +218,11 @@ def changed(text: str, change) -> str:
         (PieceKind.PLAN, lambda plan: plan["moves"].append(plan["moves"][0]), "two moves of one phase"),
         (PieceKind.PLAN, lambda plan: plan["moves"][0].update(path_rad=None), "a path where there is none"),
         (PieceKind.PLAN, lambda plan: plan["moves"][0].update(outcome="budget_spent"), "a path where there is none"),
-        (PieceKind.PLAN, lambda plan: plan["lift_rad"].update(shape=[2, 3, 4]), r"a path cannot have the shape \(2, 3"),
+        (
+            PieceKind.PLAN,
+            lambda plan: plan["direct"][0]["path_rad"].update(shape=[2, 3, 4]),
+            r"a path cannot have the shape \(2, 3",
+        ),
         (PieceKind.PLAN, lambda plan: plan["moves"][0].update(checks="1"), "checks"),
         (PieceKind.PLAN, lambda plan: plan.pop("clock"), "lacks 'clock'"),
         (PieceKind.TIMING, lambda timing: timing["motions"].append(timing["motions"][0]), "two entries of one phase"),
@@ -231,7 +236,7 @@ def changed(text: str, change) -> str:
             lambda timing: timing["motions"][1].update(curved=[]),
             "the motion of lift has arrays that do not belong together",
         ),
-        (PieceKind.EXECUTION, lambda execution: execution["phases"][0].update(phase="lunch"), "phase"),
+        (PieceKind.EXECUTION, lambda execution: execution["phases"][0].update(phase=1), "phase"),
         (PieceKind.EXECUTION, lambda execution: execution.update(more=1), "unknown 'more'"),
         (PieceKind.BENCH, lambda bench: bench.update(bracket_kg=[1.0]), "no bracket of two masses"),
         (PieceKind.BENCH, lambda bench: bench["probes"][0].update(stopped_by="magic"), "stopped_by"),
@@ -250,6 +255,6 @@ def test_a_damaged_piece_is_refused(made, kind, change, problem):
 
 
 def test_a_plan_without_moves_is_a_plan():
-    plan = TaskPlan(moves={}, lift_rad=None, clock=PlanningClock(charge_s=0.5))
+    plan = TaskPlan(moves={}, direct={}, clock=PlanningClock(charge_s=0.5))
 
     assert plan_from_json(plan_to_json(plan)) == plan

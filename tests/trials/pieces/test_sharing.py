@@ -10,12 +10,13 @@ from itertools import groupby
 import pytest
 
 from rgss.errors import DefinitionError
-from rgss.evidence import PLANNED_PHASES, Failure, Phase, PhaseOutcome, record_digest
+from rgss.evidence import Failure, PhaseOutcome, record_digest
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.pieces.run import Pieces, run_trial
 from rgss.trials.planning import plan_task
 from rgss.trials.workcell import Workcell
+from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 
 pytestmark = pytest.mark.engine
 
@@ -26,6 +27,7 @@ from rgss.evidence import record_digest
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.trials.pieces.run import run_trial
+from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 project = load_project(Path(sys.argv[1]))
 for variant in map(int, sys.argv[2:]):
     (spec,) = trial_specs(project, variants=[project.designs.variant(variant)], seeds=[project.study.seed])

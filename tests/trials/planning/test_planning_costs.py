@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.evidence import PLANNED_PHASES, PlanOutcome
+from rgss.evidence import PlanOutcome
 from rgss.motion import Objective, OnUnverified, PlannerSettings, available_planners
 from rgss.trials.code import versions
 from rgss.trials.pieces import digests_of, plan_from_json
 from rgss.trials.pieces.plan_json import plan_to_json
 from rgss.trials.planning import plan_of, searches_of, state_cost
 from rgss.trials.workcell import cell_of
+from tests.fixtures.eight_states import PLANNED_PHASES
 
 pytestmark = pytest.mark.engine
 

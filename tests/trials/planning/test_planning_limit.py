@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import PLANNED_PHASES, PlanOutcome
+from rgss.evidence import PlanOutcome
 from rgss.motion import ClockKind, PlanningClock
 from rgss.studies.expansion import trial_specs
 from rgss.trials.planning import plan_task
 from rgss.trials.workcell import Workcell, workcell_of
+from tests.fixtures.eight_states import PLANNED_PHASES
 
 pytestmark = [pytest.mark.engine, pytest.mark.slow]
 

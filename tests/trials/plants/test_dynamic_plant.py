@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rgss.evidence import Failure, Fidelity, Phase, PhaseOutcome
+from rgss.evidence import Failure, Fidelity, PhaseOutcome
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.trials.executing import execute
@@ -20,6 +20,7 @@ from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference, reference_of
 from rgss.trials.timing import time_task
 from rgss.trials.workcell import Workcell
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 
@@ -270,7 +271,7 @@ def test_the_object_weighs_on_the_joints_from_the_grasp_to_the_release(planned):
 def test_the_hand_takes_the_time_of_the_fingers_travel(planned, dynamic):
     control, gripper = planned.spec.settings.control, planned.spec.gripper
     travel_s = (gripper.geometry.largest_opening_m - planned.spec.scene.workpiece.shape.radius_m) / 0.04
-    grasp, place = (next(p for p in dynamic.phases if p.phase is phase) for phase in (Phase.GRASP, Phase.PLACE))
+    grasp, place = (next(p for p in dynamic.phases if p.phase == phase) for phase in (Phase.GRASP, Phase.PLACE))
     assert grasp.duration_s == pytest.approx(travel_s + control.firm_grasp_s, abs=1 / 240 + 1e-9)
     assert place.metrics["opening_s"] == pytest.approx(travel_s)
     assert place.duration_s == pytest.approx(travel_s, abs=1 / 240 + 1e-9)

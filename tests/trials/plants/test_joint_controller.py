@@ -7,13 +7,13 @@ import math
 import numpy as np
 import pytest
 
-from rgss.evidence import Phase
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.trials import ControlMode, ControlSettings, JointController, JointGains, least_stable_rate_hz
 from rgss.trials.plants import DynamicPlant
 from rgss.trials.plants.joint_controller import control_law
 from rgss.trials.reference import Reference
 from rgss.trials.workcell import cell_of
+from tests.fixtures.eight_states import Phase
 
 RATE_HZ = 2000.0
 OFFSET_RAD = 0.02

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.kinematics.description import build_model, transform
 from rgss.scenes import Joint
 from rgss.trials.executing import execute
@@ -17,6 +17,7 @@ from rgss.trials.plants.arm_observations import governing_joint
 from rgss.trials.plants.joint_motion import JointMotion
 from rgss.trials.timing import timing_of
 from rgss.trials.workcell import cell_of
+from tests.fixtures.eight_states import Phase
 
 
 def joint(name, torque, speed):
@@ -95,7 +96,7 @@ def test_the_work_of_a_contact_trial_is_that_of_its_recorded_torques(spec_of):
         speeds = np.abs(np.array(recorder.states[result.phase])[:, 1]).max(axis=0) / recorder.speed_limits
         assert result.metrics["peak_joint_speed_ratio"] == pytest.approx(speeds.max())
         assert result.metrics["fastest_joint"] == 1 + int(speeds.argmax())
-    moving = next(one for one in results if one.phase is Phase.MOVE_TO_PLACE_APPROACH)
+    moving = next(one for one in results if one.phase == Phase.MOVE_TO_PLACE_APPROACH)
     assert moving.metrics["joint_work_j"] > 10.0 * abs(moving.metrics["joint_net_work_j"]) > 0.0
 
 
@@ -134,7 +135,7 @@ def test_the_net_work_of_a_lift_from_rest_to_rest_is_the_potential_energy_gained
 
     results = execute(spec, cell_of(spec), timing)
 
-    found = next(one for one in results if one.phase is Phase.LIFT).metrics
+    found = next(one for one in results if one.phase == Phase.LIFT).metrics
     gained = potential_energy_j(spec, end) - potential_energy_j(spec, start)
     assert gained > 1.0
     assert found["joint_net_work_j"] == pytest.approx(gained, rel=0.01)

@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.scenes import Joint, load_gripper
 from rgss.scenes.gripper import Gripper
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.plants.kinematic_plant import JointResponse, KinematicPlant
 from rgss.trials.reference import Reference
+from tests.fixtures.eight_states import Phase
 
 ROOT = Path(__file__).parents[3]
 STEP_S = 1.0 / 240.0
@@ -78,12 +79,25 @@ def gripper_with(**changes):
     return Gripper(**(values | changes))
 
 
+class Grips:
+    """One object, round which the hand opens to a radius."""
+
+    first_grip, first_release = "grasp", "place"
+
+    def __init__(self, gripper, radius_m):
+        self.gripper, self.radius_m = gripper, radius_m
+
+    def travel_m(self, phase):
+        geometry = self.gripper.geometry
+        return min(geometry.stroke_m, geometry.largest_opening_m - self.radius_m)
+
+
 def plant_with(tool=None, *, step_s=STEP_S, response=None, radius_m=0.035, control=None, **gripper):
     return KinematicPlant(
         tool or Tool(),
         JOINTS,
         gripper_with(**gripper),
-        radius_m,
+        Grips(gripper_with(**gripper), radius_m),
         control or ControlSettings(),
         step_s=step_s,
         response=response,

@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rgss.evidence import Failure, Fidelity, Phase
+from rgss.evidence import Failure, Fidelity
 from rgss.trials import TimingProfile, TimingSettings
 from rgss.trials.executing import execute
 from rgss.trials.pieces.timing_json import timing_from_json, timing_to_json
 from rgss.trials.planning import plan_task
 from rgss.trials.timing import time_task, timing_of
 from rgss.trials.workcell import cell_of
+from tests.fixtures.eight_states import Phase
 
 pytestmark = pytest.mark.engine
 
@@ -50,7 +51,7 @@ def test_planned_moves_rest_at_their_waypoints_and_the_lift_does_not(spec, plan)
     assert not timing.failures
     for phase, trajectory in timing.trajectories.items():
         rests = trajectory.path(trajectory.parameters[trajectory.rates == 0.0])
-        if phase is Phase.LIFT:
+        if phase == Phase.LIFT:
             assert len(trajectory.rates) <= 4
         else:
             for waypoint in plan.moves[phase].path_rad:

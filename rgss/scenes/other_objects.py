@@ -1,0 +1,140 @@
+"""Objects beside the workpiece, and places that belong to no object: their entries and what is wrong with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from rgss.documents import Document
+from rgss.findings import Finding
+from rgss.scenes.document import PlaceRegionEntry, SceneDocument
+from rgss.scenes.findings import Location
+from rgss.scenes.object_file import ObjectSolid, object_lengths, object_solid, workpiece_of
+from rgss.scenes.scene import ColourRgba, NamedPlace, PlaceRegion, SceneObject
+
+
+def region_of(entry: PlaceRegionEntry, tops_m: Mapping[str, float]) -> PlaceRegion:
+    """The place region of an entry.
+
+    Args:
+        entry: The entry.
+        tops_m: Height of the top of each body.
+    """
+    return PlaceRegion(
+        centre_m=(*entry.at, tops_m[entry.stands_on]),
+        radius_m=entry.radius,
+        largest_tilt_rad=entry.largest_tilt,
+        largest_drop_m=entry.largest_drop,
+        largest_drag_m=entry.largest_drag,
+    )
+
+
+def other_solids(
+    path: Path, entry: SceneDocument, document: Document, findings: list[Finding], project: Path
+) -> tuple[ObjectSolid, ...]:
+    """The solids of the objects beside the workpiece; those that are wrong are missing, with findings.
+
+    Args:
+        path: The scene's file.
+        entry: The scene file.
+        document: The file, for positions.
+        findings: What is wrong so far.
+        project: The folder that no file may lie outside of.
+    """
+    solids = (
+        object_solid(path, one, document, findings, project, at=("workpieces", index))
+        for index, one in enumerate(entry.workpieces)
+    )
+    return tuple(solid for solid in solids if solid is not None)
+
+
+def other_objects(
+    entry: SceneDocument, solids: Sequence[ObjectSolid], tops_m: Mapping[str, float]
+) -> tuple[SceneObject, ...]:
+    """The objects beside the workpiece.
+
+    Args:
+        entry: The scene file.
+        solids: The solid of each.
+        tops_m: Height of the top of each body.
+    """
+    return tuple(
+        SceneObject(
+            workpiece=workpiece_of(one, solid, top_m=tops_m[one.stands_on], colour=colour_of(one.colour)),
+            support=one.stands_on,
+            place=region_of(one.place_region, tops_m),
+            place_support=one.place_region.stands_on,
+        )
+        for one, solid in zip(entry.workpieces, solids, strict=True)
+    )
+
+
+def named_places(entry: SceneDocument, tops_m: Mapping[str, float]) -> tuple[NamedPlace, ...]:
+    """The places that belong to no object.
+
+    Args:
+        entry: The scene file.
+        tops_m: Height of the top of each body.
+    """
+    return tuple(NamedPlace(id=one.id, region=region_of(one, tops_m), support=one.stands_on) for one in entry.places)
+
+
+def name_findings(entry: SceneDocument, document: Document) -> Iterator[Finding]:
+    """Names that are taken, and bodies that are not there.
+
+    Args:
+        entry: The scene file.
+        document: The file, for positions.
+    """
+    bodies = {body.id for body in entry.bodies}
+    taken = bodies | {entry.workpiece.id}
+    for index, one in enumerate(entry.workpieces):
+        if one.id in taken:
+            message = f"id {one.id!r} is taken by a body or another object"
+            yield document.finding("scene.duplicate-id", message, ("workpieces", index, "id"))
+        taken.add(one.id)
+    known = set[str]()
+    for index, place in enumerate(entry.places):
+        if place.id in known:
+            message = f"id {place.id!r} is taken by an earlier place"
+            yield document.finding("scene.duplicate-id", message, ("places", index, "id"))
+        known.add(place.id)
+    for at, name in _supports(entry):
+        if name not in bodies:
+            hint = f"known bodies: {', '.join(body.id for body in entry.bodies)}"
+            yield document.finding("scene.unknown-body", f"there is no body {name!r}", at, hint=hint)
+
+
+def positive_values(entry: SceneDocument) -> Iterator[tuple[Location, float]]:
+    """The values of these entries that must be greater than zero, with their locations.
+
+    Args:
+        entry: The scene file.
+    """
+    for index, one in enumerate(entry.workpieces):
+        yield from object_lengths(one, at=("workpieces", index))
+        for key in ("force_limit", "force_window", "landing_limit"):
+            yield ("workpieces", index, key), getattr(one, key)
+        for key in ("radius", "largest_tilt", "largest_drag"):
+            yield ("workpieces", index, "place_region", key), getattr(one.place_region, key)
+    for index, place in enumerate(entry.places):
+        for key in ("radius", "largest_tilt", "largest_drag"):
+            yield ("places", index, key), getattr(place, key)
+
+
+def colour_of(text: str) -> ColourRgba:
+    """A colour that is written as ``#rrggbb``.
+
+    Args:
+        text: The text.
+    """
+    red, green, blue = (int(text[start : start + 2], 16) / 255 for start in (1, 3, 5))
+    return (red, green, blue, 1.0)
+
+
+def _supports(entry: SceneDocument) -> Iterator[tuple[Location, str]]:
+    for index, one in enumerate(entry.workpieces):
+        yield ("workpieces", index, "stands_on"), one.stands_on
+        yield ("workpieces", index, "place_region", "stands_on"), one.place_region.stands_on
+    for index, place in enumerate(entry.places):
+        yield ("places", index, "stands_on"), place.stands_on

@@ -1,0 +1,16 @@
+"""The task of studies that name none: the packaged eight states."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from importlib import resources
+
+from rgss.tasks.program import TaskProgram
+from rgss.tasks.task_file import load_task
+
+
+@lru_cache(maxsize=1)
+def default_task() -> TaskProgram:
+    """The task of studies that name none."""
+    with resources.as_file(resources.files("rgss.tasks") / "pick_and_place.yaml") as path:
+        return load_task(path, label="pick_and_place.yaml").program

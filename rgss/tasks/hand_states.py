@@ -1,0 +1,38 @@
+"""Findings about the hand: what it holds before each step, and what the step needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from rgss.documents import Document
+from rgss.findings import Finding
+from rgss.tasks.grip_step import GripStep
+from rgss.tasks.move_step import MoveStep
+from rgss.tasks.program import Step
+from rgss.tasks.release_step import ReleaseStep
+
+Location = tuple[str | int, ...]
+
+
+def hand_findings(document: Document, placed: Sequence[tuple[Step, Location]]) -> Iterator[Finding]:
+    """A finding for each step that the hand cannot carry out, and for a task that ends with a held object.
+
+    Args:
+        document: The task's file.
+        placed: The steps with their locations in it.
+    """
+    is_held = False
+    for index, (step, at) in enumerate(placed):
+        if isinstance(step, GripStep):
+            if is_held:
+                message = f"{step.name!r} grips while an object is held"
+                yield document.finding("task.grip", message, at, hint="release it before")
+            if not index or not isinstance(placed[index - 1][0], MoveStep):
+                message = f"{step.name!r} has no move before it that brings the hand to the object"
+                yield document.finding("task.grip", message, at, hint="move to grasp before")
+            is_held = True
+        elif isinstance(step, ReleaseStep):
+            if not is_held:
+                message = f"{step.name!r} releases, and nothing is held"
+                yield document.finding("task.release", message, at, hint="grip an object before")
+            is_held = False

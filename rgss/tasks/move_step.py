@@ -1,0 +1,87 @@
+"""Step that moves the arm: planned, straight or in the joints, to a waypoint, a configuration or a pose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from rgss.documents import Dimensionless, DocumentModel, Identifier, JointPosition, Metres, Radians, Seconds
+from rgss.scenes import Pose
+from rgss.tasks.move_kinds import MoveKind
+
+
+class PoseEntry(DocumentModel):
+    """Pose of the grasp centre in the world; without roll and pitch the tool points down."""
+
+    position: tuple[Metres, Metres, Metres]
+    roll: Radians | None = None
+    pitch: Radians = 0.0
+    yaw: Radians = 0.0
+
+
+class TargetEntry(DocumentModel):
+    """Where a move ends: exactly one of a waypoint, a configuration and a pose."""
+
+    to: Identifier | None = None
+    raised: Metres = 0.0
+    place: Identifier | None = None
+    object: Identifier | None = None
+    configuration: Identifier | None = None
+    pose: PoseEntry | None = None
+
+
+class MoveEntry(TargetEntry):
+    """A move of the arm."""
+
+    name: Identifier | None = None
+    mode: Literal["planned", "straight", "joint"] = "planned"
+    speed: Dimensionless = 1.0
+    time_limit: Seconds | None = None
+    resolution: Radians | None = None
+
+
+Configurations = dict[Identifier, tuple[JointPosition, ...]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Target:
+    """End of a move.
+
+    Attributes:
+        name: Its name in messages: that of the waypoint or the configuration, else ``pose``.
+        waypoint: Waypoint of the object; empty if it is another kind of target.
+        raised_m: Height above the waypoint.
+        object: The object of the waypoint; empty for the object of the step.
+        place: The place of the waypoints at the place; empty for the object's own.
+        configuration_rad: Positions of the joints; empty if it is another kind of target.
+        pose: Transform of the grasp-centre frame to the world; None if it is another kind of target.
+    """
+
+    name: str
+    waypoint: str = ""
+    raised_m: float = 0.0
+    object: str = ""
+    place: str = ""
+    configuration_rad: tuple[float, ...] = ()
+    pose: Pose | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveStep:
+    """A move of the arm.
+
+    Attributes:
+        name: Name of the phase.
+        target: Where it ends.
+        mode: Planned by a planner, a straight line of the tool, or of the joints.
+        speed_share: Share of the tool speed of the design.
+        limit_s: Longest planning time, where it is less than that of the design; None for that.
+        resolution_rad: Greatest joint step between two checked states; None for that of the study.
+    """
+
+    name: str
+    target: Target
+    mode: MoveKind = MoveKind.PLANNED
+    speed_share: float = 1.0
+    limit_s: float | None = None
+    resolution_rad: float | None = None

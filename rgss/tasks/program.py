@@ -1,0 +1,77 @@
+"""Compiled task: a flat tuple of named steps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.tasks.check_step import CheckStep
+from rgss.tasks.grip_step import GripStep
+from rgss.tasks.move_kinds import MoveKind
+from rgss.tasks.move_step import MoveStep, Target
+from rgss.tasks.release_step import ReleaseStep
+from rgss.tasks.wait_step import WaitStep
+
+Step = MoveStep | GripStep | ReleaseStep | WaitStep | CheckStep
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaskProgram:
+    """A task, with repetitions written out.
+
+    Attributes:
+        id: Its name.
+        start: Where the arm is at rest at the start, the hand open; None for the robot's home.
+        steps: The steps in order; their names are unique.
+    """
+
+    id: str
+    start: Target | None
+    steps: tuple[Step, ...]
+
+    @property
+    def phases(self) -> tuple[str, ...]:
+        """Names of the steps in order."""
+        return tuple(step.name for step in self.steps)
+
+    @property
+    def moves(self) -> tuple[MoveStep, ...]:
+        """The moves in order."""
+        return tuple(step for step in self.steps if isinstance(step, MoveStep))
+
+    @property
+    def planned(self) -> tuple[str, ...]:
+        """Names of the moves that a planner plans: the sub-tasks of the sums over n (eq. 4.3, 4.4)."""
+        return tuple(step.name for step in self.moves if step.mode is MoveKind.PLANNED)
+
+    @property
+    def direct(self) -> tuple[str, ...]:
+        """Names of the moves that are straight lines by definition."""
+        return tuple(step.name for step in self.moves if step.mode is not MoveKind.PLANNED)
+
+    @property
+    def grips(self) -> tuple[str, ...]:
+        """Names of the steps that close the hand."""
+        return tuple(step.name for step in self.steps if isinstance(step, GripStep))
+
+    @property
+    def releases(self) -> tuple[str, ...]:
+        """Names of the steps that open the hand."""
+        return tuple(step.name for step in self.steps if isinstance(step, ReleaseStep))
+
+    @property
+    def carried(self) -> tuple[str, ...]:
+        """Names of the moves with an object in the hand."""
+        found, is_held = [], False
+        for step in self.steps:
+            is_held = isinstance(step, GripStep) or (is_held and not isinstance(step, ReleaseStep))
+            if is_held and isinstance(step, MoveStep):
+                found.append(step.name)
+        return tuple(found)
+
+    def move(self, name: str) -> MoveStep:
+        """The move of a name.
+
+        Args:
+            name: The name.
+        """
+        return next(step for step in self.moves if step.name == name)

@@ -1,0 +1,27 @@
+"""Step that opens the hand and leaves the object at a place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.documents import DocumentModel, Identifier
+
+
+class ReleaseEntry(DocumentModel):
+    """Opening of the hand at a place."""
+
+    name: Identifier | None = None
+    place: Identifier | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReleaseStep:
+    """Opening of the hand at a place.
+
+    Attributes:
+        name: Name of the phase.
+        place: The place; empty for the object's own place region.
+    """
+
+    name: str
+    place: str = ""

@@ -1,0 +1,98 @@
+"""Stages: the steps of a task with what follows from those before and after them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rgss.tasks.grip_step import GripStep
+from rgss.tasks.move_step import MoveStep
+from rgss.tasks.program import Step, TaskProgram
+from rgss.tasks.release_step import ReleaseStep
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stage:
+    """A step of a task in its context.
+
+    Attributes:
+        step: The step.
+        object: The object that is concerned: what is held, else what was just released, else what comes next.
+        place: The place at which it is released next, or was last; empty for its own place region.
+        turn: Number, from 1, of the grip of the object that the step leads to, belongs to or follows.
+        is_held: Whether the object is held during the step; it is while the hand closes and opens too.
+        is_leaving: Whether this is the first move since the grip, which lifts the object off its support.
+        is_approach: Whether the step after this move closes the hand, and the one before did not open it.
+        is_retreat: Whether the step before this move opened the hand.
+    """
+
+    step: Step
+    object: str
+    place: str
+    turn: int
+    is_held: bool = False
+    is_leaving: bool = False
+    is_approach: bool = False
+    is_retreat: bool = False
+
+    @property
+    def is_carrying(self) -> bool:
+        """True for a move with an object in the hand."""
+        return self.is_held and isinstance(self.step, MoveStep)
+
+
+def stages_of(task: TaskProgram, workpiece: str) -> tuple[Stage, ...]:
+    """The stages of a task.
+
+    Args:
+        task: The task.
+        workpiece: The object of steps that name none.
+    """
+    steps, lifts = task.steps, dict[str, int]()
+    held, last = "", ""
+    found = []
+    for index, step in enumerate(steps):
+        before = steps[index - 1] if index else None
+        after = steps[index + 1] if index + 1 < len(steps) else None
+        is_retreat = isinstance(step, MoveStep) and isinstance(before, ReleaseStep)
+        if isinstance(step, GripStep):
+            held = last = step.object or workpiece
+            lifts[held] = lifts.get(held, 0) + 1
+        coming = "" if held or is_retreat else _next_gripped(steps[index:], workpiece)
+        subject = held or coming or last or workpiece
+        found.append(
+            Stage(
+                step=step,
+                object=subject,
+                place=_next_place(steps[index:]) if held or coming else _last_place(steps[:index]),
+                turn=lifts.get(subject, 0) + (1 if coming else 0),
+                is_held=bool(held),
+                is_leaving=bool(held) and isinstance(step, MoveStep) and _is_first_move(steps[:index]),
+                is_approach=not (held or is_retreat) and isinstance(step, MoveStep) and isinstance(after, GripStep),
+                is_retreat=is_retreat,
+            )
+        )
+        if isinstance(step, ReleaseStep):
+            held = ""
+    return tuple(found)
+
+
+def _next_gripped(steps: tuple[Step, ...], workpiece: str) -> str:
+    return next((step.object or workpiece for step in steps if isinstance(step, GripStep)), "")
+
+
+def _next_place(steps: tuple[Step, ...]) -> str:
+    return next((step.place for step in steps if isinstance(step, ReleaseStep)), "")
+
+
+def _last_place(steps: tuple[Step, ...]) -> str:
+    return _next_place(steps[::-1])
+
+
+def _is_first_move(before: tuple[Step, ...]) -> bool:
+    """True if no move lies between the last grip and here."""
+    for step in reversed(before):
+        if isinstance(step, MoveStep):
+            return False
+        if isinstance(step, GripStep):
+            return True
+    return False

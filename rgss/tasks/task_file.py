@@ -1,0 +1,220 @@
+"""Reading a task file: repetitions written out, names made unique, and what is wrong whatever the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from rgss.documents import Document, load_document
+from rgss.errors import DocumentError
+from rgss.findings import Finding
+from rgss.scenes import Pose, Waypoint
+from rgss.tasks.check_step import CheckEntry, CheckStep
+from rgss.tasks.document import StepEntry, TaskDocument
+from rgss.tasks.grip_step import GripEntry, GripStep
+from rgss.tasks.hand_states import hand_findings
+from rgss.tasks.move_kinds import MoveKind
+from rgss.tasks.move_step import MoveEntry, MoveStep, Target, TargetEntry
+from rgss.tasks.program import Step, TaskProgram
+from rgss.tasks.release_step import ReleaseEntry, ReleaseStep
+from rgss.tasks.wait_step import WaitEntry, WaitStep
+
+Location = tuple[str | int, ...]
+MOST_STEPS = 10_000
+_TOOL_DOWN_ROLL_RAD = 3.141592653589793
+_KINDS = ("move", "grip", "release", "wait", "check", "repeat", "for_each")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoadedTask:
+    """A task with the positions of its steps.
+
+    Attributes:
+        program: The task.
+        document: Its file.
+        places: Location of each step in the file.
+    """
+
+    program: TaskProgram
+    document: Document
+    places: tuple[Location, ...]
+
+
+def load_task(path: Path, *, label: str | None = None) -> LoadedTask:
+    """Read a task.
+
+    Args:
+        path: The file.
+        label: The file's name in messages; the path by default.
+
+    Raises:
+        DocumentError: The file is wrong; with every problem in it.
+    """
+    loaded = load_document(path, TaskDocument, label=label)
+    entry, document = loaded.value, loaded.document
+    compiler = _Compiler(entry, document)
+    placed = list(compiler.steps(entry.steps, ("steps",), prefix="", bound=""))
+    start = None if entry.start is None else compiler.target(entry.start, ("start",), "")
+    findings = compiler.findings
+    if not findings and not (placed and isinstance(placed[0][0], MoveStep)):
+        hint = "begin with a move"
+        findings.append(document.finding("task.empty", "the first step must be a move", ("steps",), hint=hint))
+    if not findings:
+        findings += _name_findings(document, placed)
+        findings += hand_findings(document, placed)
+    if findings:
+        raise DocumentError(sorted(set(findings)))
+    program = TaskProgram(id=entry.task, start=start, steps=tuple(step for step, _ in placed))
+    return LoadedTask(program=program, document=document, places=tuple(place for _, place in placed))
+
+
+class _Compiler:
+    """Writes out the steps of a file."""
+
+    def __init__(self, entry: TaskDocument, document: Document) -> None:
+        self.findings: list[Finding] = []
+        self._document = document
+        self._configurations: Mapping[str, tuple[float, ...]] = {
+            name: tuple(joint.value for joint in joints) for name, joints in entry.configurations.items()
+        }
+        self._count = 0
+
+    def steps(
+        self, entries: Iterable[StepEntry], at: Location, *, prefix: str, bound: str
+    ) -> Iterator[tuple[Step, Location]]:
+        """The steps of entries, repetitions written out."""
+        for index, entry in enumerate(entries):
+            here = (*at, index)
+            kinds = [kind for kind in _KINDS if getattr(entry, kind) is not None]
+            if len(kinds) != 1:
+                said = " and ".join(kinds) or "none"
+                self._report("task.kind", f"a step has exactly one kind, got {said}", here, ", ".join(_KINDS))
+                continue
+            within = (*here, kinds[0])
+            if entry.repeat is not None:
+                if entry.repeat.times == 0 or not entry.repeat.steps:
+                    self._report("task.empty", "the loop does nothing", within, "give it steps, or leave it out")
+                for turn in range(1, entry.repeat.times + 1):
+                    if self._is_too_long(within):
+                        return
+                    inner = f"{prefix}{entry.repeat.name}_{turn}."
+                    yield from self.steps(entry.repeat.steps, (*within, "steps"), prefix=inner, bound=bound)
+            elif entry.for_each is not None:
+                if not entry.for_each.objects or not entry.for_each.steps:
+                    self._report("task.empty", "the loop does nothing", within, "give it objects and steps")
+                for one in entry.for_each.objects:
+                    if self._is_too_long(within):
+                        return
+                    yield from self.steps(entry.for_each.steps, (*within, "steps"), prefix=f"{prefix}{one}.", bound=one)
+            else:
+                self._count += 1
+                if self._is_too_long(within):
+                    return
+                yield self._step(entry, within, prefix, bound), within
+
+    def target(self, entry: TargetEntry, at: Location, bound: str) -> Target:
+        """The end of a move."""
+        given = [key for key in ("to", "configuration", "pose") if getattr(entry, key) is not None]
+        if len(given) != 1:
+            said = " and ".join(given) or "none"
+            self._report("task.target", f"a move needs one of to, configuration and pose, got {said}", at, "name one")
+            return Target(name="")
+        if entry.configuration is not None:
+            joints = self._configurations.get(entry.configuration)
+            if joints is None:
+                known = ", ".join(self._configurations) or "none is given"
+                message = f"there is no configuration {entry.configuration!r}"
+                self._report("task.unknown-configuration", message, (*at, "configuration"), f"configurations: {known}")
+            return Target(name=entry.configuration, configuration_rad=joints or ())
+        if entry.pose is not None:
+            roll = _TOOL_DOWN_ROLL_RAD if entry.pose.roll is None else entry.pose.roll
+            angles = (roll, entry.pose.pitch, entry.pose.yaw)
+            pose = Pose.from_roll_pitch_yaw(entry.pose.position, angles)
+            return Target(name="pose", pose=pose.raised(entry.raised))
+        name = entry.to or ""
+        if name not in [one.value for one in Waypoint]:
+            known = ", ".join(one.value for one in Waypoint)
+            self._report("task.unknown-waypoint", f"there is no waypoint {name!r}", (*at, "to"), f"waypoints: {known}")
+        return Target(
+            name=name, waypoint=name, raised_m=entry.raised, object=entry.object or bound, place=entry.place or ""
+        )
+
+    def _step(self, entry: StepEntry, at: Location, prefix: str, bound: str) -> Step:
+        if entry.move is not None:
+            return self._move(entry.move, at, prefix, bound)
+        if entry.grip is not None:
+            return self._grip(entry.grip, prefix, bound)
+        if entry.release is not None:
+            return self._release(entry.release, prefix)
+        if entry.wait is not None:
+            return self._wait(entry.wait, at, prefix)
+        if entry.check is None:
+            raise AssertionError("checked before: a step has a kind")
+        return self._check(entry.check, at, prefix, bound)
+
+    def _move(self, entry: MoveEntry, at: Location, prefix: str, bound: str) -> MoveStep:
+        if not 0.0 < entry.speed <= 1.0:
+            message = f"speed must be a share in (0, 1], got {entry.speed:g}"
+            self._report("task.share", message, (*at, "speed"), "write 0.5, or 50 %")
+        for key, value in (("time_limit", entry.time_limit), ("resolution", entry.resolution)):
+            if value is not None and value <= 0.0:
+                self._report("task.not-positive", f"{key} must be greater than zero", (*at, key))
+        target = self.target(entry, at, bound)
+        mode = MoveKind(entry.mode)
+        if mode is MoveKind.STRAIGHT and target.configuration_rad:
+            message = "a straight line of the tool ends at a waypoint or a pose, not at a configuration"
+            self._report("task.target", message, (*at, "mode"), "write mode: joint")
+        if mode is not MoveKind.PLANNED and entry.time_limit is not None:
+            message = "only a planned move has a planning limit"
+            self._report("task.limit", message, (*at, "time_limit"), "leave it out, or write mode: planned")
+        return MoveStep(
+            name=prefix + (entry.name or f"move_to_{target.name}"),
+            target=target,
+            mode=mode,
+            speed_share=entry.speed,
+            limit_s=entry.time_limit,
+            resolution_rad=entry.resolution,
+        )
+
+    def _grip(self, entry: GripEntry, prefix: str, bound: str) -> GripStep:
+        return GripStep(name=prefix + (entry.name or "grip"), object=entry.object or bound)
+
+    def _release(self, entry: ReleaseEntry, prefix: str) -> ReleaseStep:
+        return ReleaseStep(name=prefix + (entry.name or "release"), place=entry.place or "")
+
+    def _wait(self, entry: WaitEntry, at: Location, prefix: str) -> WaitStep:
+        if entry.duration <= 0.0:
+            self._report("task.not-positive", "duration must be greater than zero", (*at, "duration"))
+        return WaitStep(name=prefix + (entry.name or "wait"), duration_s=entry.duration)
+
+    def _check(self, entry: CheckEntry, at: Location, prefix: str, bound: str) -> CheckStep:
+        if not (entry.at or entry.upright or entry.at_rest or entry.held is not None):
+            hint = "write at, upright, at_rest or held"
+            self._report("task.empty", "the check states no condition", at, hint)
+        return CheckStep(
+            name=prefix + (entry.name or "check"),
+            object=entry.object or bound,
+            at=entry.at or "",
+            is_upright=entry.upright,
+            is_at_rest=entry.at_rest,
+            held=entry.held,
+        )
+
+    def _is_too_long(self, at: Location) -> bool:
+        if self._count <= MOST_STEPS:
+            return False
+        self._report("task.long", f"the task has more than {MOST_STEPS} steps", at, "repeat less often")
+        return True
+
+    def _report(self, rule: str, message: str, at: Location, hint: str = "") -> None:
+        self.findings.append(self._document.finding(rule, message, at, hint=hint))
+
+
+def _name_findings(document: Document, placed: list[tuple[Step, Location]]) -> Iterator[Finding]:
+    seen: set[str] = set()
+    for step, at in placed:
+        if step.name in seen:
+            hint = "give each step its own name"
+            yield document.finding("task.duplicate-name", f"there are two steps {step.name!r}", at, hint=hint)
+        seen.add(step.name)

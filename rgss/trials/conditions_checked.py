@@ -1,0 +1,42 @@
+"""Conditions of a check step, evaluated on the object as it is."""
+
+from __future__ import annotations
+
+import math
+
+from rgss.grasping import configuration_distance_m
+from rgss.physics import ContactWorld
+from rgss.scenes import Pose
+from rgss.tasks import CheckStep
+from rgss.trials.plants import ControlSettings
+
+
+def violated_condition(world: ContactWorld, control: ControlSettings, step: CheckStep, before: Pose) -> str:
+    """The first condition that does not hold, with its numbers; empty if all hold.
+
+    Args:
+        world: The world after the time in which rest is observed.
+        control: Thresholds of rest.
+        step: The conditions.
+        before: Transform of the object to the world before that time.
+    """
+    scene = world.scene
+    name = step.object or scene.workpiece.id
+    about, pose = next(one for one in scene.objects if one.workpiece.id == name), world.object_pose(name)
+    if step.at:
+        region = next(one.region for one in scene.places if one.id == step.at)
+        error_m = math.dist(pose.position_m[:2], region.centre_m[:2])
+        if error_m > region.radius_m:
+            return f"{name} is {error_m * 1e3:.1f} mm from {step.at}, at most {region.radius_m * 1e3:g} mm are allowed"
+    if step.is_upright and pose.tilt_rad > about.place.largest_tilt_rad:
+        return f"{name} leans by {math.degrees(pose.tilt_rad):.1f} deg"
+    if step.is_at_rest:
+        moved_m = configuration_distance_m(before, pose, about.workpiece.shape.half_height_m)
+        if moved_m > control.settled_speed_m_s * control.settled_s:
+            return f"{name} has moved by {moved_m * 1e3:.2f} mm in {control.settled_s:g} s"
+    if step.held is not None:
+        fingers = world.gripper.geometry.fingers
+        touching = world.contacts().fingers_touching if name == scene.workpiece.id else 0
+        if touching != (fingers if step.held else 0):
+            return f"{touching} of {fingers} fingers touch {name}"
+    return ""

@@ -1,0 +1,148 @@
+"""Configurations at the stops of a task, and its moves that are straight lines by definition."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from rgss.kinematics import CollisionModel, InverseKinematics, choose_branches, inverse_kinematics, straight_line
+from rgss.motion import segment_states
+from rgss.scenes import Pose
+from rgss.tasks import MoveKind
+from rgss.trials.planning.goal_reasons import GoalReason, reason_against
+from rgss.trials.reference import Array
+from rgss.trials.route import Leg, Stop
+from rgss.trials.workcell import Workcell
+
+_SAME_CONFIGURATION_RAD = 1e-6
+_JOINT_STEP_RAD = 0.01
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TaskStops:
+    """One configuration for each stop, the same for every planner and seed.
+
+    Attributes:
+        configurations: Joint positions (n,) by the index of the stop; a stop that is not served has none.
+        direct: Configurations (k, n) of each move that is a straight line by definition; None where there is none.
+        reasons: Why a stop is not served, by its index.
+    """
+
+    configurations: Mapping[int, Array]
+    direct: Mapping[str, Array | None]
+    reasons: Mapping[int, GoalReason]
+
+
+@lru_cache(maxsize=4)
+def stops_of(cell: Workcell) -> TaskStops:
+    """One configuration for each stop: collision-free in every move that meets there, least travel.
+
+    Args:
+        cell: Scene, arm and collision models.
+    """
+    inverse, stops, pairs = inverse_kinematics(cell.arm), cell.route.stops, cell.route.pairs
+    none: dict[str, Array | None] = dict.fromkeys(cell.task.direct)
+    candidates = [
+        [q for q in _solutions(inverse, stop) if all(model.is_valid(q) for model in _meeting(cell, index))]
+        for index, stop in enumerate(stops)
+    ]
+    reasons = _reasons(cell, (index for index, found in enumerate(candidates) if not found))
+    # The task is planned up to the first stop that is not served.
+    order = list(itertools.takewhile(lambda index: candidates[index], range(len(stops))))
+    legs = [pair for pair in pairs if {*pair} <= {*order}]
+    if not legs:
+        return TaskStops(configurations={index: candidates[index][0] for index in order}, direct=none, reasons=reasons)
+    chosen = choose_branches([candidates[index] for index in order], legs=legs, home=cell.scene.robot.home_rad)
+    if chosen is None:
+        return TaskStops(configurations={}, direct=none, reasons=reasons)
+    found = dict(zip(order, chosen, strict=True))
+    direct = {**none, **_direct_moves(cell, inverse, found)}
+    return TaskStops(configurations=found, direct=direct, reasons=reasons)
+
+
+def waypoint_configurations(cell: Workcell) -> Mapping[str, Array]:
+    """The configuration of each stop that is served, by its name.
+
+    Args:
+        cell: Scene, arm and collision models.
+    """
+    found = stops_of(cell).configurations
+    return {stop.name: found[index] for index, stop in enumerate(cell.route.stops) if index in found}
+
+
+def unserved_waypoints(cell: Workcell) -> dict[str, GoalReason]:
+    """Why stops have no configuration that is valid in every move that meets there, by their names.
+
+    Args:
+        cell: Scene, arm and collision models.
+    """
+    stops = cell.route.stops
+    return {stops[index].name: reason for index, reason in _reasons(cell, range(len(stops))).items()}
+
+
+def goal_pose_of(cell: Workcell, stop: Stop) -> Pose:
+    """Transform of the tool-centre frame to the world at a stop.
+
+    Args:
+        cell: Scene, arm and collision models.
+        stop: The stop.
+    """
+    return cell.arm.tool_pose(np.array(stop.configuration_rad)) if stop.pose is None else stop.pose
+
+
+def _solutions(inverse: InverseKinematics, stop: Stop) -> list[Array]:
+    return list(inverse.solve(stop.pose)) if stop.pose is not None else [np.array(stop.configuration_rad)]
+
+
+def _meeting(cell: Workcell, index: int) -> list[CollisionModel]:
+    return [cell.planning[leg.step.name] for leg in cell.route.legs if index in (leg.start, leg.goal)]
+
+
+def _reasons(cell: Workcell, among: Iterable[int]) -> dict[int, GoalReason]:
+    inverse, found = inverse_kinematics(cell.arm), {}
+    for index in among:
+        stop, meeting = cell.route.stops[index], _meeting(cell, index)
+        reached = _solutions(inverse, stop)
+        if not any(all(model.is_valid(q) for model in meeting) for q in reached):
+            found[index] = reason_against(inverse, meeting, goal_pose_of(cell, stop), reached)
+    return found
+
+
+def _direct_moves(cell: Workcell, inverse: InverseKinematics, found: dict[int, Array]) -> dict[str, Array | None]:
+    """The straight moves in order; one that is the first to reach its goal decides the configuration there."""
+    direct: dict[str, Array | None] = {}
+    reached = {cell.route.legs[0].start}
+    for leg in cell.route.legs:
+        if leg.step.mode is not MoveKind.PLANNED and leg.start in found and leg.goal in found:
+            line = _line(cell, leg, inverse, found, is_new=leg.goal not in reached)
+            direct[leg.step.name] = line
+            if line is None:
+                del found[leg.goal]
+            else:
+                found[leg.goal] = line[-1]
+                line.setflags(write=False)
+        reached.add(leg.goal)
+    return direct
+
+
+def _line(
+    cell: Workcell, leg: Leg, inverse: InverseKinematics, found: Mapping[int, Array], *, is_new: bool
+) -> Array | None:
+    """A straight move, if it is valid and ends in the configuration in which the next begins."""
+    stop, model = cell.route.stops[leg.goal], cell.planning[leg.step.name]
+    start, goal = found[leg.start], found[leg.goal]
+    if leg.step.mode is MoveKind.JOINT:
+        states = np.vstack([start[None], segment_states(start, goal, leg.step.resolution_rad or _JOINT_STEP_RAD)])
+        return np.array([start, goal]) if all(model.is_valid(q) for q in states) else None
+    if stop.pose is None:
+        raise AssertionError("checked before: a straight line ends at a pose")
+    line = straight_line(inverse, start, stop.pose)
+    if line is None or not all(model.is_valid(q) for q in line):
+        return None
+    if not is_new and np.max(np.abs(line[-1] - goal)) > _SAME_CONFIGURATION_RAD:
+        return None
+    return line

@@ -1,0 +1,186 @@
+"""Route of a task: the poses and configurations at which its moves meet, and what can collide in each move."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from rgss.kinematics import CollisionContext
+from rgss.scenes import (
+    GripperGeometry,
+    Pose,
+    Scene,
+    Standing,
+    Waypoint,
+    grasp_opening_m,
+    initial_standings,
+    scene_about,
+    waypoint_poses,
+)
+from rgss.tasks import GripStep, MoveStep, ReleaseStep, Stage, Target, TaskProgram, stages_of
+
+_AT_PLACE = (Waypoint.PLACE_APPROACH, Waypoint.PLACE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stop:
+    """An end of a move.
+
+    Attributes:
+        name: Its name in messages.
+        pose: Transform of the grasp-centre frame to the world; None for a configuration.
+        configuration_rad: Joint positions; empty for a pose.
+    """
+
+    name: str
+    pose: Pose | None = None
+    configuration_rad: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Leg:
+    """A move between two stops.
+
+    Attributes:
+        step: The move.
+        start: Index of the stop where it begins.
+        goal: Index of the stop where it ends.
+        scene: The scene in it: its object is the workpiece, the others are bodies.
+        context: Opening of the gripper, and where the object is.
+    """
+
+    step: MoveStep
+    start: int
+    goal: int
+    scene: Scene
+    context: CollisionContext
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Route:
+    """The stops of a task and the moves between them.
+
+    Attributes:
+        stops: The stops in the order in which they are first reached. A stop that is reached again is the same one
+            only if the moves then form one chain or cycle.
+        legs: The moves in order.
+    """
+
+    stops: tuple[Stop, ...]
+    legs: tuple[Leg, ...]
+
+    @property
+    def pairs(self) -> tuple[tuple[int, int], ...]:
+        """Indices of the stops of each leg."""
+        return tuple((leg.start, leg.goal) for leg in self.legs)
+
+
+def route_of(scene: Scene, geometry: GripperGeometry, task: TaskProgram) -> Route:
+    """The route of a task, by what is expected to stand where after each step.
+
+    Args:
+        scene: The scene at the start, as it is perceived.
+        geometry: The gripper's shape.
+        task: The task.
+    """
+    cell = _Cell(scene, geometry)
+    visited: list[Stop] = []
+    moves: list[tuple[MoveStep, Scene, CollisionContext]] = []
+    for stage in stages_of(task, scene.workpiece.id):
+        cell.enter(stage)
+        if not visited:
+            visited.append(cell.stop_of(task.start, stage) if task.start else cell.home)
+        if isinstance(stage.step, MoveStep):
+            visited.append(cell.stop_of(stage.step.target, stage))
+            moves.append((stage.step, *cell.context_of(stage)))
+        elif isinstance(stage.step, GripStep):
+            cell.grip(stage)
+        elif isinstance(stage.step, ReleaseStep):
+            cell.release(stage)
+    stops, indices = _numbered(visited)
+    legs = tuple(
+        Leg(step=step, start=indices[place], goal=indices[place + 1], scene=view, context=context)
+        for place, (step, view, context) in enumerate(moves)
+    )
+    return Route(stops=stops, legs=legs)
+
+
+class _Cell:
+    """What stands where, step by step."""
+
+    def __init__(self, scene: Scene, geometry: GripperGeometry) -> None:
+        self._scene = scene
+        self._geometry = geometry
+        self._opening_m = geometry.largest_opening_m
+        self._standings = initial_standings(scene)
+        self._turns: dict[str, int] = {}
+        # Where each object stood before its last grip: the waypoints of the grasp stay there until the next.
+        self._origins = dict(self._standings)
+        self._held: Pose | None = None
+        self.home = Stop(name="home", configuration_rad=scene.robot.home_rad)
+
+    def enter(self, stage: Stage) -> None:
+        """Begin a stage."""
+        if self._turns.get(stage.object) != stage.turn:
+            self._turns[stage.object] = stage.turn
+            self._origins[stage.object] = self._standings[stage.object]
+
+    def stop_of(self, target: Target, stage: Stage) -> Stop:
+        """The stop that is a target."""
+        if target.configuration_rad:
+            return Stop(name=target.name, configuration_rad=target.configuration_rad)
+        if target.pose is not None:
+            return Stop(name=target.name, pose=target.pose)
+        waypoint = Waypoint(target.waypoint)
+        name = stage.object if waypoint in _AT_PLACE else target.object or stage.object
+        place = target.place or stage.place
+        origin = self._origins[name] if name == stage.object else self._standings[name]
+        view = scene_about(self._scene, name, place=place, standings={**self._standings, name: origin})
+        parts = [target.name]
+        parts += [f"of {name}"] if name != self._scene.workpiece.id else []
+        parts += [f"at {place}"] if place and waypoint in _AT_PLACE else []
+        return Stop(name=" ".join(parts), pose=waypoint_poses(view)[waypoint].raised(target.raised_m))
+
+    def context_of(self, stage: Stage) -> tuple[Scene, CollisionContext]:
+        """The scene and the collision context of a move."""
+        view = self._view(stage)
+        if self._held is None:
+            return view, CollisionContext(opening_m=self._opening_m, standing=view.workpiece.pose)
+        carrying = CollisionContext(
+            opening_m=grasp_opening_m(view, self._geometry),
+            carried=self._held,
+            largest_tilt_rad=view.task.largest_carry_tilt_rad,
+        )
+        if stage.is_leaving:
+            carrying = replace(carrying, allowed=frozenset({(view.workpiece.id, view.support)}))
+        return view, carrying
+
+    def grip(self, stage: Stage) -> None:
+        """Take the object into the hand."""
+        view = self._view(stage)
+        self._held = view.grasp.inverse() @ view.workpiece.pose
+
+    def release(self, stage: Stage) -> None:
+        """Leave the object at its place."""
+        if self._held is None:
+            raise AssertionError("checked before: an object is held")
+        view = self._view(stage)
+        pose = (view.place_pose @ self._held).raised(-view.task.place_clearance_m)
+        self._standings[stage.object] = Standing(pose=pose, support=view.place_support)
+        self._held = None
+
+    def _view(self, stage: Stage) -> Scene:
+        return scene_about(self._scene, stage.object, place=stage.place, standings=self._standings)
+
+
+def _numbered(visited: list[Stop]) -> tuple[tuple[Stop, ...], list[int]]:
+    """The stops without those that are reached again, and the index of each visit.
+
+    The choice of configurations is over a chain or a cycle. Where a task returns in another way, each visit is a stop
+    of its own.
+    """
+    stops = list(dict.fromkeys(visited))
+    indices = [stops.index(stop) for stop in visited]
+    once = indices[:-1] if len(indices) > 2 and indices[-1] == indices[0] else indices
+    if sorted(once) == list(range(len(stops))):
+        return tuple(stops), indices
+    return tuple(visited), list(range(len(visited)))

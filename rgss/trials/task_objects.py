@@ -1,0 +1,101 @@
+"""Objects of a task in contact physics: which one a phase concerns, and whether another was displaced."""
+
+from __future__ import annotations
+
+import math
+
+from rgss.evidence import Failure
+from rgss.physics import ContactWorld
+from rgss.scenes import Pose, Scene, Standing, initial_standings, scene_about
+from rgss.tasks import GripStep, ReleaseStep, Stage, TaskProgram, stages_of
+
+
+class TaskObjects:
+    """The objects of a scene as a task moves them.
+
+    Attributes:
+        first: The object with which the world begins.
+    """
+
+    def __init__(self, world: ContactWorld, task: TaskProgram) -> None:
+        """Begin with every object where it stands.
+
+        Args:
+            world: The world.
+            task: The task.
+        """
+        self._world = world
+        self._scene = world.scene
+        self.first = self._scene.workpiece.id
+        self._stages = {stage.step.name: stage for stage in stages_of(task, self.first)}
+        begin = next(iter(self._stages.values()), None)
+        self._about = (self.first, 1, "") if begin is None else (self.first, begin.turn, begin.place)
+        self._supports = {name: one.support for name, one in initial_standings(self._scene).items()}
+        self._around: dict[str, Pose] = {}
+
+    def stage(self, phase: str) -> Stage:
+        """The stage of a phase.
+
+        Args:
+            phase: Its name.
+        """
+        return self._stages[phase]
+
+    def enter(self, stage: Stage) -> bool:
+        """Begin a stage; true if the world is about another object, place or grip than before.
+
+        Args:
+            stage: The stage.
+        """
+        about = stage.object, stage.turn, stage.place
+        is_new = about != self._about
+        if is_new:
+            self._about = about
+            self._world.concern(self._view(stage.object, stage.place))
+        self._around = {
+            one.workpiece.id: self._world.object_pose(one.workpiece.id)
+            for one in (self._scene.objects if self._scene.others else ())
+            if one.workpiece.id != stage.object
+        }
+        return is_new
+
+    def displaced(self, largest_m: float) -> tuple[Failure, str] | None:
+        """The violation if another object was displaced since the phase began.
+
+        Args:
+            largest_m: Greatest displacement.
+        """
+        for name, before in self._around.items():
+            moved_m = math.dist(before.position_m, self._world.object_pose(name).position_m)
+            if moved_m > largest_m:
+                return Failure.OBJECT_COLLISION, f"{name} was displaced by {moved_m * 1e3:.1f} mm"
+        return None
+
+    def resting_on(self, stage: Stage) -> str:
+        """The body that the object of a stage may touch; empty for none.
+
+        Args:
+            stage: The stage.
+        """
+        if isinstance(stage.step, ReleaseStep) or stage.is_retreat:
+            return self._world.scene.place_support
+        if not stage.is_held or isinstance(stage.step, GripStep) or stage.is_leaving:
+            return self._supports[stage.object]
+        return ""
+
+    def note_release(self, stage: Stage) -> None:
+        """Take note of a release.
+
+        Args:
+            stage: Its stage.
+        """
+        self._supports[stage.object] = self._world.scene.place_support
+
+    def _view(self, name: str, place: str) -> Scene:
+        standings = {
+            one.workpiece.id: Standing(
+                pose=self._world.object_pose(one.workpiece.id), support=self._supports[one.workpiece.id]
+            )
+            for one in self._scene.objects
+        }
+        return scene_about(self._scene, name, place=place, standings=standings)
