@@ -116,6 +116,7 @@ class WorldBuilder:
                 self.scene.robot,
                 self.gripper,
                 ribs=pad_ribs(self.gripper.geometry, self.scene.workpiece.shape),
+                has_drives=True,
             ),
             position=base.position_m,
             orientation=base.quaternion_xyzw,

@@ -3,8 +3,9 @@
 from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
 from rgss.scenes.convex_shapes import ConvexPart, convex_parts, vertices_of, with_mesh_files
 from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
-from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
+from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
+from rgss.scenes.hands import GRIPPER_KINDS, ParallelGripperDocument, misfit, too_narrow, too_wide
 from rgss.scenes.mesh_shapes import MeshSummary, mesh_summary
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS, pad_ribs

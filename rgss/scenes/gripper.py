@@ -25,6 +25,7 @@ class GripperGeometry:
         largest_opening_m: Pad distance from the axis when open.
         stroke_m: Travel of each finger towards the axis.
         grasp_depth_m: Distance along z from the flange to the grasp centre.
+        mounting: Name of the mounting of the fingers; empty where the gripper has one alone.
     """
 
     id: str
@@ -34,11 +35,17 @@ class GripperGeometry:
     largest_opening_m: float
     stroke_m: float
     grasp_depth_m: float
+    mounting: str = ""
 
     @property
     def fingers(self) -> int:
         """Number of fingers."""
         return len(self.azimuths_rad)
+
+    @property
+    def least_opening_m(self) -> float:
+        """Pad distance from the axis when closed."""
+        return self.largest_opening_m - self.stroke_m
 
     @property
     def base_pose(self) -> Pose:
@@ -66,16 +73,39 @@ class GripperGeometry:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class GripperDrive:
+    """Drive of the fingers, as the gripper's file states it.
+
+    Attributes:
+        inertia_kg: Inertia of the drive of one finger reflected to the finger, as an equivalent mass.
+        firm_force_n: Normal force that each finger must exceed for a firm grasp; None for the force that friction
+            needs to hold the object.
+    """
+
+    inertia_kg: float = 0.0
+    firm_force_n: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GripperFile:
     """A gripper file.
 
     Attributes:
-        geometry: The gripper's shape.
+        mountings: The gripper's shape in each mounting, by its name; one of an empty name where it has one alone.
+        mounting: The mounting where no design sets it.
+        drive: The drive of its fingers.
         settings: What the gripper has where no design sets it: values in SI, such as ``gripper.finger.mass``.
     """
 
-    geometry: GripperGeometry
-    settings: Mapping[str, float]
+    mountings: Mapping[str, GripperGeometry]
+    mounting: str = ""
+    drive: GripperDrive
+    settings: Mapping[str, float | str]
+
+    @property
+    def geometry(self) -> GripperGeometry:
+        """The shape where no design sets the mounting."""
+        return self.mountings[self.mounting]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,6 +119,7 @@ class Gripper:
         finger_velocity_m_s: Greatest finger speed.
         finger_force_n: Force of one finger.
         friction: Coefficient of the pads; a contact's coefficient is the product with the object's.
+        drive: The drive of its fingers.
     """
 
     geometry: GripperGeometry
@@ -97,6 +128,12 @@ class Gripper:
     finger_velocity_m_s: float
     finger_force_n: float
     friction: float
+    drive: GripperDrive = GripperDrive()
+
+    @property
+    def driven_mass_kg(self) -> float:
+        """Mass that the motor of one finger moves: the finger and the reflected inertia of its drive."""
+        return self.finger_mass_kg + self.drive.inertia_kg
 
     @property
     def mass_kg(self) -> float:

@@ -17,6 +17,7 @@ from rgss.errors import QuantityError
 from rgss.findings import Finding
 from rgss.motion import available_planners
 from rgss.scenes import GripperFile, Robot
+from rgss.studies.mountings import mounting_findings
 from rgss.studies.planning import PlanningChoice, planner_problem, require_value
 from rgss.studies.trial_values import values_of
 
@@ -48,6 +49,7 @@ def design_findings(
     yield from _planner_findings(designs, document, planning)
     yield from _planner_parameter_findings(designs, document, planning)
     yield from _component_findings(designs, grippers)
+    yield from mounting_findings(designs, document, grippers)
 
 
 def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, ParameterValue]:

@@ -14,6 +14,7 @@ from rgss.physics import PhysicsSettings
 from rgss.scenes import Gripper
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
 from rgss.studies.design_settings import GRIPPER, PLANNER, TIME_LIMIT, default_values
+from rgss.studies.mountings import MOUNTING, mounted
 from rgss.studies.project import Project
 from rgss.studies.trial_values import values_of, with_values
 from rgss.trials import ControlMode, PlanningSettings, TrialSettings
@@ -86,6 +87,7 @@ def _spec(
             f"component {component.id!r} names no geometry", hint="give it the file of its shape in the catalogue"
         )
     file = project.grippers[component.geometry]
+    values = values_of(variant, {**defaults, **file.settings})
     spec = TrialSpec(
         variant=variant.id,
         seed=project.study.seed,
@@ -93,12 +95,13 @@ def _spec(
         # What of its uncertainty counts is in the trial's own.
         scene=replace(project.scene, uncertainty=NOTHING_UNCERTAIN),
         gripper=Gripper(
-            geometry=file.geometry,
+            geometry=mounted(file, values.get(MOUNTING), variant.id),
             base_mass_kg=math.nan,
             finger_mass_kg=math.nan,
             finger_velocity_m_s=math.nan,
             finger_force_n=math.nan,
             friction=math.nan,
+            drive=file.drive,
         ),
         planner="",
         planning_limit_s=math.nan,
@@ -107,7 +110,6 @@ def _spec(
         uncertainty=project.uncertainty,
         workload=project.workload,
     )
-    values = values_of(variant, {**defaults, **file.settings})
     planner = values.get(PLANNER)
     if isinstance(planner, str):
         spec = replace(spec, planner_settings=project.study.planning.planner_settings(planner))

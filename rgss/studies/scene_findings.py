@@ -10,7 +10,7 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import Waypoint
+from rgss.scenes import GripperGeometry, Waypoint, misfit
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.project import Project
 
@@ -46,7 +46,7 @@ def check_scene(project: Project) -> SceneCheck:
         of_reach: dict[SceneProblem, list[str]] = {}
         for file in _gripper_files(project):
             for problem in reach_problems(
-                project.scene, project.grippers[file].geometry, clearance_m=project.study.planning.clearance_m
+                project.scene, _mounting_that_holds(project, file), clearance_m=project.study.planning.clearance_m
             ):
                 of_reach.setdefault(problem, []).append(file)
     except ImportError as error:
@@ -67,6 +67,13 @@ def _gripper_files(project: Project) -> tuple[str, ...]:
     """The geometry file of every gripper that a design has."""
     used = {variant.components[GRIPPER].geometry for variant in project.designs.expand()}
     return tuple(file for file in project.grippers if file in used)
+
+
+def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
+    """The first shape of a gripper that can hold the object; what cannot is found by its trials, at the grasp."""
+    gripper, shape = project.grippers[file], project.scene.workpiece.shape
+    held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, shape))
+    return next(held, gripper.geometry)
 
 
 class _Places:

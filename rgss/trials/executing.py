@@ -71,7 +71,7 @@ def execute(
     firm = physics.passing(
         force_n=gripper.finger_force_n,
         speed_m_s=gripper.finger_velocity_m_s,
-        lightest_kg=min(scene.workpiece.mass_kg, gripper.finger_mass_kg),
+        lightest_kg=min(scene.workpiece.mass_kg, gripper.driven_mass_kg),
     )
     with open_world(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
         execution = Execution(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 
 from rgss.evidence import Failure, Metric, Phase
@@ -10,6 +9,7 @@ from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
 from rgss.trials.grip_control import GripControl
+from rgss.trials.hands import hand_of
 from rgss.trials.monitors import (
     DragMonitor,
     ForceSensor,
@@ -30,7 +30,6 @@ from rgss.trials.reference import Array, Reference
 
 CARRYING = (Phase.LIFT, Phase.MOVE_TO_GRASP_DEPARTURE, Phase.MOVE_TO_PLACE_APPROACH, Phase.MOVE_TO_PLACE)
 _OPEN_TOLERANCE_M = 5.0e-4
-_FAIR_PART = 0.5
 
 
 class Execution:
@@ -70,6 +69,7 @@ class Execution:
         self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
         self._grip = GripControl(world, control, estimate)
+        self._hand = hand_of(world.gripper)
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
@@ -158,8 +158,8 @@ class Execution:
         scene = world.scene
         watch = self._watch(None, scene.support)
         fingers = gripper.geometry.fingers
-        needed_n = self._grip.mass_kg * scene.gravity_m_s2 / (self._grip.friction * fingers)
-        travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+        needed_n = self._hand.needed_force_n(self._grip.mass_kg * scene.gravity_m_s2, self._grip.friction)
+        travel_s = self._hand.longest_travel_s
         self._grip.close()
         self._grip.tightenings = 0
         hand, look_every = (
@@ -175,14 +175,15 @@ class Execution:
             if steps % look_every == 0:
                 hand.look(steps)
             forces = self._grip.readings(contacts.finger_forces_n)
-            firm_s = firm_s + self._step_s if _is_firm(forces, needed_n) else 0.0
+            firm_s = firm_s + self._step_s if self._hand.is_firm(forces, needed_n) else 0.0
             touching_s = touching_s + self._step_s if min(forces) > 0.0 else 0.0
             if firm_s == 0.0 and touching_s > control.firm_grasp_s:
                 touching_s = 0.0
                 self._grip.tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 shown = ", ".join(f"{force:.2f}" for force in forces)
-                watch.fail(Failure.NO_FIRM_GRASP, f"fingers press with {shown} N, each needs {needed_n:.2f} N")
+                why = self._hand.misfit(scene.workpiece)
+                watch.fail(Failure.NO_FIRM_GRASP, why or f"fingers press with {shown} N, each needs {needed_n:.2f} N")
         self._held_at = hand.look(steps).held
         metrics = watch.metrics()
         metrics["finger_force_n"] = forces
@@ -198,7 +199,7 @@ class Execution:
         world, gripper, control = self._world, self._world.gripper, self._control
         watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world)
         drag = DragMonitor(world, control)
-        travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+        travel_s = self._hand.longest_travel_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
         steps = 0
         contacts = world.contacts()
@@ -285,16 +286,3 @@ class Execution:
             duration_s=steps * self._step_s,
             metrics=metrics,
         )
-
-
-def _is_firm(forces_n: Sequence[float], needed_n: float) -> bool:
-    """True if the fingers together press with the force that friction needs, and each with a minimum share of it.
-
-    Coupled fingers share their force: while the object stands, its support takes the difference
-    between them, so that one may press with less than its part although together they hold.
-
-    Args:
-        forces_n: Normal force of each finger.
-        needed_n: Force that each finger needs if all press alike.
-    """
-    return min(forces_n) > _FAIR_PART * needed_n and math.fsum(forces_n) > len(forces_n) * needed_n

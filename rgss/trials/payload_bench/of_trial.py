@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from rgss.evidence import Fidelity
+from rgss.scenes import misfit
 from rgss.trials.payload_bench.range import outside
 from rgss.trials.payload_bench.spec import BenchSpec, bench_spec
 from rgss.trials.trial_spec import TrialSpec
 
 
 def bench_of(spec: TrialSpec) -> BenchSpec | None:
-    """The payload bench of a trial's gripper; None where only contact physics would know, or outside its range.
+    """The payload bench of a trial's gripper; None where there is none.
+
+    There is none below contact physics, for an object that the gripper cannot hold by its size, and outside the
+    validated range.
 
     Args:
         spec: The trial.
@@ -17,6 +21,8 @@ def bench_of(spec: TrialSpec) -> BenchSpec | None:
     if spec.fidelity is not Fidelity.CONTACT:
         return None
     bench = payload_bench(spec)
+    if misfit(bench.gripper.geometry, bench.shape):
+        return None
     return None if outside(bench) else bench
 
 

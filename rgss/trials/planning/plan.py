@@ -20,7 +20,7 @@ from rgss.motion import (
     plan,
     segment_states,
 )
-from rgss.scenes import Scene, Waypoint, waypoint_poses
+from rgss.scenes import Scene, Waypoint, too_wide, waypoint_poses
 from rgss.trials.move_kinds import MoveKind
 from rgss.trials.planning.direct_moves import direct_move
 from rgss.trials.planning.goal_reasons import GoalReason, reason_against
@@ -71,7 +71,9 @@ def plan_task(
         if start is None or goal is None:
             outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL
             waypoint = _ENDS[phase][start is not None]
-            why = reasons.get(waypoint, "none leads to it from the waypoint before")
+            why = too_wide(cell.geometry, scene.workpiece.shape) or reasons.get(
+                waypoint, "none leads to it from the waypoint before"
+            )
             moves[phase] = _ill_posed(phase, outcome, f"no configuration serves {waypoint.value}: {why}")
             break
         if kind is not MoveKind.PLANNED:

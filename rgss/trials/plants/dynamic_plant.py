@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from rgss.evidence import Failure, Metric, Phase
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.scenes import Gripper, Scene, Workpiece
+from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
@@ -56,6 +57,7 @@ class DynamicPlant:
         self._arm = arm
         self._scene = scene
         self._gripper = gripper
+        self._hand = hand_of(gripper)
         self._step_s = settings.step_s
         self._control = control
         self._controller = controller or JointController()
@@ -96,7 +98,12 @@ class DynamicPlant:
 
     def grasp(self) -> PhaseResult:
         """Close: the arm holds still for the fingers' travel and the time of a firm grasp."""
-        result = self._wait(Phase.GRASP, self._finger_time_s() + self._control.firm_grasp_s, {})
+        misfit = self._hand.misfit(self._scene.workpiece)
+        if misfit:
+            waited = self._wait(Phase.GRASP, self._hand.longest_travel_s + self._control.grasp_timeout_s, {})
+            return replace(waited, failure=Failure.NO_FIRM_GRASP, detail=misfit)
+        closing_s = self._hand.closing_s(self._scene.workpiece)
+        result = self._wait(Phase.GRASP, closing_s + self._control.firm_grasp_s, {})
         self._machine.hold_fingers(self._finger_travel_m())
         self._machine.attach(self._scene.workpiece)
         self._model = self._loaded
@@ -107,7 +114,7 @@ class DynamicPlant:
         self._machine.detach()
         self._machine.hold_fingers(0.0)
         self._model = self._empty
-        opening_s = self._finger_time_s()
+        opening_s = self._hand.opening_s(self._scene.workpiece)
         return self._wait(Phase.PLACE, opening_s, {"opening_s": opening_s})
 
     def _wait(self, phase: Phase, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
@@ -152,9 +159,6 @@ class DynamicPlant:
                 return True
             self._drive(self._at_rad, still, still, log)
         return False
-
-    def _finger_time_s(self) -> float:
-        return self._finger_travel_m() / self._gripper.finger_velocity_m_s
 
     def _finger_travel_m(self) -> float:
         geometry = self._gripper.geometry

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
-from rgss.evidence import Metric, Phase
+from rgss.evidence import Failure, Metric, Phase
 from rgss.scenes import Gripper, Joint, Workpiece
+from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
@@ -67,7 +68,7 @@ class KinematicPlant:
         """
         self._tool = tool
         self._joints = joints
-        self._gripper = gripper
+        self._hand = hand_of(gripper)
         self._workpiece = workpiece
         self._control = control
         self._step_s = step_s
@@ -97,17 +98,17 @@ class KinematicPlant:
 
     def grasp(self) -> PhaseResult:
         """Close: the travel at the finger velocity, then the time for which a grasp must be firm."""
-        return self._result(Phase.GRASP, self._finger_time_s() + self._control.firm_grasp_s, {})
+        misfit = self._hand.misfit(self._workpiece)
+        if misfit:
+            waited_s = self._hand.longest_travel_s + self._control.grasp_timeout_s
+            return replace(self._result(Phase.GRASP, waited_s, {}), failure=Failure.NO_FIRM_GRASP, detail=misfit)
+        closing_s = self._hand.closing_s(self._workpiece)
+        return self._result(Phase.GRASP, closing_s + self._control.firm_grasp_s, {})
 
     def place(self) -> PhaseResult:
         """Open: the same travel back."""
-        opening_s = self._finger_time_s()
+        opening_s = self._hand.opening_s(self._workpiece)
         return self._result(Phase.PLACE, opening_s, {"opening_s": opening_s})
-
-    def _finger_time_s(self) -> float:
-        geometry = self._gripper.geometry
-        travel_m = min(geometry.stroke_m, geometry.largest_opening_m - self._workpiece.shape.radius_m)
-        return travel_m / self._gripper.finger_velocity_m_s
 
     def _deviation(self, positions_rad: Array) -> Array:
         """Deviation (m, n) of the joints from their targets at each step, until the end is reached.

@@ -1,0 +1,53 @@
+"""Interface of a hand: how a kind of gripper takes and releases an object."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from rgss.scenes import Workpiece
+
+
+class Hand(Protocol):
+    """A gripper as the task program uses it, of any kind and at any fidelity."""
+
+    def misfit(self, workpiece: Workpiece) -> str:
+        """Why the hand cannot hold an object by its size or shape; empty where it can.
+
+        Args:
+            workpiece: The object.
+        """
+
+    def closing_s(self, workpiece: Workpiece) -> float:
+        """Time from the command to close until the object is touched.
+
+        Args:
+            workpiece: The object.
+        """
+
+    def opening_s(self, workpiece: Workpiece) -> float:
+        """Time from the command to open until the hand is open.
+
+        Args:
+            workpiece: The object that was held.
+        """
+
+    @property
+    def longest_travel_s(self) -> float:
+        """Time that the hand needs over its whole travel."""
+
+    def needed_force_n(self, weight_n: float, friction: float) -> float:
+        """Normal force of each finger above which a grasp counts as firm.
+
+        Args:
+            weight_n: Weight of the object, as the robot knows it.
+            friction: Coefficient of a finger on the object, as the robot knows it.
+        """
+
+    def is_firm(self, forces_n: Sequence[float], needed_n: float) -> bool:
+        """True if the fingers hold the object firmly.
+
+        Args:
+            forces_n: Normal force of each finger.
+            needed_n: Force that each finger must have.
+        """

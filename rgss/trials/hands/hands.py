@@ -1,0 +1,16 @@
+"""The hand of a gripper."""
+
+from __future__ import annotations
+
+from rgss.scenes import Gripper
+from rgss.trials.hands.finger_hand import FingerHand
+from rgss.trials.hands.hand import Hand
+
+
+def hand_of(gripper: Gripper) -> Hand:
+    """The hand of a gripper, by its kind.
+
+    Args:
+        gripper: The gripper.
+    """
+    return FingerHand(gripper)
