@@ -16,6 +16,7 @@ from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import ClientOwner
 from rgss.physics.hand_view import HandView
 from rgss.physics.settings import PhysicsSettings
+from rgss.physics.suction_seal import SuctionSeal
 from rgss.physics.world_builder import WorldBuilder
 from rgss.scenes import Gripper, Pose, Scene
 
@@ -56,6 +57,7 @@ class World(ClientOwner):
         self.gripper = gripper
         self.settings = settings
         self._steps = 0
+        self._seal: SuctionSeal | None = None
         self._to_renew: list[int] = []
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
@@ -102,6 +104,9 @@ class World(ClientOwner):
 
     def hold_open(self) -> None:
         """Hold the fingers at their open end."""
+        if self._seal is not None:
+            self._seal.switch(on=False)
+            return
         count = len(self._finger_joints)
         self._engine.setJointMotorControlArray(
             self._robot,
@@ -114,7 +119,10 @@ class World(ClientOwner):
         )
 
     def drive_fingers(self, velocity_m_s: float, force_n: float) -> None:
-        """Move every finger at a velocity (positive closes) with at most a force."""
+        """Move every finger at a velocity (positive closes) with at most a force, or switch the vacuum on or off."""
+        if self._seal is not None:
+            self._seal.switch(on=velocity_m_s > 0.0)
+            return
         if velocity_m_s < 0.0:
             self.renew_contacts()
         count = len(self._finger_joints)
@@ -130,9 +138,11 @@ class World(ClientOwner):
     def step(self) -> None:
         """Advance by one step."""
         self._steps += 1
-        if self._steps % _RENEWAL_CHECK_STEPS == 0:
+        if self._steps % _RENEWAL_CHECK_STEPS == 0 and self._seal is None:
             self._renew_contacts_after_rotation()
         self._engine.stepSimulation(self._client)
+        if self._seal is not None:
+            self._seal.after_step(self._lip(), self._top())
 
     def bend(self, arc_m: Sequence[float]) -> None:
         """Second-order correction of the workpiece's position after a step in which the hand carried it.
@@ -187,6 +197,8 @@ class World(ClientOwner):
 
     def finger_travel_m(self) -> tuple[float, ...]:
         """Distance that each finger has closed from its open end."""
+        if not self._finger_joints:
+            return ()
         states = self._engine.getJointStates(self._robot, self._finger_joints, self._client)
         return tuple([state[0] for state in states])
 
@@ -214,7 +226,14 @@ class World(ClientOwner):
             standing: What touched what when the workpiece was last seen to stand at rest without the robot, if
                 it was; as long as the robot touches nothing, it goes on to do so.
         """
-        return self._reader.contacts(standing)
+        if self._seal is None or not self._seal.is_sealed:
+            return self._reader.contacts(standing)
+        return self._reader.contacts()._replace(finger_forces_n=(self._seal.force_n,))
+
+    @property
+    def grip_fault(self) -> str:
+        """Why a suction cup that was switched on does not hold the workpiece; empty where it does, and for fingers."""
+        return "" if self._seal is None else self._seal.fault
 
     def support_force_n(self) -> float:
         """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
@@ -223,6 +242,16 @@ class World(ClientOwner):
     def finger_contacts(self) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step."""
         return self._reader.finger_contacts(self.settings.step_s)
+
+    def _lip(self) -> Pose:
+        """Transform of the centre of the cup's lip, z out of the cup, to the world."""
+        state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
+        return Pose(position_m=state[4], quaternion_xyzw=state[5]) @ self.gripper.geometry.lip
+
+    def _top(self) -> Pose:
+        """Transform of the centre of the workpiece's top to the world."""
+        half_m = self.scene.workpiece.shape.half_height_m
+        return self.workpiece_pose() @ Pose(position_m=(0.0, 0.0, half_m))
 
     def _renew_contacts_after_rotation(self) -> None:
         _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
@@ -266,9 +295,10 @@ class World(ClientOwner):
             self._client,
             robot=self._robot,
             workpiece=self._workpiece,
-            finger_links=self._finger_joints,
+            finger_links=self._finger_joints if index.cup is None else [index.cup],
             link_names=index.link_names,
             scene_names=self._scene_names,
             centre_of_mass_m=self.scene.workpiece.centre_of_mass_m,
         )
         builder.set_robot_dynamics(self._robot, index)
+        self._seal = builder.seal(self._robot, self._workpiece, index)

@@ -16,7 +16,8 @@ from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.settings import PhysicsSettings
-from rgss.scenes import RIBS, Gripper, Scene, assembled_urdf, finger_joint, pad_ribs
+from rgss.physics.suction_seal import SuctionSeal
+from rgss.scenes import CUP_LINK, RIBS, Gripper, Scene, assembled_urdf, finger_joint, pad_ribs
 
 _GEAR_FORCE_N = 1.0e4
 _FRICTION_RECOVERY = 0.9
@@ -30,12 +31,14 @@ class RobotIndex:
         arm_joints: Joints of the arm, from the base to the flange.
         finger_joints: Joints of the fingers, which are the numbers of their links too.
         flange: Link of the flange.
+        cup: Link of the suction cup; None for a gripper with fingers.
         link_names: Name of each link by its number; -1 is the base.
     """
 
     arm_joints: list[int]
     finger_joints: list[int]
     flange: int
+    cup: int | None
     link_names: Mapping[int, str]
 
 
@@ -140,6 +143,7 @@ class WorldBuilder:
             arm_joints=[joints[joint.name] for joint in self.scene.robot.joints],
             finger_joints=[joints[finger_joint(finger)] for finger in range(self.gripper.geometry.fingers)],
             flange=links[self.scene.robot.flange],
+            cup=links.get(CUP_LINK),
             link_names=link_names,
         )
 
@@ -163,6 +167,23 @@ class WorldBuilder:
             )
         if len(index.finger_joints) == 2:
             self._couple_fingers(robot, *index.finger_joints)
+
+    def seal(self, robot: int, workpiece: int, index: RobotIndex) -> SuctionSeal | None:
+        """The seal of a suction cup on the workpiece; None for a gripper with fingers."""
+        suction = self.gripper.suction
+        if suction is None or index.cup is None:
+            return None
+        return SuctionSeal(
+            self.engine,
+            self.client,
+            robot=robot,
+            cup_link=index.cup,
+            body=workpiece,
+            workpiece=self.scene.workpiece,
+            gripper=self.gripper,
+            suction=suction,
+            step_s=self.settings.step_s,
+        )
 
     def _couple_fingers(self, robot: int, one: int, other: int) -> None:
         """Gear two opposed fingers together: each alone resists no force along their common axis."""

@@ -11,9 +11,10 @@ from rgss.scenes.gripper import Gripper, GripperGeometry
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import PadRibs
 from rgss.scenes.robot import Robot
-from rgss.scenes.shapes import Box
+from rgss.scenes.shapes import Box, Cylinder
 
 GRIPPER_BASE_LINK = "gripper_base"
+CUP_LINK = "suction_cup"
 
 # Where a solid lies in its link, how it is rolled, its kind and its sizes.
 _Part = tuple[Pose, float, str, dict[str, str]]
@@ -46,7 +47,7 @@ def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = Non
     geometry = gripper.geometry
     radius, height = geometry.base.radius_m, geometry.base.height_m
     drive_kg = gripper.drive.inertia_kg if has_drives else 0.0
-    base_kg = gripper.base_mass_kg - geometry.fingers * drive_kg
+    base_kg = gripper.base_mass_kg - geometry.fingers * drive_kg - gripper.cup_mass_kg
     across = base_kg * (3 * radius**2 + height**2) / 12
     _add_link(
         root,
@@ -56,6 +57,8 @@ def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = Non
         seen=(geometry.base_pose, 0.0, "cylinder", {"radius": _number(radius), "length": _number(height)}),
     )
     _add_joint(root, name="gripper_joint", kind="fixed", parent=robot.flange, child=GRIPPER_BASE_LINK, origin=Pose())
+    if geometry.cup is not None:
+        _add_cup(root, geometry, geometry.cup, gripper.cup_mass_kg)
     x, y, z = geometry.finger.size_m
     mass = gripper.finger_mass_kg
     for finger, azimuth in enumerate(geometry.azimuths_rad):
@@ -91,6 +94,27 @@ def assembled_urdf(robot: Robot, gripper: Gripper, *, ribs: PadRibs | None = Non
             },
         )
     return ET.tostring(root, encoding="unicode")
+
+
+def _add_cup(root: ET.Element, geometry: GripperGeometry, cup: Cylinder, mass_kg: float) -> None:
+    """Add a suction cup below the base, which has a share of the base's mass."""
+    radius, height = cup.radius_m, cup.height_m
+    across = mass_kg * (3 * radius**2 + height**2) / 12
+    _add_link(
+        root,
+        name=CUP_LINK,
+        mass_kg=mass_kg,
+        inertia=(across, across, mass_kg * radius**2 / 2),
+        seen=(Pose(), 0.0, "cylinder", {"radius": _number(radius), "length": _number(height)}),
+    )
+    _add_joint(
+        root,
+        name="suction_cup_joint",
+        kind="fixed",
+        parent=GRIPPER_BASE_LINK,
+        child=CUP_LINK,
+        origin=geometry.cup_pose,
+    )
 
 
 def _with_drive(

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
 
+_CUP_MASS_SHARE = 0.05
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GripperGeometry:
@@ -26,6 +28,7 @@ class GripperGeometry:
         stroke_m: Travel of each finger towards the axis.
         grasp_depth_m: Distance along z from the flange to the grasp centre.
         mounting: Name of the mounting of the fingers; empty where the gripper has one alone.
+        cup: Suction cup below the base; None for a gripper with fingers.
     """
 
     id: str
@@ -36,6 +39,7 @@ class GripperGeometry:
     stroke_m: float
     grasp_depth_m: float
     mounting: str = ""
+    cup: Cylinder | None = None
 
     @property
     def fingers(self) -> int:
@@ -67,6 +71,18 @@ class GripperGeometry:
         )
 
     @property
+    def cup_pose(self) -> Pose:
+        """Transform of the suction cup's shape to the flange."""
+        half_m = 0.0 if self.cup is None else self.cup.half_height_m
+        return Pose(position_m=(0.0, 0.0, self.base.height_m + half_m))
+
+    @property
+    def lip(self) -> Pose:
+        """Transform of the centre of the suction cup's lip to the flange."""
+        length_m = 0.0 if self.cup is None else self.cup.height_m
+        return Pose(position_m=(0.0, 0.0, self.base.height_m + length_m))
+
+    @property
     def grasp_centre(self) -> Pose:
         """Transform of the grasp-centre frame to the flange."""
         return Pose(position_m=(0.0, 0.0, self.grasp_depth_m))
@@ -87,6 +103,27 @@ class GripperDrive:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Suction:
+    """What a suction cup seals on and holds; its greatest normal force is the force of the gripper.
+
+    Attributes:
+        tangential_force_n: Greatest force along the surface, with the whole vacuum.
+        leak: Share of both forces that is lost on the surface of the object.
+        largest_gap_m: Greatest distance of the lip from a surface that it seals on.
+        largest_angle_rad: Greatest angle between the cup's axis and the normal of that surface.
+        build_up_s: Time from the command until the whole vacuum holds, over which it rises uniformly.
+        release_s: Time from the command until the object is free.
+    """
+
+    tangential_force_n: float
+    leak: float
+    largest_gap_m: float
+    largest_angle_rad: float
+    build_up_s: float
+    release_s: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GripperFile:
     """A gripper file.
 
@@ -94,12 +131,14 @@ class GripperFile:
         mountings: The gripper's shape in each mounting, by its name; one of an empty name where it has one alone.
         mounting: The mounting where no design sets it.
         drive: The drive of its fingers.
+        suction: What its cup holds; None for a gripper with fingers.
         settings: What the gripper has where no design sets it: values in SI, such as ``gripper.finger.mass``.
     """
 
     mountings: Mapping[str, GripperGeometry]
     mounting: str = ""
     drive: GripperDrive
+    suction: Suction | None = None
     settings: Mapping[str, float | str]
 
     @property
@@ -120,6 +159,7 @@ class Gripper:
         finger_force_n: Force of one finger.
         friction: Coefficient of the pads; a contact's coefficient is the product with the object's.
         drive: The drive of its fingers.
+        suction: What its cup holds; None for a gripper with fingers.
     """
 
     geometry: GripperGeometry
@@ -129,6 +169,25 @@ class Gripper:
     finger_force_n: float
     friction: float
     drive: GripperDrive = GripperDrive()
+    suction: Suction | None = None
+
+    def grip_coefficient(self, object_friction: float) -> float:
+        """Force that holds against any load over the sum of the normal forces of fingers or cup.
+
+        For fingers it is the coefficient of friction; for a cup the lesser of 1, along its axis, and the ratio of its
+        greatest tangential to its greatest normal force.
+
+        Args:
+            object_friction: Coefficient of the object.
+        """
+        if self.suction is None:
+            return self.friction * object_friction
+        return min(1.0, self.suction.tangential_force_n / self.finger_force_n)
+
+    @property
+    def cup_mass_kg(self) -> float:
+        """Mass of the suction cup, a share of the base's mass that a cup and its fitting have; 0 without one."""
+        return _CUP_MASS_SHARE * self.base_mass_kg if self.geometry.cup is not None else 0.0
 
     @property
     def driven_mass_kg(self) -> float:

@@ -11,7 +11,7 @@ from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
 from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
-from rgss.scenes import Gripper
+from rgss.scenes import Gripper, at_top
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
 from rgss.studies.design_settings import GRIPPER, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.mountings import MOUNTING, mounted
@@ -95,13 +95,14 @@ def _spec(
         # What of its uncertainty counts is in the trial's own.
         scene=replace(project.scene, uncertainty=NOTHING_UNCERTAIN),
         gripper=Gripper(
-            geometry=mounted(file, values.get(MOUNTING), variant.id),
+            geometry=at_top(mounted(file, values.get(MOUNTING), variant.id), project.scene.workpiece.shape),
             base_mass_kg=math.nan,
             finger_mass_kg=math.nan,
             finger_velocity_m_s=math.nan,
             finger_force_n=math.nan,
             friction=math.nan,
             drive=file.drive,
+            suction=file.suction,
         ),
         planner="",
         planning_limit_s=math.nan,

@@ -10,7 +10,7 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GripperGeometry, Waypoint, misfit
+from rgss.scenes import GripperGeometry, Waypoint, at_top, misfit
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.project import Project
 
@@ -73,7 +73,7 @@ def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
     """The first shape of a gripper that can hold the object; what cannot is found by its trials, at the grasp."""
     gripper, shape = project.grippers[file], project.scene.workpiece.shape
     held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, shape))
-    return next(held, gripper.geometry)
+    return at_top(next(held, gripper.geometry), shape)
 
 
 class _Places:

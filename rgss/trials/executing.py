@@ -97,8 +97,8 @@ def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | No
     return GripEstimate(
         errors,
         mass_kg=believed.mass_kg,
-        friction=conditions.design_gripper.friction * believed.friction,
-        fingers=spec.gripper.geometry.fingers,
+        friction=conditions.design_gripper.grip_coefficient(believed.friction),
+        fingers=max(1, spec.gripper.geometry.fingers),
         window_s=spec.settings.control.force_window_s,
         rate_hz=spec.settings.physics.rate_hz,
         seed=spec.seed,

@@ -113,7 +113,7 @@ class Execution:
                 is_held = min(contacts.finger_forces_n) > 0.0
                 self._grip.since_tightening_s += self._step_s
                 margin = self._grip.margin(watch.grip_margin, contacts.finger_forces_n, load)
-                if margin is not None and margin < least_margin:
+                if self._hand.has_force_feedback and margin is not None and margin < least_margin:
                     self._grip.keep()
             if watch.failure is not None:
                 break
@@ -154,10 +154,9 @@ class Execution:
 
     def grasp(self) -> PhaseResult:
         """Close until every finger holds above the force that Coulomb friction needs."""
-        world, gripper, control = self._world, self._world.gripper, self._control
+        world, control = self._world, self._control
         scene = world.scene
         watch = self._watch(None, scene.support)
-        fingers = gripper.geometry.fingers
         needed_n = self._hand.needed_force_n(self._grip.mass_kg * scene.gravity_m_s2, self._grip.friction)
         travel_s = self._hand.longest_travel_s
         self._grip.close()
@@ -167,7 +166,7 @@ class Execution:
             max(1, round(world.settings.rate_hz / control.observation_rate_hz)),
         )
         firm_s, touching_s, steps = 0.0, 0.0, 0
-        forces: tuple[float, ...] = (0.0,) * fingers
+        forces: tuple[float, ...] = (0.0,)
         while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
             self._hold_arm_and_step()
             contacts = self._observe(Phase.GRASP, watch, scene.gravity_m_s2)
@@ -182,7 +181,7 @@ class Execution:
                 self._grip.tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 shown = ", ".join(f"{force:.2f}" for force in forces)
-                why = self._hand.misfit(scene.workpiece)
+                why = self._hand.misfit(scene.workpiece) or world.grip_fault
                 watch.fail(Failure.NO_FIRM_GRASP, why or f"fingers press with {shown} N, each needs {needed_n:.2f} N")
         self._held_at = hand.look(steps).held
         metrics = watch.metrics()
@@ -203,7 +202,10 @@ class Execution:
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
         steps = 0
         contacts = world.contacts()
-        while max(world.finger_travel_m()) > _OPEN_TOLERANCE_M and watch.failure is None:
+        least_s = self._hand.least_opening_s - 1e-9
+        while watch.failure is None and (
+            max(world.finger_travel_m(), default=0.0) > _OPEN_TOLERANCE_M or steps * self._step_s < least_s
+        ):
             self._hold_arm_and_step()
             contacts = self._observe(Phase.PLACE, watch, 0.0)
             watch.note(landing.after_step())

@@ -34,7 +34,8 @@ class GripControl:
         workpiece = world.scene.workpiece
         self._estimate = estimate
         self.mass_kg = workpiece.mass_kg if estimate is None else estimate.mass_kg
-        self.friction = world.gripper.friction * workpiece.friction if estimate is None else estimate.friction
+        own = world.gripper.grip_coefficient(workpiece.friction)
+        self.friction = own if estimate is None else estimate.friction
 
     def begin_phase(self) -> None:
         """Restart counting and averaging."""

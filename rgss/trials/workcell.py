@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from rgss.evidence import Phase
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
-from rgss.scenes import GripperGeometry, Scene
+from rgss.scenes import CUP_LINK, GripperGeometry, Scene
 from rgss.trials.conditions import conditions_of
 from rgss.trials.trial_spec import TrialSpec
 
@@ -77,12 +77,13 @@ def situations(scene: Scene, geometry: GripperGeometry) -> dict[Phase, Collision
         largest_tilt_rad=scene.task.largest_carry_tilt_rad,
     )
     leaving = replace(carrying, allowed=frozenset({(workpiece.id, scene.support)}))
+    touched = frozenset({(workpiece.id, CUP_LINK)} if geometry.cup is not None else ())
     placed = (scene.place_pose @ held).raised(-scene.task.place_clearance_m)
     return {
-        Phase.MOVE_TO_GRASP: CollisionContext(opening_m=opening, standing=workpiece.pose),
+        Phase.MOVE_TO_GRASP: CollisionContext(opening_m=opening, standing=workpiece.pose, allowed=touched),
         Phase.LIFT: leaving,
         Phase.MOVE_TO_GRASP_DEPARTURE: carrying,
         Phase.MOVE_TO_PLACE_APPROACH: carrying,
         Phase.MOVE_TO_PLACE: carrying,
-        Phase.MOVE_TO_GRASP_APPROACH: CollisionContext(opening_m=opening, standing=placed),
+        Phase.MOVE_TO_GRASP_APPROACH: CollisionContext(opening_m=opening, standing=placed, allowed=touched),
     }

@@ -107,6 +107,11 @@ class MujocoWorld:
         """Set the arm's targets for the next step: reported positions at its start, mean velocities over it."""
         self._target, self._target_speed = np.asarray(position_rad) + self._offsets, np.asarray(velocity_rad_s)
 
+    @property
+    def grip_fault(self) -> str:
+        """Always empty: the world has fingers alone."""
+        return ""
+
     def hold_open(self) -> None:
         """Hold the fingers at their open end, against its stop."""
         self.drive_fingers(-self.gripper.finger_velocity_m_s, self.gripper.finger_force_n)

@@ -10,5 +10,6 @@ if TYPE_CHECKING:
     from rgss.scenes.hands.gripper_kind import GripperKind
     from rgss.scenes.hands.kinds import GRIPPER_KINDS, kind_of_gripper
     from rgss.scenes.hands.parallel_gripper import ParallelGripper, ParallelGripperDocument
+    from rgss.scenes.hands.vacuum_gripper import VacuumGripper, VacuumGripperDocument, at_top
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -13,7 +13,7 @@ def too_wide(geometry: GripperGeometry, shape: Cylinder) -> str:
         geometry: The gripper's shape.
         shape: The object.
     """
-    if shape.radius_m < geometry.largest_opening_m:
+    if geometry.cup is not None or shape.radius_m < geometry.largest_opening_m:
         return ""
     return (
         f"the object of {_millimetres(2 * shape.radius_m)} is too wide to enter {_named(geometry)}, "
@@ -28,7 +28,7 @@ def too_narrow(geometry: GripperGeometry, shape: Cylinder) -> str:
         geometry: The gripper's shape.
         shape: The object.
     """
-    if shape.radius_m > geometry.least_opening_m:
+    if geometry.cup is not None or shape.radius_m > geometry.least_opening_m:
         return ""
     return (
         f"the object of {_millimetres(2 * shape.radius_m)} is too narrow to be touched by {_named(geometry)}, "
@@ -43,7 +43,22 @@ def misfit(geometry: GripperGeometry, shape: Cylinder) -> str:
         geometry: The gripper's shape.
         shape: The object.
     """
-    return too_wide(geometry, shape) or too_narrow(geometry, shape)
+    return too_wide(geometry, shape) or too_narrow(geometry, shape) or unsealed(geometry, shape)
+
+
+def unsealed(geometry: GripperGeometry, shape: Cylinder) -> str:
+    """Why a cup does not seal on the top of an object; empty where it does, and for fingers.
+
+    Args:
+        geometry: The gripper's shape.
+        shape: The object.
+    """
+    if geometry.cup is None or shape.radius_m >= geometry.cup.radius_m:
+        return ""
+    return (
+        f"the top of the object of {_millimetres(2 * shape.radius_m)} is smaller than the cup of "
+        f"{_named(geometry)}, {_millimetres(2 * geometry.cup.radius_m)}"
+    )
 
 
 def _named(geometry: GripperGeometry) -> str:

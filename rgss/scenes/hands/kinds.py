@@ -12,10 +12,13 @@ from rgss.findings import shown
 from rgss.scenes.hands.finger_gripper import FingerGripper
 from rgss.scenes.hands.gripper_kind import GripperKind
 from rgss.scenes.hands.parallel_gripper import ParallelGripper
+from rgss.scenes.hands.vacuum_gripper import VacuumGripper
 
 _FINGERS = FingerGripper()
 
-GRIPPER_KINDS: Mapping[str, GripperKind] = MappingProxyType({kind.name: kind for kind in (_FINGERS, ParallelGripper())})
+GRIPPER_KINDS: Mapping[str, GripperKind] = MappingProxyType(
+    {kind.name: kind for kind in (_FINGERS, ParallelGripper(), VacuumGripper())}
+)
 """The kinds by their names in files."""
 
 

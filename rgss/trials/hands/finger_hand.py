@@ -13,6 +13,8 @@ _FAIR_PART = 0.5
 class FingerHand:
     """Fingers in any mounting, on the axis or apart from it."""
 
+    has_force_feedback = True
+
     def __init__(self, gripper: Gripper) -> None:
         """Take the gripper.
 
@@ -39,6 +41,11 @@ class FingerHand:
     def longest_travel_s(self) -> float:
         """The stroke at the finger velocity."""
         return self._gripper.geometry.stroke_m / self._gripper.finger_velocity_m_s
+
+    @property
+    def least_opening_s(self) -> float:
+        """None: fingers are open when they have travelled."""
+        return 0.0
 
     def needed_force_n(self, weight_n: float, friction: float) -> float:
         """The stated reaction of a finger, else the force that friction needs to hold the weight."""

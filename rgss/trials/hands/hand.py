@@ -11,6 +11,9 @@ from rgss.scenes import Workpiece
 class Hand(Protocol):
     """A gripper as the task program uses it, of any kind and at any fidelity."""
 
+    has_force_feedback: bool
+    """Whether it reads its force and can increase it while the object is carried."""
+
     def misfit(self, workpiece: Workpiece) -> str:
         """Why the hand cannot hold an object by its size or shape; empty where it can.
 
@@ -35,6 +38,10 @@ class Hand(Protocol):
     @property
     def longest_travel_s(self) -> float:
         """Time that the hand needs over its whole travel."""
+
+    @property
+    def least_opening_s(self) -> float:
+        """Time that opening takes even where no finger travels."""
 
     def needed_force_n(self, weight_n: float, friction: float) -> float:
         """Normal force of each finger above which a grasp counts as firm.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rgss.scenes import Gripper
 from rgss.trials.hands.finger_hand import FingerHand
 from rgss.trials.hands.hand import Hand
+from rgss.trials.hands.suction_hand import SuctionHand
 
 
 def hand_of(gripper: Gripper) -> Hand:
@@ -13,4 +14,6 @@ def hand_of(gripper: Gripper) -> Hand:
     Args:
         gripper: The gripper.
     """
+    if gripper.suction is not None:
+        return SuctionHand(gripper, gripper.suction)
     return FingerHand(gripper)

@@ -20,6 +20,8 @@ def bench_of(spec: TrialSpec) -> BenchSpec | None:
     """
     if spec.fidelity is not Fidelity.CONTACT:
         return None
+    if spec.gripper.suction is not None:
+        return None
     bench = payload_bench(spec)
     if misfit(bench.gripper.geometry, bench.shape):
         return None
