@@ -179,6 +179,12 @@ class FingerEntry(DocumentModel):
     drive_inertia: Kilograms | None = None
 
 
+class CommandEntry(DocumentModel):
+    """Command of a gripper without feedback: open or close, each completed after a fixed time."""
+
+    travel_time: Seconds
+
+
 class FirmGraspEntry(DocumentModel):
     """Condition of a firm grasp: the normal force that each finger must exceed."""
 

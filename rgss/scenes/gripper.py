@@ -96,10 +96,13 @@ class GripperDrive:
         inertia_kg: Inertia of the drive of one finger reflected to the finger, as an equivalent mass.
         firm_force_n: Normal force that each finger must exceed for a firm grasp; None for the force that friction
             needs to hold the object.
+        command_s: Time that a command to open or close takes, without feedback of force or position; None for a
+            gripper that reads its fingers' forces.
     """
 
     inertia_kg: float = 0.0
     firm_force_n: float | None = None
+    command_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -68,8 +68,8 @@ class Execution:
         self._held_at: Pose | None = None
         self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
-        self._grip = GripControl(world, control, estimate)
         self._hand = hand_of(world.gripper)
+        self._grip = GripControl(world, control, estimate, is_regulated=self._hand.has_force_feedback)
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
@@ -167,7 +167,8 @@ class Execution:
         )
         firm_s, touching_s, steps = 0.0, 0.0, 0
         forces: tuple[float, ...] = (0.0,)
-        while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
+        least_s = self._hand.least_closing_s - 1e-9
+        while watch.failure is None and (firm_s < control.firm_grasp_s - 1e-9 or steps * self._step_s < least_s):
             self._hold_arm_and_step()
             contacts = self._observe(Phase.GRASP, watch, scene.gravity_m_s2)
             steps += 1
@@ -180,9 +181,8 @@ class Execution:
                 touching_s = 0.0
                 self._grip.tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
-                shown = ", ".join(f"{force:.2f}" for force in forces)
                 why = self._hand.misfit(scene.workpiece) or world.grip_fault
-                watch.fail(Failure.NO_FIRM_GRASP, why or f"fingers press with {shown} N, each needs {needed_n:.2f} N")
+                watch.fail(Failure.NO_FIRM_GRASP, why or self._hand.shortfall(forces, needed_n))
         self._held_at = hand.look(steps).held
         metrics = watch.metrics()
         metrics["finger_force_n"] = forces

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from rgss.documents import Document, DocumentModel, Identifier, Metres
 from rgss.findings import Finding
-from rgss.scenes.document import AssumptionEntry, BaseEntry, FingerEntry, FirmGraspEntry
+from rgss.scenes.document import AssumptionEntry, BaseEntry, CommandEntry, FingerEntry, FirmGraspEntry
 from rgss.scenes.findings import Location, negative
 from rgss.scenes.gripper import GripperFile, GripperGeometry
 from rgss.scenes.hands.finger_entries import body_findings, drive_of, grasp_depth_findings, settings_of
@@ -35,6 +36,7 @@ class ParallelGripperDocument(DocumentModel):
     mounting: Identifier | None = None
     grasp_depth: Metres
     firm_grasp: FirmGraspEntry | None = None
+    command: CommandEntry | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()
 
 
@@ -47,6 +49,23 @@ class ParallelGripper:
     def findings(self, entry: ParallelGripperDocument, document: Document) -> Iterable[Finding]:
         """Problems of sizes, of mountings without travel, and of a default that is no mounting."""
         others: list[tuple[Location, float]] = [(("grasp_depth",), entry.grasp_depth)]
+        if entry.command is not None:
+            others.append((("command", "travel_time"), entry.command.travel_time))
+            travels = {round(one.open - one.closed, 9) for one in entry.mountings.values()}
+            if len(travels) > 1:
+                yield document.finding(
+                    "scene.command",
+                    "the mountings of a gripper with a command must have the same travel, as it takes one time",
+                    ("mountings",),
+                    hint="write a file for each mounting",
+                )
+            if entry.finger.speed is not None:
+                yield document.finding(
+                    "scene.command",
+                    "the speed of the fingers follows from the mounting's travel and the command's travel_time",
+                    ("finger", "speed"),
+                    hint="remove 'speed', or 'command'",
+                )
         yield from body_findings(entry.base, entry.finger, entry.firm_grasp, document, others)
         widths = ((("mountings", name, "closed"), one.closed) for name, one in entry.mountings.items())
         yield from negative(document, widths)
@@ -78,12 +97,13 @@ class ParallelGripper:
         """The gripper in each of its mountings."""
         mountings = {name: _geometry(entry, name, one) for name, one in entry.mountings.items()}
         mounting = entry.mounting or next(iter(mountings))
-        return GripperFile(
-            mountings=mountings,
-            mounting=mounting,
-            drive=drive_of(entry.finger, entry.firm_grasp),
-            settings={**settings_of(entry.base, entry.finger), "gripper.mounting": mounting},
-        )
+        settings = {**settings_of(entry.base, entry.finger), "gripper.mounting": mounting}
+        drive = drive_of(entry.finger, entry.firm_grasp)
+        if entry.command is not None:
+            # The fingers of each mounting cross their own travel in the time of the command.
+            drive = replace(drive, command_s=entry.command.travel_time)
+            settings["gripper.finger.speed"] = mountings[mounting].stroke_m / entry.command.travel_time
+        return GripperFile(mountings=mountings, mounting=mounting, drive=drive, settings=settings)
 
 
 def _geometry(entry: ParallelGripperDocument, name: str, mounting: MountingEntry) -> GripperGeometry:

@@ -27,20 +27,33 @@ class FingerHand:
         """Why the object is too wide to enter or too narrow to be touched; empty where it fits."""
         return misfit(self._gripper.geometry, workpiece.shape)
 
-    def closing_s(self, workpiece: Workpiece) -> float:
-        """Travel to the object at the finger velocity."""
+    def closing_s(self, workpiece: Workpiece, firm_s: float) -> float:
+        """Travel to the object at the finger velocity, and the time for which the grasp must be firm."""
+        return self.travel_s(workpiece) + firm_s
+
+    def travel_s(self, workpiece: Workpiece) -> float:
+        """Travel from open to the object at the finger velocity.
+
+        Args:
+            workpiece: The object.
+        """
         geometry = self._gripper.geometry
         travel_m = min(geometry.stroke_m, geometry.largest_opening_m - workpiece.shape.radius_m)
         return travel_m / self._gripper.finger_velocity_m_s
 
     def opening_s(self, workpiece: Workpiece) -> float:
         """The same travel back."""
-        return self.closing_s(workpiece)
+        return self.travel_s(workpiece)
 
     @property
     def longest_travel_s(self) -> float:
         """The stroke at the finger velocity."""
         return self._gripper.geometry.stroke_m / self._gripper.finger_velocity_m_s
+
+    @property
+    def least_closing_s(self) -> float:
+        """None: a grasp that is firm is complete."""
+        return 0.0
 
     @property
     def least_opening_s(self) -> float:
@@ -51,6 +64,11 @@ class FingerHand:
         """The stated reaction of a finger, else the force that friction needs to hold the weight."""
         stated_n = self._gripper.drive.firm_force_n
         return weight_n / (friction * self._gripper.geometry.fingers) if stated_n is None else stated_n
+
+    def shortfall(self, forces_n: Sequence[float], needed_n: float) -> str:
+        """The force of each finger beside the one that it needs."""
+        shown = ", ".join(f"{force:.2f}" for force in forces_n)
+        return f"fingers press with {shown} N, each needs {needed_n:.2f} N"
 
     def is_firm(self, forces_n: Sequence[float], needed_n: float) -> bool:
         """True if each finger's reaction exceeds the stated one, or together they have what friction needs.

@@ -21,11 +21,12 @@ class Hand(Protocol):
             workpiece: The object.
         """
 
-    def closing_s(self, workpiece: Workpiece) -> float:
-        """Time from the command to close until the object is touched.
+    def closing_s(self, workpiece: Workpiece, firm_s: float) -> float:
+        """Time from the command to close until the grasp is firm.
 
         Args:
             workpiece: The object.
+            firm_s: Time for which a grasp must be firm where the hand reads its force.
         """
 
     def opening_s(self, workpiece: Workpiece) -> float:
@@ -40,6 +41,10 @@ class Hand(Protocol):
         """Time that the hand needs over its whole travel."""
 
     @property
+    def least_closing_s(self) -> float:
+        """Time that closing takes even where the object is firmly held before."""
+
+    @property
     def least_opening_s(self) -> float:
         """Time that opening takes even where no finger travels."""
 
@@ -49,6 +54,14 @@ class Hand(Protocol):
         Args:
             weight_n: Weight of the object, as the robot knows it.
             friction: Coefficient of a finger on the object, as the robot knows it.
+        """
+
+    def shortfall(self, forces_n: Sequence[float], needed_n: float) -> str:
+        """What is short of a firm grasp, for the detail of a failure.
+
+        Args:
+            forces_n: Normal force of each finger.
+            needed_n: Force that each finger must have.
         """
 
     def is_firm(self, forces_n: Sequence[float], needed_n: float) -> bool:

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 from rgss.scenes import Gripper, Suction, Workpiece, misfit
 
+_WHOLE = 0.999
+
 
 class SuctionHand:
     """A suction cup, switched on and off; it has no force to be increased."""
@@ -26,9 +28,9 @@ class SuctionHand:
         """Why the cup does not seal on the top of the object; empty where it does."""
         return misfit(self._gripper.geometry, workpiece.shape)
 
-    def closing_s(self, workpiece: Workpiece) -> float:  # noqa: ARG002 - it is the same for each
-        """Time until the whole vacuum holds."""
-        return self._suction.build_up_s
+    def closing_s(self, workpiece: Workpiece, firm_s: float) -> float:  # noqa: ARG002 - it is the same for each
+        """Time until the whole vacuum holds, and for which it must."""
+        return self._suction.build_up_s + firm_s
 
     def opening_s(self, workpiece: Workpiece) -> float:  # noqa: ARG002 - it is the same for each
         """Time until the object is free."""
@@ -40,14 +42,24 @@ class SuctionHand:
         return max(self._suction.build_up_s, self._suction.release_s)
 
     @property
+    def least_closing_s(self) -> float:
+        """None: the vacuum switch reports when it is whole."""
+        return 0.0
+
+    @property
     def least_opening_s(self) -> float:
         """Time until the object is free."""
         return self._suction.release_s
 
-    def needed_force_n(self, weight_n: float, friction: float) -> float:
-        """The holding force that the weight needs in any direction."""
-        return weight_n / self._gripper.grip_coefficient(friction)
+    def needed_force_n(self, weight_n: float, friction: float) -> float:  # noqa: ARG002 - a cup needs none
+        """The weight, which hangs along the axis of the cup."""
+        return weight_n
+
+    def shortfall(self, forces_n: Sequence[float], needed_n: float) -> str:
+        """The force of the vacuum beside the weight."""
+        return f"the cup holds {min(forces_n):.2f} N, the object weighs {needed_n:.2f} N"
 
     def is_firm(self, forces_n: Sequence[float], needed_n: float) -> bool:
-        """True if the vacuum holds the object."""
-        return min(forces_n) > needed_n
+        """True if the whole vacuum is built up, as a vacuum switch reports it, and exceeds the weight."""
+        whole_n = (1.0 - self._suction.leak) * self._gripper.finger_force_n
+        return min(forces_n) >= _WHOLE * whole_n and min(forces_n) > needed_n

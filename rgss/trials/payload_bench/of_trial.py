@@ -12,8 +12,8 @@ from rgss.trials.trial_spec import TrialSpec
 def bench_of(spec: TrialSpec) -> BenchSpec | None:
     """The payload bench of a trial's gripper; None where there is none.
 
-    There is none below contact physics, for an object that the gripper cannot hold by its size, and outside the
-    validated range.
+    There is none below contact physics, for a suction cup, for an object that the gripper cannot hold by its size,
+    and outside the validated range.
 
     Args:
         spec: The trial.

@@ -139,6 +139,11 @@ class BenchSpec:
         Raises:
             DefinitionError: A number is out of range, or the open hand cannot be put over the object.
         """
+        if self.gripper.suction is not None:
+            raise DefinitionError(
+                f"the payload bench has fingers to try, gripper {self.gripper.geometry.id!r} has a suction cup",
+                hint="what a cup lifts is its normal force less the leak, over gravity and acceleration",
+            )
         positive = {
             "the acceleration": self.acceleration_m_s2,
             "the rated mass": self.rated_kg,

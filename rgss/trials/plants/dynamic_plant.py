@@ -102,8 +102,8 @@ class DynamicPlant:
         if misfit:
             waited = self._wait(Phase.GRASP, self._hand.longest_travel_s + self._control.grasp_timeout_s, {})
             return replace(waited, failure=Failure.NO_FIRM_GRASP, detail=misfit)
-        closing_s = self._hand.closing_s(self._scene.workpiece)
-        result = self._wait(Phase.GRASP, closing_s + self._control.firm_grasp_s, {})
+        closing_s = self._hand.closing_s(self._scene.workpiece, self._control.firm_grasp_s)
+        result = self._wait(Phase.GRASP, closing_s, {})
         self._machine.hold_fingers(self._finger_travel_m())
         self._machine.attach(self._scene.workpiece)
         self._model = self._loaded

@@ -102,8 +102,8 @@ class KinematicPlant:
         if misfit:
             waited_s = self._hand.longest_travel_s + self._control.grasp_timeout_s
             return replace(self._result(Phase.GRASP, waited_s, {}), failure=Failure.NO_FIRM_GRASP, detail=misfit)
-        closing_s = self._hand.closing_s(self._workpiece)
-        return self._result(Phase.GRASP, closing_s + self._control.firm_grasp_s, {})
+        closing_s = self._hand.closing_s(self._workpiece, self._control.firm_grasp_s)
+        return self._result(Phase.GRASP, closing_s, {})
 
     def place(self) -> PhaseResult:
         """Open: the same travel back."""
