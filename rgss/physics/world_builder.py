@@ -112,7 +112,14 @@ class WorldBuilder:
 
     def add_robot(self) -> int:
         """Add the robot with its gripper; the result is its number."""
-        base, engine = self.scene.robot.base, self.engine
+        base, engine, gripper = self.scene.robot.base, self.engine, self.gripper
+        drives_kg = gripper.geometry.fingers * gripper.drive.inertia_kg
+        if drives_kg and drives_kg >= gripper.base_mass_kg:
+            raise SimulationError(
+                f"the drives' inertia of {drives_kg:g} kg must be less than the base's mass of "
+                f"{gripper.base_mass_kg:g} kg",
+                hint="give the gripper's base its mass with the drives, or less drive_inertia",
+            )
         return load_urdf_text(
             self.client,
             assembled_urdf(

@@ -14,7 +14,14 @@ from rgss.documents import DocumentModel, json_schema, read_document
 from rgss.errors import DefinitionError
 from rgss.measures import MeasuresDocument
 from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
-from rgss.scenes import CalibrationDocument, GripperDocument, RobotDocument, SceneDocument
+from rgss.scenes import (
+    CalibrationDocument,
+    GripperDocument,
+    ParallelGripperDocument,
+    RobotDocument,
+    SceneDocument,
+    VacuumGripperDocument,
+)
 from rgss.studies.document import StudyDocument
 
 
@@ -78,13 +85,24 @@ DOCUMENT_KINDS = (
         id="calibration", title="Calibration of a robot's servos", model=CalibrationDocument, place="scenes/robots/"
     ),
     DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
+    DocumentKind(
+        id="parallel-gripper", title="Parallel gripper", model=ParallelGripperDocument, place="scenes/grippers/"
+    ),
+    DocumentKind(id="vacuum-gripper", title="Vacuum gripper", model=VacuumGripperDocument, place="scenes/grippers/"),
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
 
 _OF_REQUIREMENTS = ("stakeholder", "system", "architecture", "measures", "rules", "reviews")
 _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
     "designs": (("components", "catalogue"), ("parameters", "design-space")),
-    "scenes": (("bodies", "scene"), ("joints", "robot"), ("azimuths", "gripper"), ("servos", "calibration")),
+    "scenes": (
+        ("bodies", "scene"),
+        ("joints", "robot"),
+        ("azimuths", "gripper"),
+        ("mountings", "parallel-gripper"),
+        ("cup", "vacuum-gripper"),
+        ("servos", "calibration"),
+    ),
     "studies": (("study", "study"),),
 }
 
