@@ -42,6 +42,7 @@ def test_an_unknown_mounting_is_refused(tmp_path, name, hint):
 
 
 DESIGNS, CATALOGUE, KG_2 = "designs/grasping_system.yaml", "designs/catalogue.yaml", "scenes/grippers/kg-2.yaml"
+MOUNTINGS = ("normal", "reverse")
 PARAMETER = "  - {id: d10, name: mounting, symbol: b, kind: name, sets: gripper.mounting, description: Mounting.}\n"
 LEVELS = """\
   - id: mounting
@@ -78,11 +79,9 @@ def test_a_design_space_compares_mountings(two_mountings):
 
     specs = trial_specs(project)
 
-    assert {spec.gripper.geometry.mounting for spec in specs} == {"normal", "reverse"}
-    records = {
-        spec.gripper.geometry.mounting: Pieces().record(replace(spec, fidelity=Fidelity.KINEMATIC))
-        for spec in (specs[0], specs[-1])
-    }
+    assert {spec.gripper.geometry.mounting for spec in specs} == {*MOUNTINGS}
+    first = {name: next(spec for spec in specs if spec.gripper.geometry.mounting == name) for name in MOUNTINGS}
+    records = {name: Pieces().record(replace(spec, fidelity=Fidelity.KINEMATIC)) for name, spec in first.items()}
     assert "too wide to enter gripper kg-2 in its mounting normal" in records["normal"].failure_detail
     assert records["reverse"].success
     # The mounting that cannot hold the object is compared, it is no mistake of the scene.
