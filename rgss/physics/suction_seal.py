@@ -89,15 +89,17 @@ class SuctionSeal:
         elif self._on_s is not None and math.isinf(self._off_s):
             self._off_s = 0.0
 
-    def after_step(self, lip: Pose, top: Pose) -> None:
+    def after_step(self, flange: Pose, workpiece: Pose) -> None:
         """Build up or vent the vacuum, seal where the surface is near, and break a bond that is overloaded.
 
         Args:
-            lip: Transform of the centre of the lip, z out of the cup, to the world.
-            top: Transform of the centre of the workpiece's top, z out of it, to the world.
+            flange: Transform of the flange to the world.
+            workpiece: Transform of the workpiece's shape to the world.
         """
         if self._on_s is None:
             return
+        lip = flange @ self._gripper.geometry.lip
+        top = workpiece @ Pose(position_m=(0.0, 0.0, self._workpiece.shape.half_height_m))
         if not math.isinf(self._off_s):
             self._off_s += self._step_s
             if self._off_s >= self._suction.release_s - 1e-9:

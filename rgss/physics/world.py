@@ -142,7 +142,7 @@ class World(ClientOwner):
             self._renew_contacts_after_rotation()
         self._engine.stepSimulation(self._client)
         if self._seal is not None:
-            self._seal.after_step(self._lip(), self._top())
+            self._seal.after_step(self._flange_pose(), self.workpiece_pose())
 
     def bend(self, arc_m: Sequence[float]) -> None:
         """Second-order correction of the workpiece's position after a step in which the hand carried it.
@@ -243,15 +243,9 @@ class World(ClientOwner):
         """The points at which fingers press on the workpiece after the last step."""
         return self._reader.finger_contacts(self.settings.step_s)
 
-    def _lip(self) -> Pose:
-        """Transform of the centre of the cup's lip, z out of the cup, to the world."""
+    def _flange_pose(self) -> Pose:
         state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
-        return Pose(position_m=state[4], quaternion_xyzw=state[5]) @ self.gripper.geometry.lip
-
-    def _top(self) -> Pose:
-        """Transform of the centre of the workpiece's top to the world."""
-        half_m = self.scene.workpiece.shape.half_height_m
-        return self.workpiece_pose() @ Pose(position_m=(0.0, 0.0, half_m))
+        return Pose(position_m=state[4], quaternion_xyzw=state[5])
 
     def _renew_contacts_after_rotation(self) -> None:
         _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)

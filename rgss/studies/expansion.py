@@ -13,10 +13,9 @@ from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
 from rgss.scenes import Gripper, at_top
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
-from rgss.studies.design_settings import GRIPPER, PLANNER, TIME_LIMIT, default_values
-from rgss.studies.mountings import MOUNTING, mounted
+from rgss.studies.design_settings import GRIPPER, MOUNTING, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.project import Project
-from rgss.studies.trial_values import values_of, with_values
+from rgss.studies.trial_values import mounted, values_of, with_values
 from rgss.trials import ControlMode, PlanningSettings, TrialSettings
 from rgss.trials.pieces import TrialSpec
 

@@ -10,9 +10,9 @@ from rgss.errors import DefinitionError, DocumentError
 from rgss.evidence import Fidelity
 from rgss.scenes import load_gripper_file
 from rgss.studies.expansion import trial_specs
-from rgss.studies.mountings import mounted
 from rgss.studies.project import load_project
 from rgss.studies.scene_findings import check_scene
+from rgss.studies.trial_values import mounted
 from rgss.trials.pieces.run import Pieces
 from tests.fixtures.shipped_project import copy_project
 from tests.trials.hands.gripper_files import FILES

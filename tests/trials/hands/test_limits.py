@@ -28,7 +28,6 @@ def test_there_is_no_bench_for_an_object_that_the_gripper_cannot_hold(spec_of, t
 
 
 def test_mujoco_has_no_cups(spec_of, tmp_path):
-    pytest.importorskip("mujoco")
     with pytest.raises(DefinitionError, match="MuJoCo's world has fingers alone, gripper 'cup' has a suction cup"):
         open_world(spec_of().scene, gripper_of(tmp_path, "vacuum"), mujoco_settings())
 
