@@ -60,6 +60,15 @@ _QUANTITIES = (
         required=False,
     ),
     SettableQuantity(
+        name="gripper.mounting",
+        kind=ParameterKind.NAME,
+        unit="",
+        meaning="Mounting of the fingers, one of those in the gripper file.",
+        field="gripper.geometry.mounting",
+        default="mounting in the gripper file",
+        required=False,
+    ),
+    SettableQuantity(
         name="gripper.base.mass",
         unit="kg",
         meaning="Mass of the gripper without its fingers and their actuators.",

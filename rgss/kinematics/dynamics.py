@@ -38,8 +38,8 @@ def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
     """
     geometry = gripper.geometry
     base = Load(
-        mass_kg=gripper.base_mass_kg,
-        moments_kg_m2=solid_moments(geometry.base, gripper.base_mass_kg),
+        mass_kg=gripper.base_mass_kg - gripper.cup_mass_kg,
+        moments_kg_m2=solid_moments(geometry.base, gripper.base_mass_kg - gripper.cup_mass_kg),
         pose=geometry.base_pose,
     )
     fingers = (
@@ -50,7 +50,14 @@ def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
         )
         for finger in range(geometry.fingers)
     )
-    return (base, *fingers)
+    if geometry.cup is None:
+        return (base, *fingers)
+    cup = Load(
+        mass_kg=gripper.cup_mass_kg,
+        moments_kg_m2=solid_moments(geometry.cup, gripper.cup_mass_kg),
+        pose=geometry.cup_pose,
+    )
+    return (base, cup)
 
 
 def workpiece_load(workpiece: Workpiece, pose: Pose) -> Load:

@@ -13,6 +13,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import transform
 from rgss.scenes import (
+    CUP_LINK,
     GRIPPER_BASE_LINK,
     Box,
     ConvexPart,
@@ -81,6 +82,8 @@ def collision_parts(
     for finger in range(gripper.fingers):
         pose = gripper.finger_pose(finger, situation.opening_m)
         parts.append(held(finger_link(finger), transform(pose), gripper.finger))
+    if gripper.cup is not None:
+        parts.append(held(CUP_LINK, transform(gripper.cup_pose), gripper.cup))
     workpiece = scene.workpiece
     if situation.carried is not None:
         carried = gripper.grasp_centre @ situation.carried

@@ -27,6 +27,10 @@ class ContactWorld(Protocol):
     def settings(self) -> PhysicsSettings:
         """Step length and solver."""
 
+    @property
+    def grip_fault(self) -> str:
+        """Why a suction cup that was switched on does not hold the workpiece; empty where it does, and for fingers."""
+
     def __enter__(self) -> ContactWorld: ...
 
     def __exit__(

@@ -17,6 +17,7 @@ from rgss.errors import SimulationError
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
 from rgss.physics.solids import Surface, box_surface, cup_surface, cylinder_surface, hull_surface
 from rgss.scenes import (
+    CUP_LINK,
     GRIPPER_BASE_LINK,
     Box,
     Cylinder,
@@ -178,6 +179,8 @@ class Stage:
         self._flange = links[self._scene.robot.flange]
         colours = {links[finger_link(finger)]: FINGER_COLOUR for finger in fingers}
         colours[links[GRIPPER_BASE_LINK]] = GRIPPER_BASE_COLOUR
+        if CUP_LINK in links:
+            colours[links[CUP_LINK]] = FINGER_COLOUR
         self._parts = []
         for _, link, kind, size, _, position, orientation, colour, *_ in engine.getVisualShapeData(
             self._robot, physicsClientId=client

@@ -49,7 +49,9 @@ class TorqueArm(ClientOwner):
         self.hold_fingers(finger_travel_m)
 
     def hold_fingers(self, finger_travel_m: float) -> None:
-        """Put the fingers at a travel from open and hold them there."""
+        """Put the fingers at a travel from open and hold them there; a suction cup has none."""
+        if not self._fingers:
+            return
         for joint in self._fingers:
             self._engine.resetJointState(self._body, joint, finger_travel_m, 0.0, physicsClientId=self._client)
         self._engine.setJointMotorControlArray(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 from rgss.errors import SimulationError
 from rgss.physics.contact_reader import ContactReader
@@ -16,6 +17,7 @@ from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import ClientOwner
 from rgss.physics.hand_view import HandView
 from rgss.physics.settings import PhysicsSettings
+from rgss.physics.suction_seal import SuctionSeal
 from rgss.physics.world_builder import WorldBuilder
 from rgss.scenes import Gripper, Pose, Scene
 
@@ -56,6 +58,7 @@ class World(ClientOwner):
         self.gripper = gripper
         self.settings = settings
         self._steps = 0
+        self._seal: SuctionSeal | None = None
         self._to_renew: list[int] = []
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
@@ -105,6 +108,9 @@ class World(ClientOwner):
 
     def hold_open(self) -> None:
         """Hold the fingers at their open end."""
+        if self._seal is not None:
+            self._seal.switch(on=False)
+            return
         count = len(self._finger_joints)
         self._engine.setJointMotorControlArray(
             self._robot,
@@ -117,7 +123,10 @@ class World(ClientOwner):
         )
 
     def drive_fingers(self, velocity_m_s: float, force_n: float) -> None:
-        """Move every finger at a velocity (positive closes) with at most a force."""
+        """Move every finger at a velocity (positive closes) with at most a force, or switch the vacuum on or off."""
+        if self._seal is not None:
+            self._seal.switch(on=velocity_m_s > 0.0)
+            return
         if velocity_m_s < 0.0:
             self.renew_contacts()
         count = len(self._finger_joints)
@@ -133,9 +142,11 @@ class World(ClientOwner):
     def step(self) -> None:
         """Advance by one step."""
         self._steps += 1
-        if self._steps % _RENEWAL_CHECK_STEPS == 0:
+        if self._steps % _RENEWAL_CHECK_STEPS == 0 and self._seal is None:
             self._renew_contacts_after_rotation()
         self._engine.stepSimulation(self._client)
+        if self._seal is not None:
+            self._seal.after_step(self._flange_pose(), self.workpiece_pose())
 
     def bend(self, arc_m: Sequence[float]) -> None:
         """Second-order correction of the workpiece's position after a step in which the hand carried it.
@@ -186,6 +197,7 @@ class World(ClientOwner):
         self._attend(scene.workpiece.id)
         self._renewed_at = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)[1]
         self._reader = self._reader_of_workpiece()
+        self._seal = self._seal_on(self._workpiece, scene.workpiece)
 
     def object_pose(self, name: str) -> Pose:
         """Transform of an object's shape to the world.
@@ -212,6 +224,8 @@ class World(ClientOwner):
 
     def finger_travel_m(self) -> tuple[float, ...]:
         """Distance that each finger has closed from its open end."""
+        if not self._finger_joints:
+            return ()
         states = self._engine.getJointStates(self._robot, self._finger_joints, self._client)
         return tuple([state[0] for state in states])
 
@@ -239,7 +253,14 @@ class World(ClientOwner):
             standing: What touched what when the workpiece was last seen to stand at rest without the robot, if
                 it was; as long as the robot touches nothing, it goes on to do so.
         """
-        return self._reader.contacts(standing)
+        if self._seal is None or not self._seal.is_sealed:
+            return self._reader.contacts(standing)
+        return self._reader.contacts()._replace(finger_forces_n=(self._seal.force_n,))
+
+    @property
+    def grip_fault(self) -> str:
+        """Why a suction cup that was switched on does not hold the workpiece; empty where it does, and for fingers."""
+        return "" if self._seal is None else self._seal.fault
 
     def support_force_n(self) -> float:
         """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
@@ -248,6 +269,10 @@ class World(ClientOwner):
     def finger_contacts(self) -> tuple[FingerContact, ...]:
         """The points at which fingers press on the workpiece after the last step."""
         return self._reader.finger_contacts(self.settings.step_s)
+
+    def _flange_pose(self) -> Pose:
+        state = self._engine.getLinkState(self._robot, self._flange, 0, 1, self._client)
+        return Pose(position_m=state[4], quaternion_xyzw=state[5])
 
     def _renew_contacts_after_rotation(self) -> None:
         _, turned = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)
@@ -291,7 +316,7 @@ class World(ClientOwner):
             self._client,
             robot=self._robot,
             workpiece=self._workpiece,
-            finger_links=self._finger_joints,
+            finger_links=self._finger_links,
             link_names=self._link_names,
             scene_names={**self._scene_names, **others},
             principal=self._principal,
@@ -306,6 +331,9 @@ class World(ClientOwner):
         self._finger_joints = index.finger_joints
         self._flange = index.flange
         self._grasp_centre_m = self.gripper.geometry.grasp_centre.position_m
+        self._finger_links = self._finger_joints if index.cup is None else [index.cup]
         self._link_names = index.link_names
         self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)
+        self._seal_on = partial(builder.seal, self._robot, index)
+        self._seal = self._seal_on(self._workpiece, self.scene.workpiece)

@@ -16,12 +16,15 @@ from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body, add_object
 from rgss.physics.engine import load_urdf_text
 from rgss.physics.settings import PhysicsSettings
+from rgss.physics.suction_seal import SuctionSeal
 from rgss.scenes import (
+    CUP_LINK,
     Gripper,
     PadLayout,
     Pose,
     Scene,
     SceneObject,
+    Workpiece,
     assembled_urdf,
     finger_joint,
     most_elements,
@@ -41,12 +44,14 @@ class RobotIndex:
         arm_joints: Joints of the arm, from the base to the flange.
         finger_joints: Joints of the fingers, which are the numbers of their links too.
         flange: Link of the flange.
+        cup: Link of the suction cup; None for a gripper with fingers.
         link_names: Name of each link by its number; -1 is the base.
     """
 
     arm_joints: list[int]
     finger_joints: list[int]
     flange: int
+    cup: int | None
     link_names: Mapping[int, str]
 
 
@@ -134,13 +139,21 @@ class WorldBuilder:
 
     def add_robot(self) -> int:
         """Add the robot with its gripper; the result is its number."""
-        base, engine = self.scene.robot.base, self.engine
+        base, engine, gripper = self.scene.robot.base, self.engine, self.gripper
+        drives_kg = gripper.geometry.fingers * gripper.drive.inertia_kg
+        if drives_kg and drives_kg >= gripper.base_mass_kg:
+            raise SimulationError(
+                f"the drives' inertia of {drives_kg:g} kg must be less than the base's mass of "
+                f"{gripper.base_mass_kg:g} kg",
+                hint="give the gripper's base its mass with the drives, or less drive_inertia",
+            )
         return load_urdf_text(
             self.client,
             assembled_urdf(
                 self.scene.robot,
                 self.gripper,
                 pads=self.pads,
+                has_drives=True,
             ),
             position=base.position_m,
             orientation=base.quaternion_xyzw,
@@ -164,6 +177,7 @@ class WorldBuilder:
             arm_joints=[joints[joint.name] for joint in self.scene.robot.joints],
             finger_joints=[joints[finger_joint(finger)] for finger in range(self.gripper.geometry.fingers)],
             flange=links[self.scene.robot.flange],
+            cup=links.get(CUP_LINK),
             link_names=link_names,
         )
 
@@ -188,6 +202,23 @@ class WorldBuilder:
             )
         if len(index.finger_joints) == 2:
             self._couple_fingers(robot, *index.finger_joints)
+
+    def seal(self, robot: int, index: RobotIndex, body: int, workpiece: Workpiece) -> SuctionSeal | None:
+        """The seal of a suction cup on an object; None for a gripper with fingers."""
+        suction = self.gripper.suction
+        if suction is None or index.cup is None:
+            return None
+        return SuctionSeal(
+            self.engine,
+            self.client,
+            robot=robot,
+            cup_link=index.cup,
+            body=body,
+            workpiece=workpiece,
+            gripper=self.gripper,
+            suction=suction,
+            step_s=self.settings.step_s,
+        )
 
     def _couple_fingers(self, robot: int, one: int, other: int) -> None:
         """Gear two opposed fingers together: each alone resists no force along their common axis."""

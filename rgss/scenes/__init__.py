@@ -1,11 +1,21 @@
 """Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
 
-from rgss.scenes.assembly import GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
+from rgss.scenes.assembly import CUP_LINK, GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
 from rgss.scenes.convex_shapes import ConvexPart, convex_link_urdf, convex_parts, vertices_of, with_mesh_files
 from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.grasp_choice import Approach, GivenGrasp, GraspCandidates, TakenGrasp
-from rgss.scenes.gripper import Gripper, GripperFile, GripperGeometry
+from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry, Suction
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
+from rgss.scenes.hands import (
+    GRIPPER_KINDS,
+    ParallelGripperDocument,
+    VacuumGripperDocument,
+    at_top,
+    flat_top_radius_m,
+    misfit,
+    too_narrow,
+    too_wide,
+)
 from rgss.scenes.mass_properties import (
     Gyration,
     centre_of_mass,

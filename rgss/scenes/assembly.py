@@ -7,13 +7,14 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from functools import lru_cache
 
-from rgss.scenes.gripper import Gripper
+from rgss.scenes.gripper import Gripper, GripperGeometry
 from rgss.scenes.pad_layout import PadLayout
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
-from rgss.scenes.shapes import Box
+from rgss.scenes.shapes import Box, Cylinder
 
 GRIPPER_BASE_LINK = "gripper_base"
+CUP_LINK = "suction_cup"
 
 # Where a solid lies in its link, how it is rolled, its kind and its sizes.
 _Part = tuple[Pose, float, str, dict[str, str]]
@@ -30,7 +31,9 @@ def finger_joint(finger: int) -> str:
 
 
 @lru_cache(maxsize=16)
-def assembled_urdf(robot: Robot, gripper: Gripper, *, pads: tuple[PadLayout, ...] = ()) -> str:
+def assembled_urdf(
+    robot: Robot, gripper: Gripper, *, pads: tuple[PadLayout, ...] = (), has_drives: bool = False
+) -> str:
     """The arm's URDF with the gripper on its flange.
 
     The base is a solid cylinder and each finger a solid box of the design's masses; each finger
@@ -41,27 +44,35 @@ def assembled_urdf(robot: Robot, gripper: Gripper, *, pads: tuple[PadLayout, ...
         gripper: The gripper as the design has it.
         pads: What the pad of each finger consists of for an engine of contact, flat if not given; what is seen stays
             flat.
+        has_drives: Whether a finger has the reflected inertia of its drive, which the base then lacks in mass.
     """
     root = ET.fromstring(robot.urdf)  # noqa: S314 - entities and document types are refused on reading
     geometry = gripper.geometry
     radius, height = geometry.base.radius_m, geometry.base.height_m
-    across = gripper.base_mass_kg * (3 * radius**2 + height**2) / 12
+    drive_kg = gripper.drive.inertia_kg if has_drives else 0.0
+    base_kg = gripper.base_mass_kg - geometry.fingers * drive_kg - gripper.cup_mass_kg
+    across = base_kg * (3 * radius**2 + height**2) / 12
     _add_link(
         root,
         name=GRIPPER_BASE_LINK,
-        mass_kg=gripper.base_mass_kg,
-        inertia=(across, across, gripper.base_mass_kg * radius**2 / 2),
+        mass_kg=base_kg,
+        inertia=(across, across, base_kg * radius**2 / 2),
         seen=(geometry.base_pose, 0.0, "cylinder", {"radius": _number(radius), "length": _number(height)}),
     )
     _add_joint(root, name="gripper_joint", kind="fixed", parent=robot.flange, child=GRIPPER_BASE_LINK, origin=Pose())
+    if geometry.cup is not None:
+        _add_cup(root, geometry, geometry.cup, gripper.cup_mass_kg)
     x, y, z = geometry.finger.size_m
     mass = gripper.finger_mass_kg
     for finger, azimuth in enumerate(geometry.azimuths_rad):
+        solid = (mass * (y**2 + z**2) / 12, mass * (x**2 + z**2) / 12, mass * (x**2 + y**2) / 12)
+        centre, inertia = _with_drive(solid, mass, drive_kg, geometry) if drive_kg else (Pose(), solid)
         _add_link(
             root,
             name=finger_link(finger),
-            mass_kg=mass,
-            inertia=(mass * (y**2 + z**2) / 12, mass * (x**2 + z**2) / 12, mass * (x**2 + y**2) / 12),
+            mass_kg=mass + drive_kg,
+            inertia=inertia,
+            centre=centre,
             seen=_box(0.0, x, y, z),
             touched=_padded(geometry.finger, pads[finger]) if pads else (),
         )
@@ -88,6 +99,49 @@ def assembled_urdf(robot: Robot, gripper: Gripper, *, pads: tuple[PadLayout, ...
     return ET.tostring(root, encoding="unicode")
 
 
+def _add_cup(root: ET.Element, geometry: GripperGeometry, cup: Cylinder, mass_kg: float) -> None:
+    """Add a suction cup below the base, which has a share of the base's mass."""
+    radius, height = cup.radius_m, cup.height_m
+    across = mass_kg * (3 * radius**2 + height**2) / 12
+    _add_link(
+        root,
+        name=CUP_LINK,
+        mass_kg=mass_kg,
+        inertia=(across, across, mass_kg * radius**2 / 2),
+        seen=(Pose(), 0.0, "cylinder", {"radius": _number(radius), "length": _number(height)}),
+    )
+    _add_joint(
+        root,
+        name="suction_cup_joint",
+        kind="fixed",
+        parent=GRIPPER_BASE_LINK,
+        child=CUP_LINK,
+        origin=geometry.cup_pose,
+    )
+
+
+def _with_drive(
+    solid: tuple[float, float, float], finger_kg: float, drive_kg: float, geometry: GripperGeometry
+) -> tuple[Pose, tuple[float, float, float]]:
+    """Centre of mass and central moments of an open finger with a point mass for its drive.
+
+    The point lies in the middle of the base, so that what the base lacks in mass is there. Its distance from the
+    finger along z is that of the two; along x the products of inertia that remain are left out.
+    """
+    pose = geometry.finger_pose(0, geometry.largest_opening_m)
+    depth_m = geometry.base.height_m / 2 - pose.position_m[2]
+    inward_m = -(geometry.largest_opening_m + geometry.finger.size_m[0] / 2)
+    share = drive_kg / (finger_kg + drive_kg)
+    reduced_kg = finger_kg * share
+    xx, yy, zz = solid
+    moments = (
+        xx + reduced_kg * depth_m**2,
+        yy + reduced_kg * (depth_m**2 + inward_m**2),
+        zz + reduced_kg * inward_m**2,
+    )
+    return Pose(position_m=(share * inward_m, 0.0, share * depth_m)), moments
+
+
 def _box(along_m: float, x: float, y: float, z: float) -> _Part:
     return Pose(position_m=(along_m, 0.0, 0.0)), 0.0, "box", {"size": f"{_number(x)} {_number(y)} {_number(z)}"}
 
@@ -112,11 +166,12 @@ def _add_link(
     inertia: tuple[float, float, float],
     seen: _Part,
     touched: Sequence[_Part] = (),
+    centre: Pose | None = None,
 ) -> None:
-    """Add a solid; what it looks like is what is touched, too, if nothing else is given."""
+    """Add a solid; what it looks like is what is touched, too, and its centre of mass, if nothing else is given."""
     link = ET.SubElement(root, "link", {"name": name})
     inertial = ET.SubElement(link, "inertial")
-    _add_origin(inertial, seen[0], 0.0, 0.0)
+    _add_origin(inertial, centre or seen[0], 0.0, 0.0)
     ET.SubElement(inertial, "mass", {"value": _number(mass_kg)})
     xx, yy, zz = (_number(value) for value in inertia)
     ET.SubElement(inertial, "inertia", {"ixx": xx, "iyy": yy, "izz": zz, "ixy": "0", "ixz": "0", "iyz": "0"})

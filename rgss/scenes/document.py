@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
@@ -254,16 +254,31 @@ class FingerEntry(DocumentModel):
     speed: MetresPerSecond | None = None
     force: Newtons | None = None
     friction: Dimensionless | None = None
+    drive_inertia: Kilograms | None = None
+
+
+class CommandEntry(DocumentModel):
+    """Command of a gripper without feedback: open or close, each completed after a fixed time."""
+
+    travel_time: Seconds
+
+
+class FirmGraspEntry(DocumentModel):
+    """Condition of a firm grasp: the normal force that each finger must exceed."""
+
+    finger_force: Newtons
 
 
 class GripperDocument(DocumentModel):
-    """A gripper file."""
+    """A gripper file of prismatic fingers that close by the same stroke towards the axis."""
 
     gripper: Identifier
+    kind: Literal["fingers"] = "fingers"
     azimuths: Annotated[tuple[Radians, ...], Field(min_length=2)]
     base: BaseEntry
     finger: FingerEntry
     largest_opening: Metres
     stroke: Metres
     grasp_depth: Metres
+    firm_grasp: FirmGraspEntry | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()

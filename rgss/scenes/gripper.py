@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
 
+_CUP_MASS_SHARE = 0.05
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GripperGeometry:
@@ -25,6 +27,8 @@ class GripperGeometry:
         largest_opening_m: Pad distance from the axis when open.
         stroke_m: Travel of each finger towards the axis.
         grasp_depth_m: Distance along z from the flange to the grasp centre.
+        mounting: Name of the mounting of the fingers; empty where the gripper has one alone.
+        cup: Suction cup below the base; None for a gripper with fingers.
     """
 
     id: str
@@ -34,11 +38,18 @@ class GripperGeometry:
     largest_opening_m: float
     stroke_m: float
     grasp_depth_m: float
+    mounting: str = ""
+    cup: Cylinder | None = None
 
     @property
     def fingers(self) -> int:
         """Number of fingers."""
         return len(self.azimuths_rad)
+
+    @property
+    def least_opening_m(self) -> float:
+        """Pad distance from the axis when closed."""
+        return self.largest_opening_m - self.stroke_m
 
     @property
     def base_pose(self) -> Pose:
@@ -60,9 +71,59 @@ class GripperGeometry:
         )
 
     @property
+    def cup_pose(self) -> Pose:
+        """Transform of the suction cup's shape to the flange."""
+        half_m = 0.0 if self.cup is None else self.cup.half_height_m
+        return Pose(position_m=(0.0, 0.0, self.base.height_m + half_m))
+
+    @property
+    def lip(self) -> Pose:
+        """Transform of the centre of the suction cup's lip to the flange."""
+        length_m = 0.0 if self.cup is None else self.cup.height_m
+        return Pose(position_m=(0.0, 0.0, self.base.height_m + length_m))
+
+    @property
     def grasp_centre(self) -> Pose:
         """Transform of the grasp-centre frame to the flange."""
         return Pose(position_m=(0.0, 0.0, self.grasp_depth_m))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GripperDrive:
+    """Drive of the fingers, as the gripper's file states it.
+
+    Attributes:
+        inertia_kg: Inertia of the drive of one finger reflected to the finger, as an equivalent mass.
+        firm_force_n: Normal force that each finger must exceed for a firm grasp; None for the force that friction
+            needs to hold the object.
+        command_s: Time that a command to open or close takes, without feedback of force or position; None for a
+            gripper that reads its fingers' forces.
+    """
+
+    inertia_kg: float = 0.0
+    firm_force_n: float | None = None
+    command_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Suction:
+    """What a suction cup seals on and holds; its greatest normal force is the force of the gripper.
+
+    Attributes:
+        tangential_force_n: Greatest force along the surface, with the whole vacuum.
+        leak: Share of both forces that is lost on the surface of the object.
+        largest_gap_m: Greatest distance of the lip from a surface that it seals on.
+        largest_angle_rad: Greatest angle between the cup's axis and the normal of that surface.
+        build_up_s: Time from the command until the whole vacuum holds, over which it rises uniformly.
+        release_s: Time from the command until the object is free.
+    """
+
+    tangential_force_n: float
+    leak: float
+    largest_gap_m: float
+    largest_angle_rad: float
+    build_up_s: float
+    release_s: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,12 +131,23 @@ class GripperFile:
     """A gripper file.
 
     Attributes:
-        geometry: The gripper's shape.
+        mountings: The gripper's shape in each mounting, by its name; one of an empty name where it has one alone.
+        mounting: The mounting where no design sets it.
+        drive: The drive of its fingers.
+        suction: What its cup holds; None for a gripper with fingers.
         settings: What the gripper has where no design sets it: values in SI, such as ``gripper.finger.mass``.
     """
 
-    geometry: GripperGeometry
-    settings: Mapping[str, float]
+    mountings: Mapping[str, GripperGeometry]
+    mounting: str = ""
+    drive: GripperDrive
+    suction: Suction | None = None
+    settings: Mapping[str, float | str]
+
+    @property
+    def geometry(self) -> GripperGeometry:
+        """The shape where no design sets the mounting."""
+        return self.mountings[self.mounting]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,6 +161,8 @@ class Gripper:
         finger_velocity_m_s: Greatest finger speed.
         finger_force_n: Force of one finger.
         friction: Coefficient of the pads; a contact's coefficient is the product with the object's.
+        drive: The drive of its fingers.
+        suction: What its cup holds; None for a gripper with fingers.
     """
 
     geometry: GripperGeometry
@@ -97,6 +171,31 @@ class Gripper:
     finger_velocity_m_s: float
     finger_force_n: float
     friction: float
+    drive: GripperDrive = GripperDrive()
+    suction: Suction | None = None
+
+    def grip_coefficient(self, object_friction: float) -> float:
+        """Force that holds against any load over the sum of the normal forces of fingers or cup.
+
+        For fingers it is the coefficient of friction; for a cup the lesser of 1, along its axis, and the ratio of its
+        greatest tangential to its greatest normal force.
+
+        Args:
+            object_friction: Coefficient of the object.
+        """
+        if self.suction is None:
+            return self.friction * object_friction
+        return min(1.0, self.suction.tangential_force_n / self.finger_force_n)
+
+    @property
+    def cup_mass_kg(self) -> float:
+        """Mass of the suction cup, a share of the base's mass that a cup and its fitting have; 0 without one."""
+        return _CUP_MASS_SHARE * self.base_mass_kg if self.geometry.cup is not None else 0.0
+
+    @property
+    def driven_mass_kg(self) -> float:
+        """Mass that the motor of one finger moves: the finger and the reflected inertia of its drive."""
+        return self.finger_mass_kg + self.drive.inertia_kg
 
     @property
     def mass_kg(self) -> float:

@@ -16,8 +16,10 @@ def grasp_opening_m(scene: Scene, geometry: GripperGeometry) -> float:
         geometry: The gripper's shape.
 
     Returns:
-        The largest opening where a finger would close without touching.
+        The largest opening where a finger would close without touching; 0 for a suction cup.
     """
+    if geometry.cup is not None:
+        return 0.0
     taken, in_object = scene.task.grasp, scene.grasp_in_object
     if taken is not None:
         return taken.opening_m

@@ -14,7 +14,7 @@ from rgss.designs import (
 )
 from rgss.documents import Document
 from rgss.errors import QuantityError
-from rgss.findings import Finding
+from rgss.findings import Finding, shown
 from rgss.motion import available_planners
 from rgss.scenes import GripperFile, Robot
 from rgss.studies.planning import PlanningChoice, planner_problem, require_value
@@ -25,6 +25,7 @@ GRIPPER = "gripper"
 
 TIME_LIMIT = "planning.time_limit"
 PLANNER = "planning.planner"
+MOUNTING = "gripper.mounting"
 _FINGERS, _TOOL_SPEED = "gripper.fingers", "robot.tool_speed"
 
 
@@ -48,6 +49,7 @@ def design_findings(
     yield from _planner_findings(designs, document, planning)
     yield from _planner_parameter_findings(designs, document, planning)
     yield from _component_findings(designs, grippers)
+    yield from _mounting_findings(designs, document, grippers)
 
 
 def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, ParameterValue]:
@@ -148,3 +150,23 @@ def _component_findings(designs: DesignSpace, grippers: Mapping[str, GripperFile
                 message = f"{component.id!r} is for {name} = {listed}, its shape has {file.geometry.fingers} fingers"
                 hint = "name the file of another shape"
                 yield document.finding("design.geometry", message, ("components", index, "geometry"), hint=hint)
+
+
+def _mounting_findings(
+    designs: DesignSpace, document: Document, grippers: Mapping[str, GripperFile]
+) -> Iterator[Finding]:
+    """Find mountings that a design sets and no gripper has.
+
+    Args:
+        designs: The design space.
+        document: Its file, for positions.
+        grippers: The gripper file of each gripper component, by its name.
+    """
+    ids = {parameter.id for parameter in designs.parameters if parameter.sets == MOUNTING}
+    known = {name for file in grippers.values() for name in file.mountings if name}
+    for place, own, value in written_values(designs):
+        if own in ids and grippers and value not in known:
+            hint = f"mountings: {', '.join(sorted(known))}" if known else "no gripper of the catalogue has mountings"
+            yield document.finding(
+                "design.mounting", f"no gripper has a mounting {shown(str(value))}", place, hint=hint
+            )

@@ -14,7 +14,14 @@ from rgss.documents import DocumentModel, json_schema, read_document
 from rgss.errors import DefinitionError
 from rgss.measures import MeasuresDocument
 from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
-from rgss.scenes import CalibrationDocument, GripperDocument, RobotDocument, SceneDocument
+from rgss.scenes import (
+    CalibrationDocument,
+    GripperDocument,
+    ParallelGripperDocument,
+    RobotDocument,
+    SceneDocument,
+    VacuumGripperDocument,
+)
 from rgss.studies.document import StudyDocument
 from rgss.studies.project_folders import REQUIREMENT_PARTS, SINGLE_FILES
 from rgss.tasks import TaskDocument
@@ -81,6 +88,10 @@ DOCUMENT_KINDS = (
     ),
     DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
     DocumentKind(id="task", title="Task", model=TaskDocument, place="scenes/tasks/"),
+    DocumentKind(
+        id="parallel-gripper", title="Parallel gripper", model=ParallelGripperDocument, place="scenes/grippers/"
+    ),
+    DocumentKind(id="vacuum-gripper", title="Vacuum gripper", model=VacuumGripperDocument, place="scenes/grippers/"),
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
 
@@ -91,6 +102,8 @@ _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
         ("bodies", "scene"),
         ("joints", "robot"),
         ("azimuths", "gripper"),
+        ("mountings", "parallel-gripper"),
+        ("cup", "vacuum-gripper"),
         ("servos", "calibration"),
         ("steps", "task"),
     ),

@@ -11,11 +11,11 @@ from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
 from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
-from rgss.scenes import Gripper
+from rgss.scenes import Gripper, at_top
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
-from rgss.studies.design_settings import GRIPPER, PLANNER, TIME_LIMIT, default_values
+from rgss.studies.design_settings import GRIPPER, MOUNTING, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.project import Project
-from rgss.studies.trial_values import values_of, with_values
+from rgss.studies.trial_values import mounted, values_of, with_values
 from rgss.trials import ControlMode, PlanningSettings, TrialSettings
 from rgss.trials.pieces import TrialSpec
 
@@ -86,6 +86,7 @@ def _spec(
             f"component {component.id!r} names no geometry", hint="give it the file of its shape in the catalogue"
         )
     file = project.grippers[component.geometry]
+    values = values_of(variant, {**defaults, **file.settings})
     spec = TrialSpec(
         variant=variant.id,
         seed=project.study.seed,
@@ -93,12 +94,14 @@ def _spec(
         # What of its uncertainty counts is in the trial's own.
         scene=replace(project.scene, uncertainty=NOTHING_UNCERTAIN),
         gripper=Gripper(
-            geometry=file.geometry,
+            geometry=at_top(mounted(file, values.get(MOUNTING), variant.id), project.scene.workpiece.shape),
             base_mass_kg=math.nan,
             finger_mass_kg=math.nan,
             finger_velocity_m_s=math.nan,
             finger_force_n=math.nan,
             friction=math.nan,
+            drive=file.drive,
+            suction=file.suction,
         ),
         planner="",
         planning_limit_s=math.nan,
@@ -108,7 +111,6 @@ def _spec(
         workload=project.workload,
         task=project.study.task,
     )
-    values = values_of(variant, {**defaults, **file.settings})
     planner = values.get(PLANNER)
     if isinstance(planner, str):
         spec = replace(spec, planner_settings=project.study.planning.planner_settings(planner))

@@ -10,7 +10,7 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GripperGeometry, Waypoint
+from rgss.scenes import GripperGeometry, Waypoint, at_top, misfit
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -46,12 +46,11 @@ def check_scene(project: Project) -> SceneCheck:
         of_bodies = scene_problems(project.scene)
         of_reach: dict[SceneProblem, list[str]] = {}
         for file in _gripper_files(project):
-            geometry = project.grippers[file].geometry
             for problem in reach_problems(
                 project.scene,
-                geometry,
+                _mounting_that_holds(project, file),
                 clearance_m=project.study.planning.clearance_m,
-                friction=_pad_friction(project, geometry),
+                friction=_pad_friction(project, file),
                 task=project.study.task,
             ):
                 of_reach.setdefault(problem, []).append(file)
@@ -75,12 +74,20 @@ def _gripper_files(project: Project) -> tuple[str, ...]:
     return tuple(file for file in project.grippers if file in used)
 
 
-def _pad_friction(project: Project, geometry: GripperGeometry) -> float:
+def _pad_friction(project: Project, file: str) -> float:
     """The least friction of the pads of a design with a gripper, on which its grasp candidates depend."""
     if project.scene.task.candidates is None:
         return 0.0
     specs = trial_specs(project, seeds=[project.study.seed])
-    return min(spec.gripper.friction for spec in specs if spec.gripper.geometry == geometry)
+    geometries = {*project.grippers[file].mountings.values()}
+    return min(spec.gripper.friction for spec in specs if spec.gripper.geometry in geometries)
+
+
+def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
+    """The first shape of a gripper that can hold the object; what cannot is found by its trials, at the grasp."""
+    gripper, scene = project.grippers[file], project.scene
+    held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, scene))
+    return at_top(next(held, gripper.geometry), scene.workpiece.shape)
 
 
 class _Places:

@@ -18,6 +18,8 @@ from rgss.designs import (
     SettableQuantity,
 )
 from rgss.errors import DefinitionError
+from rgss.findings import shown
+from rgss.scenes import GripperFile, GripperGeometry
 from rgss.trials.pieces import TrialSpec
 
 
@@ -101,3 +103,27 @@ def field_of(spec: TrialSpec, path: str) -> Any:
 def _replaced(owner: Any, path: list[str], value: ParameterValue | Enum) -> Any:
     name, *rest = path
     return replace(owner, **{name: _replaced(getattr(owner, name), rest, value) if rest else value})
+
+
+def mounted(file: GripperFile, mounting: ParameterValue | None, variant: int) -> GripperGeometry:
+    """The shape of a gripper in the mounting of a design.
+
+    Args:
+        file: The gripper.
+        mounting: What the design sets; None for the gripper's own.
+        variant: Id of the design.
+
+    Raises:
+        DefinitionError: The gripper has no such mounting.
+    """
+    name = file.mounting if mounting is None else mounting
+    if isinstance(name, str) and name in file.mountings:
+        return file.mountings[name]
+    raise DefinitionError(
+        f"gripper {file.geometry.id} of variant {variant} has no mounting {shown(str(name))}", hint=_known(file)
+    )
+
+
+def _known(file: GripperFile) -> str:
+    names = [name for name in file.mountings if name]
+    return f"mountings: {', '.join(names)}" if names else "give it mountings in its file, 'kind: parallel'"

@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.tasks.check_step import CheckStep
-    from rgss.tasks.default_task import default_task
+    from rgss.tasks.packaged_task import default_task
     from rgss.tasks.document import TaskDocument
     from rgss.tasks.grip_step import GripStep
     from rgss.tasks.move_kinds import MoveKind

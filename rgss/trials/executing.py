@@ -80,7 +80,7 @@ def execute(
     firm = physics.passing(
         force_n=gripper.finger_force_n,
         speed_m_s=gripper.finger_velocity_m_s,
-        lightest_kg=min(*(one.workpiece.mass_kg for one in scene.objects), gripper.finger_mass_kg),
+        lightest_kg=min(*(one.workpiece.mass_kg for one in scene.objects), gripper.driven_mass_kg),
     )
     with open_world(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
         execution = Execution(
@@ -107,8 +107,8 @@ def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | No
     return GripEstimate(
         errors,
         mass_kg=believed.mass_kg,
-        friction=conditions.design_gripper.friction * believed.friction,
-        fingers=spec.gripper.geometry.fingers,
+        friction=conditions.design_gripper.grip_coefficient(believed.friction),
+        fingers=max(1, spec.gripper.geometry.fingers),
         window_s=spec.settings.control.force_window_s,
         rate_hz=spec.settings.physics.rate_hz,
         seed=spec.seed,

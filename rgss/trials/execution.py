@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
@@ -13,6 +12,7 @@ from rgss.scenes import Pose
 from rgss.tasks import CheckStep, GripStep, Stage, TaskProgram, default_task
 from rgss.trials.conditions_checked import violated_condition
 from rgss.trials.grip_control import GripControl
+from rgss.trials.hands import hand_of
 from rgss.trials.monitors import (
     DragMonitor,
     ForceSensor,
@@ -33,7 +33,6 @@ from rgss.trials.reference import Array, Reference
 from rgss.trials.task_objects import TaskObjects
 
 _OPEN_TOLERANCE_M = 5.0e-4
-_FAIR_PART = 0.5
 
 
 class Execution:
@@ -77,7 +76,8 @@ class Execution:
         self._memory = GraspGeometryCache()
         self._sensor = ForceSensor(world.scene.workpiece.force_window_s, world.settings.rate_hz)
         self._estimate = estimate
-        self._grip = GripControl(world, control, estimate)
+        self._hand = hand_of(world.gripper)
+        self._grip = self._grip_control(estimate)
         self._configuration: tuple[float, ...] = ()
 
     def run(self) -> tuple[PhaseResult, ...]:
@@ -121,7 +121,7 @@ class Execution:
                 is_held = min(contacts.finger_forces_n) > 0.0
                 self._grip.since_tightening_s += self._step_s
                 margin = self._grip.margin(watch.grip_margin, contacts.finger_forces_n, load)
-                if margin is not None and margin < least_margin:
+                if self._hand.has_force_feedback and margin is not None and margin < least_margin:
                     self._grip.keep()
             if watch.failure is not None:
                 break
@@ -156,12 +156,11 @@ class Execution:
         """Close until every finger holds above the force that Coulomb friction needs."""
         stage = self._enter(phase or self._task.grips[0])
         name = stage.step.name
-        world, gripper, control = self._world, self._world.gripper, self._control
+        world, control = self._world, self._control
         scene = world.scene
         watch = self._watch(None, scene.support)
-        fingers = gripper.geometry.fingers
-        needed_n = self._grip.mass_kg * scene.gravity_m_s2 / (self._grip.friction * fingers)
-        travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+        needed_n = self._hand.needed_force_n(self._grip.mass_kg * scene.gravity_m_s2, self._grip.friction)
+        travel_s = self._hand.longest_travel_s
         self._grip.close()
         self._grip.tightenings = 0
         hand, look_every = (
@@ -169,22 +168,23 @@ class Execution:
             max(1, round(world.settings.rate_hz / control.observation_rate_hz)),
         )
         firm_s, touching_s, steps = 0.0, 0.0, 0
-        forces: tuple[float, ...] = (0.0,) * fingers
-        while firm_s < control.firm_grasp_s - 1e-9 and watch.failure is None:
+        forces: tuple[float, ...] = (0.0,)
+        least_s = self._hand.least_closing_s - 1e-9
+        while watch.failure is None and (firm_s < control.firm_grasp_s - 1e-9 or steps * self._step_s < least_s):
             self._hold_arm_and_step()
             contacts = self._observe(name, watch, scene.gravity_m_s2)
             steps += 1
             if steps % look_every == 0:
                 hand.look(steps)
             forces = self._grip.readings(contacts.finger_forces_n)
-            firm_s = firm_s + self._step_s if _is_firm(forces, needed_n) else 0.0
+            firm_s = firm_s + self._step_s if self._hand.is_firm(forces, needed_n) else 0.0
             touching_s = touching_s + self._step_s if min(forces) > 0.0 else 0.0
             if firm_s == 0.0 and touching_s > control.firm_grasp_s:
                 touching_s = 0.0
                 self._grip.tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
-                shown = ", ".join(f"{force:.2f}" for force in forces)
-                watch.fail(Failure.NO_FIRM_GRASP, f"fingers press with {shown} N, each needs {needed_n:.2f} N")
+                why = self._hand.misfit(scene) or world.grip_fault
+                watch.fail(Failure.NO_FIRM_GRASP, why or self._hand.shortfall(forces, needed_n))
         self._held_at = hand.look(steps).held
         metrics = watch.metrics()
         metrics["finger_force_n"] = forces
@@ -202,11 +202,14 @@ class Execution:
         world, gripper, control = self._world, self._world.gripper, self._control
         watch, landing = self._watch(None, world.scene.place_support), LandingMonitor(world)
         drag = DragMonitor(world, control)
-        travel_s = gripper.geometry.stroke_m / gripper.finger_velocity_m_s
+        travel_s = self._hand.longest_travel_s
         world.drive_fingers(-gripper.finger_velocity_m_s, gripper.finger_force_n)
         steps = 0
         contacts = world.contacts()
-        while max(world.finger_travel_m()) > _OPEN_TOLERANCE_M and watch.failure is None:
+        least_s = self._hand.least_opening_s - 1e-9
+        while watch.failure is None and (
+            max(world.finger_travel_m(), default=0.0) > _OPEN_TOLERANCE_M or steps * self._step_s < least_s
+        ):
             self._hold_arm_and_step()
             contacts = self._observe(name, watch, 0.0)
             watch.note(landing.after_step())
@@ -271,8 +274,11 @@ class Execution:
             self._sensor = ForceSensor(workpiece.force_window_s, rate_hz)
             # What the robot believes differs from the truth for the first object alone.
             estimate = self._estimate if workpiece.id == self._objects.first else None
-            self._grip = GripControl(self._world, self._control, estimate)
+            self._grip = self._grip_control(estimate)
         return stage
+
+    def _grip_control(self, estimate: GripEstimate | None) -> GripControl:
+        return GripControl(self._world, self._control, estimate, is_regulated=self._hand.has_force_feedback)
 
     def _hold_arm_and_step(self) -> None:
         self._world.command_arm(self._configuration, (0.0,) * len(self._configuration))
@@ -326,16 +332,3 @@ class Execution:
             duration_s=steps * self._step_s,
             metrics=metrics,
         )
-
-
-def _is_firm(forces_n: Sequence[float], needed_n: float) -> bool:
-    """True if the fingers together press with the force that friction needs, and each with a minimum share of it.
-
-    Coupled fingers share their force: while the object stands, its support takes the difference
-    between them, so that one may press with less than its part although together they hold.
-
-    Args:
-        forces_n: Normal force of each finger.
-        needed_n: Force that each finger needs if all press alike.
-    """
-    return min(forces_n) > _FAIR_PART * needed_n and math.fsum(forces_n) > len(forces_n) * needed_n

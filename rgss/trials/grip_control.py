@@ -18,23 +18,32 @@ class GripControl:
         friction: Coefficient of a finger on the object as the robot knows it.
     """
 
-    def __init__(self, world: ContactWorld, control: ControlSettings, estimate: GripEstimate | None = None) -> None:
+    def __init__(
+        self,
+        world: ContactWorld,
+        control: ControlSettings,
+        estimate: GripEstimate | None = None,
+        *,
+        is_regulated: bool = True,
+    ) -> None:
         """Begin with the share that holds an object at rest.
 
         Args:
             world: The world whose fingers are driven.
             control: The shares, and the least time between two increases.
             estimate: What the robot knows of its grip; None where that is the truth.
+            is_regulated: Whether the force can be increased; otherwise it is the greatest from the start.
         """
         self._world = world
         self._control = control
-        self.force_n = control.holding_share * world.gripper.finger_force_n
+        self.force_n = (control.holding_share if is_regulated else 1.0) * world.gripper.finger_force_n
         self.tightenings = 0
         self.since_tightening_s = 0.0
         workpiece = world.scene.workpiece
         self._estimate = estimate
         self.mass_kg = workpiece.mass_kg if estimate is None else estimate.mass_kg
-        self.friction = world.gripper.friction * workpiece.friction if estimate is None else estimate.friction
+        own = world.gripper.grip_coefficient(workpiece.friction)
+        self.friction = own if estimate is None else estimate.friction
 
     def begin_phase(self) -> None:
         """Restart counting and averaging."""

@@ -50,7 +50,7 @@ def closing_impact(spec: TrialSpec) -> ClosingImpact:
         spec: The trial.
     """
     gripper, workpiece, physics = spec.gripper, spec.scene.workpiece, spec.settings.physics
-    force_n, mass_kg, speed_m_s = gripper.finger_force_n, gripper.finger_mass_kg, gripper.finger_velocity_m_s
+    force_n, mass_kg, speed_m_s = gripper.finger_force_n, gripper.driven_mass_kg, gripper.finger_velocity_m_s
     stiffness_n_m, window_s = physics.pad_stiffness_n_m, workpiece.force_window_s
     duration_s = math.pi * math.sqrt(mass_kg / stiffness_n_m)
     by_momentum_n = force_n + 2.0 * mass_kg * speed_m_s / window_s

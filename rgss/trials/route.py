@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from rgss.kinematics import CollisionContext
 from rgss.scenes import (
+    CUP_LINK,
     GripperGeometry,
     Pose,
     Scene,
@@ -144,7 +145,8 @@ class _Cell:
         """The scene and the collision context of a move."""
         view = self._view(stage)
         if self._held is None:
-            return view, CollisionContext(opening_m=self._opening_m, standing=view.workpiece.pose)
+            touched = frozenset({(view.workpiece.id, CUP_LINK)} if self._geometry.cup is not None else ())
+            return view, CollisionContext(opening_m=self._opening_m, standing=view.workpiece.pose, allowed=touched)
         carrying = CollisionContext(
             opening_m=grasp_opening_m(view, self._geometry),
             carried=self._held,

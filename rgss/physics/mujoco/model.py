@@ -226,7 +226,9 @@ class _Builder:
             for part, (shape, at) in enumerate(finger_solids(geometry, pads[index])):
                 self.finger_shapes[f"{name}:{part}"] = index
                 _add_geom(finger, f"{name}:{part}", shape, at, touches=_MACHINE)
+            drive = {"armature": _number(gripper.drive.inertia_kg)} if gripper.drive.inertia_kg else {}
             slide = {
+                **drive,
                 "name": name,
                 "type": "slide",
                 "axis": "-1 0 0",

@@ -51,13 +51,18 @@ class MujocoWorld:
             joint_offsets_rad: True less reported angle of each joint of the arm; empty where they are the same.
 
         Raises:
-            DefinitionError: The rate is below the one at which contacts are stable.
+            DefinitionError: The rate is below the one at which contacts are stable, or the gripper has a suction cup.
             SimulationError: The engine cannot build it.
         """
         if settings.rate_hz < LEAST_MUJOCO_RATE_HZ:
             raise DefinitionError(
                 f"a rate of {settings.rate_hz:g} Hz is too low for contacts in MuJoCo",
                 hint=f"give {LEAST_MUJOCO_RATE_HZ:g} Hz or more",
+            )
+        if gripper.suction is not None:
+            raise DefinitionError(
+                f"MuJoCo's world has fingers alone, gripper {gripper.geometry.id!r} has a suction cup",
+                hint="run the trial in PyBullet",
             )
         self.scene, self.gripper, self.settings = scene, gripper, settings
         self._engine = mujoco()
@@ -106,6 +111,11 @@ class MujocoWorld:
     def command_arm(self, position_rad: Sequence[float], velocity_rad_s: Sequence[float]) -> None:
         """Set the arm's targets for the next step: reported positions at its start, mean velocities over it."""
         self._target, self._target_speed = np.asarray(position_rad) + self._offsets, np.asarray(velocity_rad_s)
+
+    @property
+    def grip_fault(self) -> str:
+        """Always empty: the world has fingers alone."""
+        return ""
 
     def hold_open(self) -> None:
         """Hold the fingers at their open end, against its stop."""

@@ -31,7 +31,7 @@ class DragMonitor:
         """
         self._world = world
         self._largest_m = world.scene.place.largest_drag_m
-        self._work_j = [0.0] * world.gripper.geometry.fingers
+        self._work_j = [0.0] * max(1, world.gripper.geometry.fingers)
         self._half_height_m = world.scene.workpiece.shape.half_height_m
         self._still_m = control.settled_speed_m_s * world.settings.step_s
         self._pose = world.workpiece_pose()

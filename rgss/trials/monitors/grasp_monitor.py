@@ -72,11 +72,12 @@ class GraspMonitor:
         return slip
 
     def metrics(self) -> dict[str, Metric]:
-        """The worst of each measure over the phase, and the number of samples."""
+        """The worst of each measure over the phase, and the number of samples with contact points to analyse."""
+        analysed = [sample for sample in self._samples if "grasp_force_closure" in sample]
         return {
             **worst_of(self._samples),
-            "grasp_samples": len(self._samples),
-            "grasp_samples_closed": sum(1 for sample in self._samples if sample["grasp_force_closure"]),
+            "grasp_samples": len(analysed),
+            "grasp_samples_closed": sum(1 for sample in analysed if sample["grasp_force_closure"]),
         }
 
     def _look(self) -> float:

@@ -87,6 +87,8 @@ def grasp_metrics(
     workpiece, gripper = world.scene.workpiece, world.gripper
     contacts = world.finger_contacts()
     moved = _motion_in_the_hand(motion, held_at, girth_radius_m(workpiece.shape))
+    if gripper.suction is not None:
+        return moved  # a seal is one surface, whose grasp no set of contact points describes
     if not contacts:
         return {**_APART, **moved}
     closing = [

@@ -64,7 +64,7 @@ class PhaseMonitor:
         self._world = world
         self._control = control
         self._resting_on = resting_on
-        self._friction = world.gripper.friction * world.scene.workpiece.friction
+        self._friction = world.gripper.grip_coefficient(world.scene.workpiece.friction)
         self._mass_kg = world.scene.workpiece.mass_kg
         self._step_s = world.settings.step_s
         self._window = max(1, round(control.force_window_s * world.settings.rate_hz))
@@ -195,7 +195,8 @@ class PhaseMonitor:
             return
         self._lost_s += self._step_s
         if self._lost_s >= self._control.lost_contact_s:
-            self.fail(Failure.OBJECT_DROPPED, f"{touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms")
+            lost = f"{touching} fingers touched the object for {self._lost_s * 1e3:.0f} ms"
+            self.fail(Failure.OBJECT_DROPPED, self._world.grip_fault or lost)
 
     def _watch_slip(self, slip_m: float) -> None:
         if slip_m > self._control.largest_slip_m:

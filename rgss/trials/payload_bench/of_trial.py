@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 from rgss.evidence import Fidelity
+from rgss.scenes import misfit
 from rgss.trials.payload_bench.range import outside
 from rgss.trials.payload_bench.spec import BenchSpec, bench_spec
 from rgss.trials.trial_spec import TrialSpec
 
 
 def bench_of(spec: TrialSpec) -> BenchSpec | None:
-    """The payload bench of a trial's gripper; None where only contact physics would know, or outside its range.
+    """The payload bench of a trial's gripper; None where there is none.
+
+    There is none below contact physics, for a suction cup, for an object that the gripper cannot hold by its size,
+    and outside the validated range.
 
     Args:
         spec: The trial.
     """
     if spec.fidelity is not Fidelity.CONTACT:
         return None
+    if spec.gripper.suction is not None:
+        return None
     bench = payload_bench(spec)
+    if misfit(spec.gripper.geometry, spec.scene):
+        return None
     return None if outside(bench) else bench
 
 

@@ -56,7 +56,11 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
         name="force of a finger", unit="N", lowest=0.5, highest=40.0, of=lambda spec: spec.gripper.finger_force_n
     ),
     ValidatedQuantity(
-        name="mass of a finger", unit="kg", lowest=0.05, highest=0.5, of=lambda spec: spec.gripper.finger_mass_kg
+        name="mass of a finger with its drive",
+        unit="kg",
+        lowest=0.02,
+        highest=0.5,
+        of=lambda spec: spec.gripper.driven_mass_kg,
     ),
     ValidatedQuantity(
         name="velocity of a finger",
@@ -71,14 +75,14 @@ VALIDATED: tuple[ValidatedQuantity, ...] = (
         unit="s",
         lowest=0.0,
         highest=0.03,
-        of=lambda spec: spec.gripper.finger_mass_kg * spec.gripper.finger_velocity_m_s / spec.gripper.finger_force_n,
+        of=lambda spec: spec.gripper.driven_mass_kg * spec.gripper.finger_velocity_m_s / spec.gripper.finger_force_n,
     ),
     ValidatedQuantity(
         name="solver iterations that pass the force of a finger",
         unit="",
         lowest=0.0,
         highest=MOST_ITERATIONS,
-        of=lambda spec: spec.physics.solver_iterations * spec.lightest_body_kg / spec.gripper.finger_mass_kg,
+        of=lambda spec: spec.physics.solver_iterations * spec.lightest_body_kg / spec.gripper.driven_mass_kg,
     ),
     # Below, two ribs of a pad are too near one another to keep the object from turning about them: at 20 mm a slow
     # heavy finger that presses with 0.5 N is 4.5 % off.

@@ -128,7 +128,7 @@ class BenchSpec:
         return self.physics.passing(
             force_n=self.gripper.finger_force_n,
             speed_m_s=self.gripper.finger_velocity_m_s,
-            lightest_kg=min(mass_kg, self.gripper.finger_mass_kg),
+            lightest_kg=min(mass_kg, self.gripper.driven_mass_kg),
         )
 
     @property
@@ -158,6 +158,11 @@ class BenchSpec:
         Raises:
             DefinitionError: A number is out of range, or the open hand cannot be put over the object.
         """
+        if self.gripper.suction is not None:
+            raise DefinitionError(
+                f"the payload bench has fingers to try, gripper {self.gripper.geometry.id!r} has a suction cup",
+                hint="what a cup lifts is its normal force less the leak, over gravity and acceleration",
+            )
         positive = {
             "the acceleration": self.acceleration_m_s2,
             "the rated mass": self.rated_kg,
@@ -176,11 +181,11 @@ class BenchSpec:
                 hint=f"give a share from {_FINEST_RESOLUTION:g} to 1",
             )
         lightest_kg = self._lightest_body_kg(MOST_ITERATIONS)
-        if self.gripper.finger_mass_kg < lightest_kg:
+        if self.gripper.driven_mass_kg < lightest_kg:
             raise DefinitionError(
-                f"fingers of {self.gripper.finger_mass_kg:g} kg are too light for the solver to press with "
+                f"fingers of {self.gripper.driven_mass_kg:g} kg are too light for the solver to press with "
                 f"{self.gripper.finger_force_n:g} N; it needs {lightest_kg:.3g} kg",
-                hint="give the physics a higher rate",
+                hint="state the drive_inertia of the fingers, or give the physics a higher rate",
             )
         if self.first_kg >= self.rated_kg:
             raise DefinitionError(

@@ -18,7 +18,7 @@ from rgss.motion import (
     plan,
     segment_states,
 )
-from rgss.scenes import Scene
+from rgss.scenes import Scene, too_wide
 from rgss.tasks import MoveKind, MoveStep
 from rgss.trials.planning.direct_moves import direct_move
 from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
@@ -61,7 +61,9 @@ def plan_task(
         if start is None or goal is None:
             outcome = PlanOutcome.INVALID_START if start is None else PlanOutcome.INVALID_GOAL
             index = leg.start if start is None else leg.goal
-            why = stops.reasons.get(index, "none leads to it from the waypoint before")
+            why = too_wide(cell.geometry, leg.scene) or stops.reasons.get(
+                index, "none leads to it from the waypoint before"
+            )
             name = cell.route.stops[index].name
             moves[phase] = _ill_posed(phase, outcome, f"no configuration serves {name}: {why}")
             break

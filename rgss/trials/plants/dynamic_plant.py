@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.scenes import Gripper, Pose, Scene, Workpiece, grasp_opening_m
 from rgss.tasks import CheckStep, TaskProgram, default_task
+from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
@@ -60,6 +61,7 @@ class DynamicPlant:
         self._arm = arm
         self._scene = scene
         self._gripper = gripper
+        self._hand = hand_of(gripper)
         self._step_s = settings.step_s
         self._control = control
         self._controller = controller or JointController()
@@ -102,9 +104,13 @@ class DynamicPlant:
     def grasp(self, phase: str | None = None) -> PhaseResult:
         """Close: the arm holds still for the fingers' travel and the time of a firm grasp."""
         name = phase or self._grips.first_grip
-        result = self._wait(name, self._finger_time_s(name) + self._control.firm_grasp_s, {})
-        self._machine.hold_fingers(self._grips.travel_m(name))
         view = self._grips.view_of(name)
+        misfit = self._hand.misfit(view)
+        if misfit:
+            waited = self._wait(name, self._hand.longest_travel_s + self._control.grasp_timeout_s, {})
+            return replace(waited, failure=Failure.NO_FIRM_GRASP, detail=misfit)
+        result = self._wait(name, self._hand.closing_s(view, self._control.firm_grasp_s), {})
+        self._machine.hold_fingers(self._grips.travel_m(name))
         self._machine.attach(view.workpiece, _held_at(view))
         self._model = self._loaded_with(view)
         return result
@@ -115,7 +121,7 @@ class DynamicPlant:
         self._machine.detach()
         self._machine.hold_fingers(0.0)
         self._model = self._empty
-        opening_s = self._finger_time_s(name)
+        opening_s = self._hand.opening_s(self._grips.view_of(name))
         return self._wait(name, opening_s, {"opening_s": opening_s})
 
     def wait(self, phase: str, duration_s: float) -> PhaseResult:
@@ -180,9 +186,6 @@ class DynamicPlant:
                 return True
             self._drive(self._at_rad, still, still, log)
         return False
-
-    def _finger_time_s(self, phase: str) -> float:
-        return self._grips.travel_m(phase) / self._gripper.finger_velocity_m_s
 
 
 def _held_at(view: Scene) -> Pose | None:

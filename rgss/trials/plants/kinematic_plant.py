@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
-from rgss.evidence import Metric
+from rgss.evidence import Failure, Metric
 from rgss.scenes import Gripper, Joint
 from rgss.tasks import CheckStep
+from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
@@ -69,7 +70,7 @@ class KinematicPlant:
         """
         self._tool = tool
         self._joints = joints
-        self._gripper = gripper
+        self._hand = hand_of(gripper)
         self._grips = grips
         self._control = control
         self._step_s = step_s
@@ -100,12 +101,17 @@ class KinematicPlant:
     def grasp(self, phase: str | None = None) -> PhaseResult:
         """Close: the travel at the finger velocity, then the time for which a grasp must be firm."""
         name = phase or self._grips.first_grip
-        return self._result(name, self._finger_time_s(name) + self._control.firm_grasp_s, {})
+        view = self._grips.view_of(name)
+        misfit = self._hand.misfit(view)
+        if misfit:
+            waited_s = self._hand.longest_travel_s + self._control.grasp_timeout_s
+            return replace(self._result(name, waited_s, {}), failure=Failure.NO_FIRM_GRASP, detail=misfit)
+        return self._result(name, self._hand.closing_s(view, self._control.firm_grasp_s), {})
 
     def place(self, phase: str | None = None) -> PhaseResult:
         """Open: the same travel back."""
         name = phase or self._grips.first_release
-        opening_s = self._finger_time_s(name)
+        opening_s = self._hand.opening_s(self._grips.view_of(name))
         return self._result(name, opening_s, {"opening_s": opening_s})
 
     def wait(self, phase: str, duration_s: float) -> PhaseResult:
@@ -115,9 +121,6 @@ class KinematicPlant:
     def check(self, step: CheckStep) -> PhaseResult:
         """Take the conditions for granted: nothing is known of objects."""
         return self._result(step.name, 0.0, {})
-
-    def _finger_time_s(self, phase: str) -> float:
-        return self._grips.travel_m(phase) / self._gripper.finger_velocity_m_s
 
     def _deviation(self, positions_rad: Array) -> Array:
         """Deviation (m, n) of the joints from their targets at each step, until the end is reached.

@@ -1,0 +1,15 @@
+"""Kinds of grippers as their files describe them, one module a kind."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.scenes.hands.finger_gripper import FingerGripper
+    from rgss.scenes.hands.fit import flat_top_radius_m, misfit, too_narrow, too_wide
+    from rgss.scenes.hands.gripper_kind import GripperKind
+    from rgss.scenes.hands.kinds import GRIPPER_KINDS, kind_of_gripper
+    from rgss.scenes.hands.parallel_gripper import ParallelGripper, ParallelGripperDocument
+    from rgss.scenes.hands.vacuum_gripper import VacuumGripper, VacuumGripperDocument, at_top
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -1,0 +1,82 @@
+"""Fit of a gripper and an object: whether its fingers can enter round it and touch it, or its cup seals on it."""
+
+from __future__ import annotations
+
+from rgss.scenes.gripper import GripperGeometry
+from rgss.scenes.opening import grasp_opening_m
+from rgss.scenes.scene import Scene
+from rgss.scenes.shapes import Box, Cylinder, ObjectShape
+
+
+def too_wide(geometry: GripperGeometry, scene: Scene) -> str:
+    """Why open fingers cannot enter round the object; empty where they can.
+
+    Args:
+        geometry: The gripper's shape.
+        scene: The scene, with the object as its workpiece.
+    """
+    if geometry.cup is not None or (half_m := grasp_opening_m(scene, geometry)) < geometry.largest_opening_m:
+        return ""
+    return (
+        f"the object of {_millimetres(2 * half_m)} is too wide to enter {_named(geometry)}, "
+        f"which opens to {_millimetres(2 * geometry.largest_opening_m)}"
+    )
+
+
+def too_narrow(geometry: GripperGeometry, scene: Scene) -> str:
+    """Why closed fingers do not touch the object; empty where they do.
+
+    Args:
+        geometry: The gripper's shape.
+        scene: The scene, with the object as its workpiece.
+    """
+    if geometry.cup is not None or (half_m := grasp_opening_m(scene, geometry)) > geometry.least_opening_m:
+        return ""
+    return (
+        f"the object of {_millimetres(2 * half_m)} is too narrow to be touched by {_named(geometry)}, "
+        f"which closes to {_millimetres(2 * geometry.least_opening_m)}"
+    )
+
+
+def misfit(geometry: GripperGeometry, scene: Scene) -> str:
+    """Why a gripper cannot hold the object by its size; empty where it can.
+
+    Args:
+        geometry: The gripper's shape.
+        scene: The scene, with the object as its workpiece.
+    """
+    return too_wide(geometry, scene) or too_narrow(geometry, scene) or unsealed(geometry, scene.workpiece.shape)
+
+
+def unsealed(geometry: GripperGeometry, shape: ObjectShape) -> str:
+    """Why a cup does not seal on the top of an object; empty where it does, and for fingers.
+
+    Args:
+        geometry: The gripper's shape.
+        shape: The object.
+    """
+    if geometry.cup is None or flat_top_radius_m(shape) >= geometry.cup.radius_m:
+        return ""
+    return (
+        f"the top of the object of {_millimetres(2 * flat_top_radius_m(shape))} is smaller than the cup of "
+        f"{_named(geometry)}, {_millimetres(2 * geometry.cup.radius_m)}"
+    )
+
+
+def flat_top_radius_m(shape: ObjectShape) -> float:
+    """Radius of the largest circle about the middle of an object's top that is flat; 0 where the top is not.
+
+    Args:
+        shape: The object.
+    """
+    if isinstance(shape, Cylinder):
+        return shape.radius_m
+    return min(shape.size_m[:2]) / 2 if isinstance(shape, Box) else 0.0
+
+
+def _named(geometry: GripperGeometry) -> str:
+    return f"gripper {geometry.id}" + (f" in its mounting {geometry.mounting}" if geometry.mounting else "")
+
+
+def _millimetres(metres: float) -> str:
+    return f"{metres * 1e3:.4g} mm"

@@ -1,0 +1,40 @@
+"""Registry of the kinds of grippers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any
+
+from rgss.documents import Document
+from rgss.errors import DocumentError
+from rgss.findings import shown
+from rgss.scenes.hands.finger_gripper import FingerGripper
+from rgss.scenes.hands.gripper_kind import GripperKind
+from rgss.scenes.hands.parallel_gripper import ParallelGripper
+from rgss.scenes.hands.vacuum_gripper import VacuumGripper
+
+_FINGERS = FingerGripper()
+
+GRIPPER_KINDS: Mapping[str, GripperKind] = MappingProxyType(
+    {kind.name: kind for kind in (_FINGERS, ParallelGripper(), VacuumGripper())}
+)
+"""The kinds by their names in files."""
+
+
+def kind_of_gripper(document: Document) -> GripperKind:
+    """The kind of a gripper file; that of prismatic fingers where the file names none.
+
+    Args:
+        document: The file.
+
+    Raises:
+        DocumentError: The file names an unknown kind.
+    """
+    data: Any = document.data
+    name = data.get("kind", _FINGERS.name) if isinstance(data, dict) else _FINGERS.name
+    if isinstance(name, str) and name in GRIPPER_KINDS:
+        return GRIPPER_KINDS[name]
+    hint = f"known kinds: {', '.join(GRIPPER_KINDS)}"
+    message = f"unknown kind of gripper {shown(str(name))}"
+    raise DocumentError([document.finding("scene.gripper-kind", message, ("kind",), hint=hint)])

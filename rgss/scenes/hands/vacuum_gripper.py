@@ -1,0 +1,116 @@
+"""Vacuum grippers: one suction cup on the tool axis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Literal
+
+from rgss.documents import Dimensionless, Document, DocumentModel, Identifier, Metres, Newtons, Radians, Seconds
+from rgss.findings import Finding
+from rgss.scenes.document import AssumptionEntry, BaseEntry
+from rgss.scenes.findings import Location, negative, not_positive
+from rgss.scenes.gripper import GripperDrive, GripperFile, GripperGeometry, Suction
+from rgss.scenes.shapes import Box, Cylinder, ObjectShape
+
+_NO_FINGER = Box(size_m=(0.0, 0.0, 0.0))
+_LEAST_SPEED_M_S = 1.0
+_APPROACH_SHARE = 0.5
+
+
+class CupEntry(DocumentModel):
+    """A suction cup: its size, the surface that it seals on, and what it holds."""
+
+    radius: Metres
+    length: Metres
+    normal_force: Newtons
+    tangential_force: Newtons
+    largest_gap: Metres
+    largest_angle: Radians
+    leak: Dimensionless = 0.0
+    build_up: Seconds
+    release: Seconds
+
+
+class VacuumGripperDocument(DocumentModel):
+    """A gripper file of one suction cup."""
+
+    gripper: Identifier
+    kind: Literal["vacuum"]
+    base: BaseEntry
+    cup: CupEntry
+    assumptions: tuple[AssumptionEntry, ...] = ()
+
+
+class VacuumGripper:
+    """The kind ``vacuum``."""
+
+    name = "vacuum"
+    model: type[DocumentModel] = VacuumGripperDocument
+
+    def findings(self, entry: VacuumGripperDocument, document: Document) -> Iterable[Finding]:
+        """Problems of sizes, forces and times, and of a leak that leaves no force."""
+        cup, base = entry.cup, entry.base
+        names = ("radius", "length", "normal_force", "tangential_force", "largest_gap", "largest_angle")
+        values: list[tuple[Location, float]] = [
+            (("base", "radius"), base.radius),
+            (("base", "height"), base.height),
+            *((("cup", name), getattr(cup, name)) for name in (*names, "build_up", "release")),
+        ]
+        if base.mass is not None:
+            values.append((("base", "mass"), base.mass))
+        yield from not_positive(document, values)
+        yield from negative(document, [(("cup", "leak"), cup.leak)])
+        if cup.leak >= 1.0:
+            yield document.finding(
+                "scene.leak",
+                f"a leak of {cup.leak * 100:g} % leaves no force",
+                ("cup", "leak"),
+                hint="make it less than 100 %",
+            )
+
+    def gripper_file(self, entry: VacuumGripperDocument) -> GripperFile:
+        """The gripper; the least that a finger has stands for the fingers that it lacks."""
+        cup = entry.cup
+        base = Cylinder(radius_m=entry.base.radius, height_m=entry.base.height)
+        geometry = GripperGeometry(
+            id=entry.gripper,
+            azimuths_rad=(),
+            base=base,
+            finger=_NO_FINGER,
+            largest_opening_m=0.0,
+            stroke_m=0.0,
+            grasp_depth_m=base.height_m + cup.length + _APPROACH_SHARE * cup.largest_gap,
+            cup=Cylinder(radius_m=cup.radius, height_m=cup.length),
+        )
+        suction = Suction(
+            tangential_force_n=cup.tangential_force,
+            leak=cup.leak,
+            largest_gap_m=cup.largest_gap,
+            largest_angle_rad=cup.largest_angle,
+            build_up_s=cup.build_up,
+            release_s=cup.release,
+        )
+        settings: dict[str, float | str] = {
+            "gripper.finger.mass": 0.0,
+            "gripper.finger.speed": _LEAST_SPEED_M_S,
+            "gripper.finger.force": cup.normal_force,
+            "gripper.finger.friction": 1.0,
+        }
+        if entry.base.mass is not None:
+            settings["gripper.base.mass"] = entry.base.mass
+        return GripperFile(mountings={"": geometry}, drive=GripperDrive(), suction=suction, settings=settings)
+
+
+def at_top(geometry: GripperGeometry, shape: ObjectShape) -> GripperGeometry:
+    """A gripper whose grasp centre is the centre of the object that its cup is over; one with fingers as it is.
+
+    The task's grasp is at the centre of the object, a cup's on the top of it.
+
+    Args:
+        geometry: The gripper's shape; the grasp centre of a cup is a gap below its lip.
+        shape: The object.
+    """
+    if geometry.cup is None:
+        return geometry
+    return replace(geometry, grasp_depth_m=geometry.grasp_depth_m + shape.half_height_m)

@@ -1,0 +1,143 @@
+"""Every kind of gripper carries an object that it can hold, and says why it cannot hold another."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rgss.evidence import Failure, Fidelity, Phase
+from rgss.scenes import Cylinder, Pose
+from rgss.trials.hands import hand_of
+from rgss.trials.pieces.run import Pieces
+from tests.trials.hands.gripper_files import FILES, HELD, UNFIT, gripper_of
+
+
+@pytest.fixture
+def trial(spec_of, tmp_path):
+    """Makes the trial of a kind of gripper with an object, at a fidelity."""
+
+    def make(name, fidelity, *, radius_m=HELD.radius_m, mass_kg=0.1):
+        base = spec_of()
+        shape = replace(HELD, radius_m=radius_m)
+        own = base.scene.workpiece
+        x, y, z = own.pose.position_m
+        lowered_m = own.shape.half_height_m - shape.half_height_m
+        workpiece = replace(own, shape=shape, mass_kg=mass_kg, pose=Pose(position_m=(x, y, z - lowered_m)))
+        planning = replace(base.settings.planning, clearance_m=5.0e-4)
+        return replace(
+            base,
+            scene=replace(base.scene, workpiece=workpiece),
+            gripper=gripper_of(tmp_path, name, shape),
+            fidelity=fidelity,
+            settings=replace(base.settings, planning=planning),
+        )
+
+    return make
+
+
+@pytest.mark.parametrize("fidelity", Fidelity)
+@pytest.mark.parametrize("name", FILES)
+def test_an_object_that_fits_is_carried_to_its_place(trial, name, fidelity):
+    spec = trial(name, fidelity)
+
+    record = Pieces().record(spec)
+
+    assert record.failure_detail == ""
+    assert record.success
+    phases = {phase.phase: phase for phase in record.phases}
+    hand = hand_of(spec.gripper)
+    firm_s, step_s = spec.settings.control.firm_grasp_s, spec.settings.physics.step_s
+    # In contact a drive passes the force over a few steps, and opens over its whole stroke.
+    slack_s = 0.02 if fidelity is Fidelity.CONTACT else 1.1 * step_s
+    assert phases[Phase.GRASP].duration_s == pytest.approx(hand.closing_s(spec.scene.workpiece, firm_s), abs=slack_s)
+    assert phases[Phase.PLACE].metrics["opening_s"] == pytest.approx(hand.opening_s(spec.scene.workpiece), abs=slack_s)
+
+
+@pytest.mark.parametrize("fidelity", Fidelity)
+@pytest.mark.parametrize("name", FILES)
+def test_an_object_that_does_not_fit_fails_at_the_grasp_with_the_reason(trial, name, fidelity):
+    spec = trial(name, fidelity, radius_m=UNFIT[name])
+
+    record = Pieces().record(spec)
+
+    assert (record.failed_phase, record.failure) == (Phase.GRASP, Failure.NO_FIRM_GRASP)
+    assert record.failure_detail == hand_of(spec.gripper).misfit(spec.scene.workpiece)
+    assert f"{2e3 * UNFIT[name]:g} mm" in record.failure_detail
+
+
+@pytest.mark.parametrize("fidelity", Fidelity)
+def test_what_is_too_wide_for_a_mounting_is_not_entered(trial, fidelity):
+    record = Pieces().record(trial("parallel", fidelity, radius_m=0.019))
+
+    assert record.failed_phase is Phase.MOVE_TO_GRASP
+    assert record.failure_detail == (
+        "no configuration serves grasp: the object of 38 mm is too wide to enter gripper lite6 in its mounting "
+        "reverse, which opens to 38 mm"
+    )
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_hand_needs_more_force_for_more_weight_or_as_much_as_is_stated(tmp_path, name):
+    gripper = gripper_of(tmp_path, name)
+    hand = hand_of(gripper)
+    fingers = max(1, gripper.geometry.fingers)
+    light_n, heavy_n = hand.needed_force_n(1.0, 0.5), hand.needed_force_n(2.0, 0.5)
+
+    if gripper.drive.firm_force_n is not None:
+        assert light_n == heavy_n == 5.0
+    else:
+        assert heavy_n == pytest.approx(2 * light_n)
+    whole_n = (gripper.finger_force_n,) * fingers
+    assert hand.is_firm(whole_n, light_n)
+    assert not hand.is_firm((0.0,) * fingers, light_n)
+    assert "N" in hand.shortfall(whole_n, light_n)
+
+
+def test_a_command_takes_as_long_as_the_text_says(trial):
+    record = Pieces().record(trial("open-loop", Fidelity.CONTACT))
+
+    assert record.metrics["grasp_cycle_time_s"] == pytest.approx(2 * 0.275, abs=0.01)
+
+
+def test_a_cup_is_torn_off_by_an_object_that_is_too_heavy(trial):
+    lifted = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=1.3))
+    weighed = Pieces().record(trial("vacuum", Fidelity.CONTACT, mass_kg=1.5))
+
+    # 1.3 kg weigh less than the 13.5 N that the cup holds, and more while they are accelerated upwards.
+    assert (lifted.failed_phase, lifted.failure) == (Phase.LIFT, Failure.OBJECT_DROPPED)
+    assert lifted.failure_detail.startswith("the cup holds 13.50 N along its axis, the object pulls with 1")
+    assert (weighed.failed_phase, weighed.failure) == (Phase.GRASP, Failure.NO_FIRM_GRASP)
+    assert weighed.failure_detail == "the cup holds 13.50 N, the object weighs 14.71 N"
+
+
+@pytest.mark.parametrize(
+    ("changes", "phase", "start"),
+    [
+        ({"largest_gap_m": 1e-3}, Phase.GRASP, "the cup is 1.5 mm above the object, it seals within 1 mm"),
+        (
+            {"tangential_force_n": 0.3},
+            Phase.MOVE_TO_PLACE_APPROACH,
+            "the cup holds 0.27 N across its axis, the object pulls with 0.2",
+        ),
+    ],
+)
+def test_a_seal_has_its_limits(trial, changes, phase, start):
+    spec = trial("vacuum", Fidelity.CONTACT, mass_kg=0.5)
+    suction = replace(spec.gripper.suction, **changes)
+
+    record = Pieces().record(replace(spec, gripper=replace(spec.gripper, suction=suction)))
+
+    assert record.failed_phase is phase
+    assert record.failure_detail.startswith(start)
+
+
+def test_a_cup_that_is_off_the_top_does_not_seal(trial):
+    spec = trial("vacuum", Fidelity.CONTACT)
+    own = spec.gripper.geometry
+    wide = replace(own, cup=Cylinder(radius_m=HELD.radius_m, height_m=own.cup.height_m))
+
+    record = Pieces().record(replace(spec, gripper=replace(spec.gripper, geometry=wide)))
+
+    assert record.failed_phase is Phase.GRASP
+    assert "off the centre of a top that leaves it 0.0 mm" in record.failure_detail

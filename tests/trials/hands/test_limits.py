@@ -1,0 +1,39 @@
+"""What grippers of a kind cannot do is refused with a reason."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from rgss.errors import DefinitionError, SimulationError
+from rgss.physics import open_world
+from rgss.trials.payload_bench import bench_of
+from rgss.trials.payload_bench.bench import run_bench
+from rgss.trials.payload_bench.of_trial import payload_bench
+from rgss.trials.second_engine import mujoco_settings
+from tests.trials.hands.gripper_files import gripper_of
+
+
+def test_the_payload_bench_has_no_cups(spec_of, tmp_path):
+    spec = replace(spec_of(), gripper=gripper_of(tmp_path, "vacuum"))
+
+    assert bench_of(spec) is None
+    with pytest.raises(DefinitionError, match="the payload bench has fingers to try, gripper 'cup' has a suction cup"):
+        run_bench(payload_bench(spec))
+
+
+def test_there_is_no_bench_for_an_object_that_the_gripper_cannot_hold(spec_of, tmp_path):
+    assert bench_of(replace(spec_of(), gripper=gripper_of(tmp_path, "parallel"))) is None
+
+
+def test_mujoco_has_no_cups(spec_of, tmp_path):
+    with pytest.raises(DefinitionError, match="MuJoCo's world has fingers alone, gripper 'cup' has a suction cup"):
+        open_world(spec_of().scene, gripper_of(tmp_path, "vacuum"), mujoco_settings())
+
+
+def test_drives_must_be_lighter_than_the_base(spec_of, tmp_path):
+    gripper = replace(gripper_of(tmp_path, "parallel"), base_mass_kg=0.2)
+    expected = "the drives' inertia of 0.2 kg must be less than the base's mass of 0.2 kg"
+    with pytest.raises(SimulationError, match=expected):
+        open_world(spec_of().scene, gripper, spec_of().settings.physics)
