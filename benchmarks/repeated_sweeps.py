@@ -3,6 +3,7 @@
     rgss sweep STUDY --replicates 8
     rgss sweep STUDY --only 7-9,16-18,43-45,52-54 --replicates 96
     python benchmarks/repeated_sweeps.py STUDY --seeds 200
+    python benchmarks/repeated_sweeps.py STUDY --seeds 1000 --equal 32 64 128       equal seeds, no looks
 
 Nothing is simulated: the trials are those of the project's evidence store, the study's seed and the next ones. Each
 repetition draws the seeds of its replicates from the pool with replacement, each workload case by its own, and goes
@@ -31,7 +32,7 @@ from rgss.evidence import EvidenceStore
 from rgss.studies import Project, load_project
 from rgss.tradeoff import Alternative, TradeProblem, decide
 from rgss.tradeoff.problem import tabulated
-from rgss.tradeoff.programs import single_values
+from rgss.tradeoff.programs import enumerate_alternatives, single_values
 from rgss.tradeoff.robustness import PosteriorOutcomes, choice_uncertainty
 from rgss.tradeoff.sequential import Decided, Progress, SequentialEvidence, SequentialRule, next_batch
 
@@ -136,6 +137,26 @@ class Pool:
             **size,
         )
 
+    def by_equal_seeds(self, count: int, seed: int, *, last: bool) -> int | None:
+        """The choice of the designs with most trials by equal seeds: what no allocation of so many can do better.
+
+        Args:
+            count: The number of seeds.
+            seed: The repetition.
+            last: Whether the last of equals is chosen; the first otherwise.
+        """
+        most = max(self.counts.values())
+        picks = self._picks(np.random.default_rng([7, seed]), count)[most]
+        problem = replace(
+            self.problem,
+            alternatives=tuple(
+                _some(one, picks) for one in self.problem.alternatives if self.counts[one.variant] == most
+            ),
+        )
+        tied = enumerate_alternatives(problem).tied
+        variants = [one.variant for one, is_tied in zip(problem.alternatives, tied, strict=True) if is_tied]
+        return (max(variants) if last else min(variants)) if variants else None
+
     def _picks(self, generator: np.random.Generator, cap: int) -> dict[int, list[int]]:
         """By number of trials in the pool, the seeds of the replicates of the variants that have so many."""
         sizes = sorted(set(self.counts.values()), reverse=True)
@@ -196,11 +217,14 @@ def main() -> int:
     parser.add_argument("--budget", type=int)
     parser.add_argument("--cap", type=int)
     parser.add_argument("--batch", type=int)
+    parser.add_argument("--equal", type=int, nargs="*", help="instead, decide by so many seeds of all that have most")
     given = parser.parse_args()
     rule = load_project(given.project.resolve(), given.study).study.until_decided
     changed = {name: getattr(given, name) for name in ("budget", "cap", "batch") if getattr(given, name)}
     rule = replace(rule, **changed)
     pool = read_pool(given.project.resolve(), given.study, given.most)
+    if given.equal:
+        return _equal_seeds(pool, given.equal, given.seeds)
     truth = pool.outcome(pool.problem, pool.counts, 0)
     outcomes = []
     for seed in range(given.seeds):
@@ -213,6 +237,19 @@ def main() -> int:
         sys.stderr.flush()
     kept = [_same(truth, outcomes), _calibrated(pool, outcomes)]
     return int(not all(kept))
+
+
+def _equal_seeds(pool: Pool, counts: Sequence[int], repetitions: int) -> int:
+    out = sys.stdout
+    out.write("| seeds of each | of equals the first | of equals the last |\n|---|---|---|\n")
+    for count in counts:
+        cells = []
+        for last in (False, True):
+            found = Counter(pool.by_equal_seeds(count, seed, last=last) for seed in range(repetitions))
+            cells.append(", ".join(f"{one} ({100 * often / repetitions:.0f} %)" for one, often in found.most_common(5)))
+        out.write(f"| {count} | {' | '.join(cells)} |\n")
+        out.flush()
+    return 0
 
 
 def _same(truth: Outcome, outcomes: Sequence[Outcome]) -> bool:
