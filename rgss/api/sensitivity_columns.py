@@ -93,7 +93,11 @@ ASSUMPTIONS = FrameDescription(
             kind=Kind.COUNT,
         ),
         Column(name="feasible", meaning="variants that then meet every requirement", unit="1", kind=Kind.COUNT),
-        Column(name="changes_choice", meaning="whether the study's choice is no longer the best", kind=Kind.TRUTH),
+        Column(
+            name="changes_choice",
+            meaning="whether the study's choice is beaten, and not tied with the best",
+            kind=Kind.TRUTH,
+        ),
         Column(name="trials", meaning="trials that it needs", unit="1", kind=Kind.COUNT),
         Column(name="missing", meaning="trials that would have to be run", unit="1", kind=Kind.COUNT),
         Column(name="read_off", meaning="trials that are read off stored searches", unit="1", kind=Kind.COUNT),

@@ -253,7 +253,10 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
     ("ask", "message"),
     [
         (lambda study: study.columns("trial"), "unknown frame 'trial' (frames: variants, trials, phases,"),
-        (lambda study: study.sweep(jobs=-1), "jobs must be at least 0, got -1 (0 works in this process)"),
+        (
+            lambda study: study.sweep(jobs=-1),
+            "jobs must be at least 0, got -1 (0 runs all trials in one child process)",
+        ),
         (lambda study: study.sweep("d8=PRM", jobs=0), "only: "),
         (lambda study: study.trade({"weight.x": 1}), "--what-if: there is no 'weight.x'"),
         (lambda study: study.trade("weight.t_e"), "--what-if: supposition must be NAME=VALUE, got 'weight.t_e'"),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from rgss.assessment import VariantMeasures
 from rgss.decision.assumptions.questions import Question, questions_of
 from rgss.decision.choosing import choose
+from rgss.decision.separation import is_separated
 from rgss.decision.what_if import Scenario, ScenarioEvidenceReader, suppose
 from rgss.errors import RgssError
 from rgss.evidence import EvidenceStore
@@ -28,7 +29,9 @@ class AssumptionOutcome:
         chosen: The variant that is then chosen; None if none is, or that is not known.
         ties: All that are then as good.
         feasible: Number of variants that then meet every requirement by their estimates.
-        is_same: Whether the study's choice is still among the best; None if that is not known.
+        is_same: Whether the study's choice is still among the best, or the evidence does not separate it from the
+            other one; None if that is not known.
+        is_unseparated: Whether another one is chosen, from which the evidence does not separate the study's choice.
         trials: Number of trials that it needs.
         missing: Number of those that would have to be run.
         read_off: Number of those that were read off stored searches.
@@ -44,6 +47,7 @@ class AssumptionOutcome:
     ties: tuple[int, ...] = ()
     feasible: int = 0
     is_same: bool | None = None
+    is_unseparated: bool = False
     trials: int = 0
     missing: int = 0
     read_off: int = 0
@@ -111,6 +115,14 @@ def _outcome(
                 read_off=found.read_off,
             )
         other = choose(scenario.project, found.measured)
+        former, chosen = decision.chosen, other.chosen
+        is_among = former in other.ties if other.ties else former is None
+        unseparated = (
+            former is not None
+            and chosen is not None
+            and not is_among
+            and not is_separated(scenario.project, found.measured, chosen, former)
+        )
     except RgssError as error:
         return AssumptionOutcome(question=question, reason=error.message)
     before, after = _successes(measured), _successes(found.measured)
@@ -120,7 +132,8 @@ def _outcome(
         chosen=other.chosen,
         ties=other.ties,
         feasible=other.counts.feasible,
-        is_same=decision.chosen in other.ties if other.ties else decision.chosen is None,
+        is_same=is_among or unseparated,
+        is_unseparated=unseparated,
         trials=found.trials,
         read_off=found.read_off,
         otherwise=(len(after - before), len(before - after)),

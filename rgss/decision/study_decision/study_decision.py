@@ -19,6 +19,7 @@ from rgss.decision.choosing import choose, double_counting, shared_measures, tra
 from rgss.decision.robustness import Robustness, analyse_robustness
 from rgss.decision.screening_result import ScreeningResult
 from rgss.decision.sensitivity import Sensitivity, analyse_sensitivity
+from rgss.decision.separation import is_separated
 from rgss.decision.study_decision.comparison import SideBySide, side_by_side
 from rgss.decision.study_decision.conclusion import Conclusion, conclusion_of
 from rgss.decision.study_decision.findings import RobustnessFindings, robustness_findings
@@ -151,7 +152,14 @@ def decide_study(
         problem = trade_problem(project, measured)
         decision = choose(project, measured, problem=problem, independent=independent, time_limit=time_limit)
         after = decision_side(project, measured, decision)
-        what_if = WhatIf(scenario=scenario, units=units, before=before, after=after, reopened=reopened)
+        what_if = WhatIf(
+            scenario=scenario,
+            units=units,
+            before=before,
+            after=after,
+            reopened=reopened,
+            separated=_separated(project, measured, before.decision.chosen, decision.chosen),
+        )
     return study_decision(
         project,
         measured,
@@ -165,6 +173,14 @@ def decide_study(
         readings=_readings(project, measured, assumptions) if analysed else (),
         assumptions=assumptions,
     )
+
+
+def _separated(
+    project: Project, measured: Sequence[VariantMeasures], former: int | None, chosen: int | None
+) -> bool | None:
+    if former is None or chosen is None or former == chosen:
+        return None
+    return is_separated(project, measured, chosen, former)
 
 
 def study_decision(

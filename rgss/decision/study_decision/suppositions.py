@@ -38,6 +38,8 @@ class WhatIf:
         before: The decision without them.
         after: The decision under them.
         reopened: Designs that were screened out, and would not have been under the suppositions.
+        separated: Whether the evidence separates the former choice from the one under the suppositions; None where they
+            are the same, or one of them is nothing.
     """
 
     scenario: Scenario
@@ -45,6 +47,7 @@ class WhatIf:
     before: DecisionSide
     after: DecisionSide
     reopened: tuple[int, ...] = ()
+    separated: bool | None = None
 
     @property
     def value_of_former_choice(self) -> float | None:

@@ -114,6 +114,8 @@ def _choice(one: AssumptionOutcome) -> str:
 def _change(one: AssumptionOutcome) -> str:
     if one.is_same is None:
         return UNKNOWN
+    if one.is_unseparated:
+        return f"no, variant {one.chosen} is not separated from it"
     if one.is_same:
         return "no"
     return "yes, to nothing" if one.chosen is None else f"yes, to variant {one.chosen}"

@@ -44,6 +44,7 @@ def posterior_means(
     draws: int,
     generator: np.random.Generator,
     levels: NDArray[np.intp] | None = None,
+    apart: bool = False,
 ) -> list[Array]:
     """Posterior draws of the true mean of each measure.
 
@@ -53,6 +54,8 @@ def posterior_means(
         generator: Where randomness comes from.
         levels: The level of each alternative in each factor of its design, as numbers of any kind,
             shape (n, f); None where designs are not made of levels.
+        apart: Whether any two alternatives may differ in seeds to come as in none so far. A seed in which one of
+            two alone succeeded is then no proof that it is the better one: each side has half a seed more.
 
     Returns:
         Draws of each measure, shape (draws, n); NaN where no replicate of an alternative is known.
@@ -66,7 +69,7 @@ def posterior_means(
     weights = generator.standard_gamma(1.0, size=(inside, most))
     return [
         (
-            _proportions(one.values, groups, weights, generator)
+            _proportions(one.values, groups, weights, generator, apart=apart)
             if one.is_proportion
             else _means(one.values, levels, shared, generator)
         )[:draws]
@@ -101,7 +104,9 @@ def _same_rows(values: Array) -> NDArray[np.intp]:
     return np.array([seen.setdefault(np.ascontiguousarray(row).tobytes(), len(seen)) for row in values], dtype=np.intp)
 
 
-def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator) -> Array:
+def _proportions(
+    values: Array, groups: NDArray[np.intp], weights: Array, generator: np.random.Generator, *, apart: bool
+) -> Array:
     """Draws of proportions: beta-binomial, from a population that is a mixture of beta distributions.
 
     A success and a failure more, with random weights, are what the population adds to the seeds' own:
@@ -124,10 +129,11 @@ def _proportions(values: Array, groups: NDArray[np.intp], weights: Array, genera
     more = generator.standard_gamma(mean * strength)[:, group]
     less = generator.standard_gamma((1.0 - mean) * strength)[:, group]
     # Alternatives that no seed separated may differ in later seeds: each has half a seed of its own.
-    unseen = np.bincount(group)[group] > 1
+    unseen = np.ones(len(rows), dtype=np.bool_) if apart else np.bincount(group)[group] > 1
     shape = (len(weights), int(unseen.sum()))
-    more[:, unseen] += generator.standard_gamma(_UNSEEN / 2.0, size=shape)
-    less[:, unseen] += generator.standard_gamma(_UNSEEN / 2.0, size=shape)
+    size = _UNSEEN if apart else _UNSEEN / 2.0
+    more[:, unseen] += generator.standard_gamma(size, size=shape)
+    less[:, unseen] += generator.standard_gamma(size, size=shape)
     used = weights[:, : values.shape[1]]
     won = used @ seen.T + more
     total = used @ there.T.astype(np.float64) + more + less

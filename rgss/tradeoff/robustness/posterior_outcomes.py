@@ -61,6 +61,7 @@ class PosteriorOutcomes:
         generator: np.random.Generator,
         levels: NDArray[np.intp] | None = None,
         draws: int = DRAWS,
+        apart: bool = False,
     ) -> PosteriorOutcomes:
         """Draw the evidence of a table.
 
@@ -74,10 +75,11 @@ class PosteriorOutcomes:
             levels: The level of each alternative in each factor of its design, shape (n, f), in the
                 table's order; None where designs are not made of levels.
             draws: How many draws; fewer where their values would not fit in memory.
+            apart: As for `rgss.tradeoff.problem.posterior_means`.
         """
         size = max(1, len(table) * len(preferences.weighting.deciding_measures))
         draws = min(draws, max(FEWEST_DRAWS, _MOST_VALUES // size))
-        drawn = _drawn(table, proportions, levels, draws, generator)
+        drawn = _drawn(table, proportions, levels, draws, generator, apart=apart)
         replicates = max((samples.values.shape[1] for samples in table.samples.values()), default=0)
         picks = generator.integers(0, max(replicates, 1), size=(draws, replicates))
         values, feasible = _evaluated(preferences, table, drawn, picks)
@@ -190,6 +192,8 @@ def _drawn(
     levels: NDArray[np.intp] | None,
     draws: int,
     generator: np.random.Generator,
+    *,
+    apart: bool,
 ) -> dict[str, Array]:
     """Draws of the columns that are observed in trials; an end of an interval moves as its estimate does."""
     observed = [measure for measure in table.measures if measure in table.samples and not _is_end(measure, table)]
@@ -197,7 +201,7 @@ def _drawn(
         ObservedRows(values=_known(table.samples[measure]), is_proportion=measure in proportions)
         for measure in observed
     ]
-    found = posterior_means(rows, draws=draws, generator=generator, levels=levels)
+    found = posterior_means(rows, draws=draws, generator=generator, levels=levels, apart=apart)
     drawn = dict(zip(observed, found, strict=True))
     for measure in table.measures:
         if measure in table.samples and _is_end(measure, table):

@@ -222,3 +222,32 @@ def test_settings_reach_the_trials(shipped):
     assert not spec.uncertainty.values
     assert {variant.parameters["d9"] for variant in scenario.project.designs.expand()} == {5.0}
     assert scenario.settings[0].before == "4 s, 6 s or 8 s"
+
+
+def test_a_design_that_is_ahead_by_less_than_the_margin_is_no_change(evidence, filled, record_of):
+    project, _, _, record = evidence
+    store = filled(project, record)
+    measured = measure_variants(project, store)
+    former = choose(project, measured).chosen
+    parameters = {one.id: one.parameters for one in project.designs.expand()}
+    (rival, *_) = (
+        one
+        for one, levels in parameters.items()
+        if one != former and {**levels, "d9": 0} == {**parameters[former], "d9": 0}
+    )
+    times_s = {former: 1.0, rival: 0.98}
+    put(
+        project.with_fidelity("kinematic"),
+        store,
+        lambda spec: record_of(
+            spec, success=spec.variant in times_s, planning_s=times_s.get(spec.variant, 1.0), path_m=0.4
+        ),
+    )
+    project = asked(project, ("fidelity", ("kinematic",)))
+    found = outcome(project, measured, store, "fidelity")
+    made = decide_study(project, measured, evidence="e", assumptions=assumption_outcomes(project, measured, store))
+
+    assert (found.chosen, found.is_same, found.is_unseparated) == (rival, True, True)
+    assert f"no, variant {rival} is not separated from it" in "\n".join(decision_lines(made))
+    entry = trade_document(made)["modelling_assumptions"][0]
+    assert (entry["changes_choice"], entry["unseparated"]) == (False, True)

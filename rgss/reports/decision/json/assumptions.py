@@ -21,6 +21,7 @@ def modelling_assumption_to_json(one: AssumptionOutcome) -> dict[str, Any]:
         "ties": list(one.ties),
         "feasible": one.feasible,
         "changes_choice": None if one.is_same is None else not one.is_same,
+        "unseparated": one.is_unseparated,
         "excluded_by": list(one.excluded_by),
         "trials": one.trials,
         "missing_trials": one.missing,

@@ -70,6 +70,7 @@ def trade_document(made: StudyDecision) -> dict[str, Any]:
             "readings": [{"measure": one.measure, "alternative": one.alternative} for one in what_if.scenario.readings],
             "settings": [{"id": one.id, "before": one.before, "after": one.after} for one in what_if.scenario.settings],
             "decision_before": decision_to_json(what_if.before.decision),
+            "separated": what_if.separated,
         }
     )
     document["evidence"] = made.evidence

@@ -60,7 +60,10 @@ def _verdict(what_if: WhatIf) -> Iterator[str]:
         yield "The decision stays the same."
         return
     was, now = ("nothing" if chosen is None else f"variant {chosen}" for chosen in (before, after))
-    yield f"The decision changes from {was} to {now}."
+    if what_if.separated is False:
+        yield f"Variant {after} takes the place of variant {before}, which the evidence does not show to be a change."
+    else:
+        yield f"The decision changes from {was} to {now}."
     if what_if.violated_by_former_choice:
         yield f"Variant {before} would violate {', '.join(what_if.violated_by_former_choice)}."
     elif what_if.value_of_former_choice is not None:

@@ -1,0 +1,86 @@
+"""Whether the evidence separates two designs, so that one in place of the other is a change of the choice.
+
+Replicates are added where the choice is open, so that two designs seldom have the same seeds. They are compared on
+those that both have, by the posterior that names ties in the study itself; but a seed in which one of them alone
+succeeded is no proof that it is the better one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rgss.assessment import VariantMeasures, common_seeds
+from rgss.decision.choosing import proportion_measures, trade_problem
+from rgss.decision.level_structure import level_numbers
+from rgss.studies import Project
+from rgss.tradeoff import TradeProblem
+from rgss.tradeoff.problem import EvidenceTable, tabulated
+from rgss.tradeoff.programs import AdditiveValue, enumerate_alternatives, single_values
+from rgss.tradeoff.robustness import PosteriorOutcomes, choice_uncertainty
+
+FEWEST_REPLICATES = 2
+"""With fewer common seeds nothing is known of noise, and the estimates alone are compared."""
+
+
+def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: int, former: int) -> bool:
+    """Tell whether a choice is better than a former one by what the seeds that both have show.
+
+    It is not where the former one meets every requirement and is within the practical margin by the estimates, nor
+    where both are feasible and it is worth as much with a probability of at least 5 %
+    (`rgss.tradeoff.robustness.choice_uncertainty`).
+
+    Args:
+        project: The project, under the suppositions that lead to the choice.
+        measured: Every variant with its estimates and records under them.
+        chosen: What is chosen.
+        former: What was chosen without them.
+
+    Returns:
+        True too where the former is not among the variants, or the program is not the weighted value, which knows
+        no probability of a tie.
+
+    Raises:
+        TradeoffError: As for `trade_problem`.
+        DefinitionError: As for `trade_problem`.
+    """
+    pair = [entry for entry in measured if entry.variant.id in (chosen, former)]
+    if len(pair) != len({chosen, former}) or chosen == former:
+        return chosen != former
+    whole = replace(project.study.trade_off, choose_levels=False)
+    project = replace(project, study=replace(project.study, trade_off=whole))
+    pair = list(common_seeds(project, pair))
+    problem = trade_problem(project, pair)
+    if not isinstance(problem.program, AdditiveValue):
+        return True
+    table = tabulated(problem.alternatives)
+    margin = project.study.trade_off.practical_margin
+    replicates = np.array([len(entry.records) for entry in pair])
+    if replicates.min() < FEWEST_REPLICATES:
+        return not _is_near(problem, table, chosen, former, margin)
+    found = PosteriorOutcomes.of(
+        problem,
+        table,
+        proportion_measures(project),
+        generator=np.random.default_rng(project.study.seed),
+        levels=level_numbers(project.designs, table.variants.tolist()),
+        apart=True,
+    )
+    rivals = choice_uncertainty(
+        found,
+        table.row_of(chosen),
+        margin=margin,
+        replicates=replicates,
+        estimated=enumerate_alternatives(problem).feasible,
+        single=single_values(problem, table),
+    ).rivals
+    # What leads only where the choice is not feasible is no reason to keep it: by value it is behind.
+    return all(rival.by_feasibility for rival in rivals)
+
+
+def _is_near(problem: TradeProblem, table: EvidenceTable, chosen: int, former: int, margin: float) -> bool:
+    enumeration = enumerate_alternatives(problem)
+    worth = enumeration.values[table.row_of(chosen)] - enumeration.values[table.row_of(former)]
+    return bool(enumeration.feasible[table.row_of(former)]) and abs(float(worth)) <= margin
