@@ -6,11 +6,11 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.tasks.check_step import CheckStep
-    from rgss.tasks.packaged_task import default_task
     from rgss.tasks.document import TaskDocument
     from rgss.tasks.grip_step import GripStep
     from rgss.tasks.move_kinds import MoveKind
     from rgss.tasks.move_step import MoveStep, Target
+    from rgss.tasks.packaged_task import default_task
     from rgss.tasks.program import Step, TaskProgram
     from rgss.tasks.release_step import ReleaseStep
     from rgss.tasks.scene_findings import task_findings

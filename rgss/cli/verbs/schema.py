@@ -22,7 +22,11 @@ DOCUMENTS = (
     "catalogue",
     "scene",
     "robot",
+    "calibration",
     "gripper",
+    "task",
+    "parallel-gripper",
+    "vacuum-gripper",
     "study",
 )
 
