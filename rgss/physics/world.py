@@ -5,6 +5,8 @@ limit exactly, while a torque command slams; target position and velocity must b
 every step; every call names its client. `world_builder` has what shapes the bodies.
 """
 
+# long file: one class with a short method for each thing that a step may ask of the engine.
+
 from __future__ import annotations
 
 import math

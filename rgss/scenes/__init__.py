@@ -3,7 +3,21 @@
 from rgss.scenes.assembly import CUP_LINK, GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
 from rgss.scenes.convex_shapes import ConvexPart, convex_link_urdf, convex_parts, vertices_of, with_mesh_files
 from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
-from rgss.scenes.grasp_choice import Approach, GivenGrasp, GraspCandidates, TakenGrasp
+from rgss.scenes.grasps import (
+    Approach,
+    GivenGrasp,
+    GraspCandidates,
+    PadElement,
+    PadLayout,
+    PadPatch,
+    TakenGrasp,
+    most_elements,
+    pad_layouts,
+    pad_patches,
+    rotation_of,
+    settled_grasp,
+    surface_of,
+)
 from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeometry, Suction
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.hands import (
@@ -25,9 +39,7 @@ from rgss.scenes.mass_properties import (
     solid_moments,
 )
 from rgss.scenes.mesh_shapes import MeshSummary, mesh_summary
-from rgss.scenes.opening import grasp_opening_m
-from rgss.scenes.pad_contact import PadPatch, pad_patches, rotation_of, settled_grasp, surface_of
-from rgss.scenes.pad_layout import PadElement, PadLayout, most_elements, pad_layouts
+from rgss.scenes.objects import Standing, grasp_opening_m, initial_standings, scene_about
 from rgss.scenes.pose import Pose
 from rgss.scenes.rib_geometry import RIBS, pad_ribs
 from rgss.scenes.robot import MOST_JOINTS, Joint, JointKind, Robot
@@ -45,7 +57,6 @@ from rgss.scenes.scene import (
 )
 from rgss.scenes.scene_file import load_scene
 from rgss.scenes.servos import Calibration, CalibrationDocument, JointServo, ServoControl, load_calibration
-from rgss.scenes.several_objects import Standing, initial_standings, scene_about
 from rgss.scenes.shapes import (
     Box,
     Cylinder,

@@ -7,8 +7,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from functools import lru_cache
 
+from rgss.scenes.grasps import PadLayout
 from rgss.scenes.gripper import Gripper, GripperGeometry
-from rgss.scenes.pad_layout import PadLayout
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
 from rgss.scenes.shapes import Box, Cylinder

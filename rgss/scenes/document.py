@@ -26,7 +26,7 @@ from rgss.documents import (
     Seconds,
     Text,
 )
-from rgss.scenes.grasp_choice import Approach, GraspCandidates
+from rgss.scenes.grasps import Approach, GraspCandidates
 from rgss.scenes.robot import MOST_JOINTS
 from rgss.scenes.scene import FORCE_WINDOW_S, LANDING_LIMIT_M_S, LARGEST_DRAG_M, LARGEST_DROP_M
 from rgss.scenes.uncertainty import CorrelationEntry, DistributionEntry, QuantityName

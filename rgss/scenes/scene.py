@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rgss.scenes.grasp_choice import GivenGrasp, GraspCandidates, TakenGrasp
+from rgss.scenes.grasps import GivenGrasp, GraspCandidates, TakenGrasp
 from rgss.scenes.mass_properties import Gyration
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot

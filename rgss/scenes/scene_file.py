@@ -11,15 +11,18 @@ from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes.document import BodyEntry, SceneDocument
 from rgss.scenes.findings import Location, named_file_findings, negative, not_positive
-from rgss.scenes.object_file import candidates_of, object_lengths, object_solid, workpiece_of
-from rgss.scenes.other_objects import (
+from rgss.scenes.objects import (
+    candidates_of,
     colour_of,
     name_findings,
     named_places,
+    object_lengths,
+    object_solid,
     other_objects,
     other_solids,
     positive_values,
     region_of,
+    workpiece_of,
 )
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot

@@ -131,6 +131,7 @@ class _Reader:
         self._folder = folder
         self._findings: list[Finding] = []
 
+    # long function: one check after the other of files that name each other, each with its own findings.
     def read(self, study_name: str | None) -> Project:
         folder = self._folder
         path, label = self._study_file(study_name)

@@ -25,13 +25,13 @@ from rgss.scenes.uncertainty import (
 from rgss.studies.assumptions_section import StudyAssumption, read_assumptions
 from rgss.studies.document import StudyDocument
 from rgss.studies.motion import MotionChoice, read_motion
-from rgss.studies.planning import PlanningChoice, read_planning
+from rgss.studies.planning import PlanningChoice, read_moves, read_planning
 from rgss.studies.project_folders import folder_problem, normal_folder
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression import RegressionGuard, read_regression
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
-from rgss.tasks import LoadedTask, MoveKind, TaskProgram, default_task, load_task
+from rgss.tasks import LoadedTask, TaskProgram, default_task, load_task
 from rgss.tradeoff import Anchor
 from rgss.tradeoff.sequential import SequentialRule
 
@@ -122,6 +122,7 @@ class StudyDefinition:
         return self.is_sequential and self.until_decided.budget is not None
 
 
+# long function: one section of the file after the other, in its order.
 def read_study(
     path: Path,
     measures: MeasureSet | None,
@@ -156,7 +157,7 @@ def read_study(
     screening = read_screening(entry, document, findings)
     loaded_task = _task(project, entry, findings)
     program = default_task() if loaded_task is None else loaded_task.program
-    moves = _moves(entry, program, document, findings)
+    moves = read_moves(entry.moves, program, document, findings)
     regression = read_regression(entry.regression, document, findings, phases=program.phases)
     until_decided = read_until_decided(entry.until_decided, document, findings, replicates=entry.replicates)
     uncertainty = read_uncertainty(entry.uncertainty, entry.correlations, document, findings)
@@ -255,18 +256,6 @@ def _task(project: Path, entry: StudyDocument, findings: list[Finding]) -> Loade
     except DocumentError as error:
         findings.extend(error.findings)
         return None
-
-
-def _moves(
-    entry: StudyDocument, task: TaskProgram, document: Document, findings: list[Finding]
-) -> tuple[MoveKind, ...]:
-    """Kinds of the planned moves of the task, as the study has them."""
-    for name in entry.moves:
-        if name not in task.planned:
-            hint = f"planned moves: {', '.join(task.planned)}"
-            message = f"the task has no planned move {name!r}"
-            findings.append(document.finding("study.move", message, ("moves", name), hint=hint, at_key=True))
-    return tuple(MoveKind(entry.moves.get(name, "planned")) for name in task.planned)
 
 
 def value_anchors(trade_off: TradeOff, quantity_of: Callable[[Anchor, str], float]) -> tuple[ValueAnchors, ...]:

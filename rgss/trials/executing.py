@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from rgss.evidence import Fidelity
 from rgss.physics import TorqueArm, open_world
-from rgss.trials.chosen_grasp import with_chosen_grasp
 from rgss.trials.conditions import Conditions, conditions_of
 from rgss.trials.execution import Execution
+from rgss.trials.grasp_choice import with_chosen_grasp
 from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants import DynamicPlant, GripSequence, KinematicPlant
@@ -20,6 +20,7 @@ from rgss.trials.trial_spec import TrialSpec
 from rgss.trials.workcell import Workcell, cell_of, with_grasp_of
 
 
+# long function: one branch for each fidelity, which share only the references.
 def execute(
     spec: TrialSpec,
     cell: Workcell,

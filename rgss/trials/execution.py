@@ -1,5 +1,7 @@
 """Plant of the highest fidelity: arm, hand, object and scene in contact."""
 
+# long file: one class with a method for each kind of step, which share the state of the hand and its monitors.
+
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence

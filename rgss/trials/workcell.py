@@ -10,7 +10,7 @@ from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import GripperGeometry, Scene
 from rgss.tasks import TaskProgram, default_task
 from rgss.trials.conditions import conditions_of
-from rgss.trials.grasp_search import GraspSearch, search_grasp
+from rgss.trials.grasp_choice import GraspSearch, search_grasp
 from rgss.trials.route import route_of
 from rgss.trials.trial_spec import TrialSpec
 

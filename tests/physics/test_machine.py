@@ -7,7 +7,7 @@ import pytest
 
 from rgss.physics.engine import pybullet
 from rgss.scenes.assembly import assembled_urdf, finger_link
-from rgss.scenes.pad_layout import pad_layouts
+from rgss.scenes.grasps.pad_layout import pad_layouts
 
 pytestmark = pytest.mark.engine
 

@@ -217,8 +217,7 @@ class Planned:
 
 @pytest.fixture(scope="module")
 def planned(spec_of):
-    spec = spec_of()
-    planning = spec.settings.planning
+    planning = (spec := spec_of()).settings.planning
     cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m)
     plan = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
     timing = time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)

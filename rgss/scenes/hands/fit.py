@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rgss.scenes.gripper import GripperGeometry
-from rgss.scenes.opening import grasp_opening_m
+from rgss.scenes.objects import grasp_opening_m
 from rgss.scenes.scene import Scene
 from rgss.scenes.shapes import Box, Cylinder, ObjectShape
 

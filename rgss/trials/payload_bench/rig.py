@@ -6,6 +6,8 @@ milliseconds. The hand is assembled and driven by the same code as on the arm, s
 finger control and contacts are those of a trial.
 """
 
+# long file: one rig, built, loaded and watched by one class.
+
 from __future__ import annotations
 
 import math

@@ -85,7 +85,7 @@ def test_a_second_time(rgss, tmp_path):
 
     assert told.status == 2
     assert told.complaint == (
-        f"rgss: {tmp_path}/README.md and 25 more are there already, and nothing is overwritten (name a new folder)"
+        f"rgss: {tmp_path}/README.md and 29 more are there already, and nothing is overwritten (name a new folder)"
     )
 
 

@@ -9,7 +9,8 @@ from rgss.documents import Document
 from rgss.findings import Finding
 from rgss.scenes.document import PlaceRegionEntry, SceneDocument
 from rgss.scenes.findings import Location
-from rgss.scenes.object_file import ObjectSolid, object_lengths, object_solid, workpiece_of
+from rgss.scenes.objects.object_entry import object_lengths
+from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece_of
 from rgss.scenes.scene import ColourRgba, NamedPlace, PlaceRegion, SceneObject
 
 

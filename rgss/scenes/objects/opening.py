@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from rgss.scenes.grasps import pad_patches
 from rgss.scenes.gripper import GripperGeometry
-from rgss.scenes.pad_contact import pad_patches
 from rgss.scenes.scene import Scene
 from rgss.scenes.shapes import Cylinder
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,16 +16,14 @@ from rgss.findings import Finding
 from rgss.scenes.document import (
     CollisionShapes,
     GivenGraspEntry,
-    GraspCandidatesEntry,
-    GraspRule,
     Rest,
     WorkpieceEntry,
 )
 from rgss.scenes.findings import Location, named_file_findings
-from rgss.scenes.grasp_choice import GivenGrasp, GraspCandidates
+from rgss.scenes.grasps import GivenGrasp, rotation_of
 from rgss.scenes.mass_properties import Gyration
 from rgss.scenes.mesh_shapes import mesh_mass, mesh_summary, shapes_of_mesh
-from rgss.scenes.pad_contact import rotation_of
+from rgss.scenes.objects.object_entry import OWN, form_findings, object_lengths
 from rgss.scenes.pose import Pose
 from rgss.scenes.scene import ColourRgba, Workpiece
 from rgss.scenes.shapes import Box, Cylinder, LyingCylinder, MeshShape, ObjectShape, Point, corners_of
@@ -33,8 +31,6 @@ from rgss.scenes.shapes import Box, Cylinder, LyingCylinder, MeshShape, ObjectSh
 MOST_PARTS = 16
 """Most convex parts of an object: each is tried against each body and pad in every step."""
 
-_OWN: Location = ("workpiece",)
-_SHAPES = ("box", "cylinder", "mesh")
 _LARGEST_M, _SMALLEST_M = 3.0, 1.0e-3
 _CONVEX = 1.02
 _TIPPED = Pose.from_roll_pitch_yaw((0.0, 0.0, 0.0), (0.0, math.pi / 2, 0.0))
@@ -66,7 +62,7 @@ def object_solid(
     findings: list[Finding],
     project: Path,
     *,
-    at: Location = _OWN,
+    at: Location = OWN,
 ) -> ObjectSolid | None:
     """The solid of an object, or None with what is wrong added to the findings.
 
@@ -79,7 +75,7 @@ def object_solid(
         at: Where the entry stands.
     """
     before = len(findings)
-    findings.extend(_form_findings(entry, document, at))
+    findings.extend(form_findings(entry, document, at))
     if len(findings) > before or any(value <= 0.0 for _, value in object_lengths(entry, at=at)):
         return None
     if entry.mesh is not None:
@@ -131,80 +127,6 @@ def workpiece_of(entry: WorkpieceEntry, solid: ObjectSolid, *, top_m: float, col
         pose=pose,
         colour=colour,
     )
-
-
-def candidates_of(rule: GraspRule | GraspCandidatesEntry) -> GraspCandidates | None:
-    """Which grasps are tried; None for the stated one.
-
-    Args:
-        rule: What the task says.
-    """
-    if isinstance(rule, GraspRule):
-        return None if rule is GraspRule.AS_STATED else GraspCandidates()
-    stated = rule.candidates
-    return GraspCandidates(
-        approaches=stated.approaches, heights=stated.heights, yaws=stated.yaws, samples=stated.samples
-    )
-
-
-def object_lengths(entry: WorkpieceEntry, *, at: Location = _OWN) -> Iterator[tuple[Location, float]]:
-    """Location and value of what must be above zero.
-
-    Args:
-        entry: The object.
-        at: Where the entry stands.
-    """
-    values: dict[Location, float | None] = {
-        (*at, "radius"): entry.radius,
-        (*at, "height"): entry.height,
-        (*at, "mass"): entry.mass,
-        (*at, "density"): entry.density,
-        (*at, "scale"): entry.scale,
-        (*at, "rolling_resistance"): entry.rolling_resistance,
-    }
-    parts: dict[Location, float] = {}
-    if entry.cylinder is not None:
-        parts |= {("cylinder", "radius"): entry.cylinder.radius, ("cylinder", "height"): entry.cylinder.height}
-    parts |= {("box", axis): edge for axis, edge in enumerate(entry.box or ())}
-    parts |= {("grasps", index, "width"): grasp.width for index, grasp in enumerate(entry.grasps)}
-    values |= {(*at, *part): value for part, value in parts.items()}
-    yield from ((location, value) for location, value in values.items() if value is not None)
-
-
-def _form_findings(entry: WorkpieceEntry, document: Document, at: Location) -> Iterable[Finding]:
-    """Whether it has one shape, one of mass and density, and only keys that its shape knows."""
-    stated = [key for key in _SHAPES if getattr(entry, key) is not None]
-    if entry.radius is not None or entry.height is not None:
-        stated.append("radius and height")
-    if len(stated) != 1 or (entry.radius is None) != (entry.height is None):
-        yield document.finding(
-            "scene.shape",
-            f"object {entry.id!r} needs exactly one of 'box', 'cylinder', 'mesh', and 'radius' with 'height'",
-            at,
-        )
-    if (entry.mass is None) == (entry.density is None):
-        yield document.finding("scene.mass", f"object {entry.id!r} needs exactly one of 'mass' and 'density'", at)
-    if entry.mesh is None and (entry.scale != 1.0 or entry.collision is not None):
-        key = "scale" if entry.scale != 1.0 else "collision"
-        yield document.finding("scene.shape", f"{key!r} is of a mesh alone", (*at, key), hint="take it out")
-    is_round = entry.cylinder is not None or entry.radius is not None
-    if is_round and entry.rests is Rest.LYING and entry.rolling_resistance is None:
-        yield document.finding(
-            "scene.rolling",
-            f"object {entry.id!r} lies and would roll away",
-            (*at, "rests"),
-            hint="give 'rolling_resistance', a length: 0.5 mm on wood or laminate",
-        )
-    if entry.inertia is not None and entry.centre_of_mass is None:
-        yield document.finding(
-            "scene.mass", "'inertia' is about the centre of mass", (*at, "inertia"), hint="add centre_of_mass"
-        )
-    names = [grasp.id for grasp in entry.grasps]
-    for index, name in enumerate(names):
-        if name in names[:index]:
-            yield document.finding(
-                "scene.duplicate-id", f"id {name!r} is taken by an earlier grasp", (*at, "grasps", index, "id")
-            )
 
 
 def _primitive(entry: WorkpieceEntry) -> tuple[Box | Cylinder | LyingCylinder, Pose]:

@@ -1,0 +1,22 @@
+"""Objects of a scene: their entries in the file, several of them, and the opening of a gripper round one."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.scenes.objects.further_objects import (
+        colour_of,
+        name_findings,
+        named_places,
+        other_objects,
+        other_solids,
+        positive_values,
+        region_of,
+    )
+    from rgss.scenes.objects.object_entry import candidates_of, object_lengths
+    from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece_of
+    from rgss.scenes.objects.opening import grasp_opening_m
+    from rgss.scenes.objects.several_objects import Standing, initial_standings, scene_about
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -1,0 +1,11 @@
+"""Grasp that a trial takes of its candidates, and how the record shows it."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.trials.grasp_choice.chosen_grasp import with_chosen_grasp
+    from rgss.trials.grasp_choice.grasp_search import GraspSearch, Rejection, search_grasp
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
