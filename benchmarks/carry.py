@@ -73,7 +73,7 @@ class Task:
         """
         planning = spec.settings.planning
         self.spec = spec
-        self._cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m)
+        self._cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m, task=default_task())
         plan = plan_task(self._cell, spec.planner, seed=spec.seed, settings=planning)
         self._timing = time_task(self._cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
 
@@ -91,7 +91,7 @@ class Task:
             if phase in phases
         }
         with World(spec.scene, spec.gripper, physics) as world:
-            results = Execution(world, references, spec.settings.control, arm).run()
+            results = Execution(world, references, spec.settings.control, arm, task=default_task()).run()
         return {result.phase: result for result in results}
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from rgss.evidence import PlanOutcome
 from rgss.motion import PlanningClock
 from rgss.scenes import Box, Cylinder, Pose, Scene, SceneBody, load_gripper_file, load_scene
+from rgss.tasks import default_task
 from rgss.trials import PlanningSettings
 from rgss.trials.planning import plan_task
 from rgss.trials.workcell import Workcell
@@ -43,7 +44,7 @@ def random_cells(count: int, seed: int = SEED) -> Iterator[Workcell]:
     while found < count:
         generator = np.random.default_rng([seed, number])
         number += 1
-        cell = Workcell(_scene(reference, generator, number), geometry, clearance_m=CLEARANCE_M)
+        cell = Workcell(_scene(reference, generator, number), geometry, clearance_m=CLEARANCE_M, task=default_task())
         if _is_well_posed(cell):
             found += 1
             yield cell

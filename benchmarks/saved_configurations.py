@@ -25,6 +25,7 @@ def main() -> int:
     """Search and print."""
     from rgss.scenes import Waypoint, load_gripper_file
     from rgss.studies import load_project
+    from rgss.tasks import default_task
     from rgss.trials import Workcell, waypoint_configurations
 
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -42,7 +43,7 @@ def main() -> int:
     kept, clearance_mm = {}, 0.0
     for number in range(1, int(MOST_MM / options.step)):
         tried_mm = number * options.step
-        cell = Workcell(project.scene, geometry, clearance_m=tried_mm / 1e3)
+        cell = Workcell(project.scene, geometry, clearance_m=tried_mm / 1e3, task=default_task())
         found = waypoint_configurations(cell)[0]
         if len(found) < len(Waypoint):
             break

@@ -19,6 +19,7 @@ from rgss.evidence import Fidelity, TrialRecord
 from rgss.physics import World
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project, load_project
+from rgss.tasks import default_task
 from rgss.trials.execution import Execution
 from rgss.trials.pieces.run import Pieces
 from rgss.trials.planning import plan_task
@@ -175,7 +176,7 @@ def _cost(out: Any, project: Project) -> None:
 
 def _cost_of(spec: TrialSpec) -> tuple[int, float]:
     settings = spec.settings
-    cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=settings.planning.clearance_m)
+    cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=settings.planning.clearance_m, task=default_task())
     plan = plan_task(cell, spec.planner, seed=spec.seed, settings=settings.planning)
     timing = time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=settings.planning)
     physics = settings.physics
@@ -187,12 +188,12 @@ def _cost_of(spec: TrialSpec) -> tuple[int, float]:
     for _ in range(REPETITIONS):
         with World(spec.scene, spec.gripper, physics) as world:
             begin = time.process_time()
-            results = Execution(world, references, settings.control, cell.arm).run()
+            results = Execution(world, references, settings.control, cell.arm, task=default_task()).run()
             full_s = time.process_time() - begin
         steps = round(sum(result.duration_s for result in results) / physics.step_s)
         grasping = {phase: references[phase] for phase in ("move_to_grasp", "lift")}
         with World(spec.scene, spec.gripper, physics) as world:
-            Execution(world, grasping, settings.control, cell.arm).run()
+            Execution(world, grasping, settings.control, cell.arm, task=default_task()).run()
             begin = time.process_time()
             for _ in range(steps):
                 world.step()

@@ -146,7 +146,7 @@ def least_height_m(shape: ObjectShape, up: Point) -> float:
         up: Unit direction in its frame.
     """
     if isinstance(shape, Box):
-        return -sum(size / 2 * abs(along) for size, along in zip(shape.size_m, up, strict=True))
+        return -math.fsum(size / 2 * abs(along) for size, along in zip(shape.size_m, up, strict=True))
     if isinstance(shape, MeshShape):
         return min(x * up[0] + y * up[1] + z * up[2] for part in shape.parts_m for x, y, z in part)
     half_m, along = (shape.half_height_m, up[2]) if isinstance(shape, Cylinder) else (shape.length_m / 2, up[0])

@@ -146,4 +146,11 @@ def key_texts() -> Mapping[str, Mapping[str, str]]:
     """Description of each key of the documents, by the model that reads it."""
     with resources.as_file(resources.files("rgss.studies") / "field_descriptions.yaml") as path:
         texts: Mapping[str, Mapping[str, str]] = read_document(path, label="field_descriptions.yaml").data
-    return texts
+    # A model that extends another has its keys, which are described once.
+    return {
+        model: {
+            **texts.get(of_model.get("extends", ""), {}),
+            **{key: of_model[key] for key in of_model if key != "extends"},
+        }
+        for model, of_model in texts.items()
+    }

@@ -94,6 +94,8 @@ def record_problem(spec: TrialSpec, record: object) -> str:
         return "it does not have the steps of the task in their order"
     if tuple(each.subtask for each in record.planning) != spec.task.planned:
         return "it does not have the planned moves of the task in their order"
+    if record.failed_phase is not None and record.failed_phase not in spec.task.phases:
+        return "it failed in a step that the task does not have"
     return ""
 
 

@@ -4,19 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.documents import DocumentModel, Identifier
-
-
-class CheckEntry(DocumentModel):
-    """Conditions, all of which must hold."""
-
-    name: Identifier | None = None
-    object: Identifier | None = None
-    at: Identifier | None = None
-    upright: bool = False
-    at_rest: bool = False
-    held: bool | None = None
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CheckStep:

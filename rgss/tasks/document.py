@@ -2,18 +2,75 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from rgss.documents import DocumentModel, Identifier, JointPosition
-from rgss.tasks.check_step import CheckEntry
-from rgss.tasks.grip_step import GripEntry
-from rgss.tasks.move_step import MoveEntry, TargetEntry
-from rgss.tasks.release_step import ReleaseEntry
-from rgss.tasks.wait_step import WaitEntry
+from rgss.documents import Dimensionless, DocumentModel, Identifier, JointPosition, Metres, Radians, Seconds
 
 MOST_REPETITIONS = 1000
+
+
+class PoseEntry(DocumentModel):
+    """Pose of the grasp centre in the world; without roll and pitch the tool points down."""
+
+    position: tuple[Metres, Metres, Metres]
+    roll: Radians | None = None
+    pitch: Radians = 0.0
+    yaw: Radians = 0.0
+
+
+class TargetEntry(DocumentModel):
+    """Where a move ends: exactly one of a waypoint, a configuration and a pose."""
+
+    to: Identifier | None = None
+    raised: Metres = 0.0
+    place: Identifier | None = None
+    object: Identifier | None = None
+    configuration: Identifier | None = None
+    pose: PoseEntry | None = None
+
+
+class MoveEntry(TargetEntry):
+    """A move of the arm."""
+
+    name: Identifier | None = None
+    mode: Literal["planned", "straight", "joint"] = "planned"
+    speed: Dimensionless = 1.0
+    time_limit: Seconds | None = None
+    resolution: Radians | None = None
+
+
+class GripEntry(DocumentModel):
+    """Closing of the hand on an object."""
+
+    name: Identifier | None = None
+    object: Identifier | None = None
+
+
+class ReleaseEntry(DocumentModel):
+    """Opening of the hand at a place."""
+
+    name: Identifier | None = None
+    place: Identifier | None = None
+
+
+class WaitEntry(DocumentModel):
+    """A rest of the arm."""
+
+    duration: Seconds
+    name: Identifier | None = None
+
+
+class CheckEntry(DocumentModel):
+    """Conditions, all of which must hold."""
+
+    name: Identifier | None = None
+    object: Identifier | None = None
+    at: Identifier | None = None
+    upright: bool = False
+    at_rest: bool = False
+    held: bool | None = None
 
 
 class RepeatEntry(DocumentModel):

@@ -4,15 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.documents import DocumentModel, Identifier
-
-
-class GripEntry(DocumentModel):
-    """Closing of the hand on an object."""
-
-    name: Identifier | None = None
-    object: Identifier | None = None
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GripStep:

@@ -3,44 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
-from rgss.documents import Dimensionless, DocumentModel, Identifier, JointPosition, Metres, Radians, Seconds
 from rgss.scenes import Pose
 from rgss.tasks.move_kinds import MoveKind
-
-
-class PoseEntry(DocumentModel):
-    """Pose of the grasp centre in the world; without roll and pitch the tool points down."""
-
-    position: tuple[Metres, Metres, Metres]
-    roll: Radians | None = None
-    pitch: Radians = 0.0
-    yaw: Radians = 0.0
-
-
-class TargetEntry(DocumentModel):
-    """Where a move ends: exactly one of a waypoint, a configuration and a pose."""
-
-    to: Identifier | None = None
-    raised: Metres = 0.0
-    place: Identifier | None = None
-    object: Identifier | None = None
-    configuration: Identifier | None = None
-    pose: PoseEntry | None = None
-
-
-class MoveEntry(TargetEntry):
-    """A move of the arm."""
-
-    name: Identifier | None = None
-    mode: Literal["planned", "straight", "joint"] = "planned"
-    speed: Dimensionless = 1.0
-    time_limit: Seconds | None = None
-    resolution: Radians | None = None
-
-
-Configurations = dict[Identifier, tuple[JointPosition, ...]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,15 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.documents import DocumentModel, Identifier
-
-
-class ReleaseEntry(DocumentModel):
-    """Opening of the hand at a place."""
-
-    name: Identifier | None = None
-    place: Identifier | None = None
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReleaseStep:

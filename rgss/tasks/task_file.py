@@ -10,15 +10,24 @@ from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes import Pose, Waypoint
-from rgss.tasks.check_step import CheckEntry, CheckStep
-from rgss.tasks.document import StepEntry, TaskDocument
-from rgss.tasks.grip_step import GripEntry, GripStep
+from rgss.tasks.check_step import CheckStep
+from rgss.tasks.document import (
+    CheckEntry,
+    GripEntry,
+    MoveEntry,
+    ReleaseEntry,
+    StepEntry,
+    TargetEntry,
+    TaskDocument,
+    WaitEntry,
+)
+from rgss.tasks.grip_step import GripStep
 from rgss.tasks.hand_states import hand_findings
 from rgss.tasks.move_kinds import MoveKind
-from rgss.tasks.move_step import MoveEntry, MoveStep, Target, TargetEntry
+from rgss.tasks.move_step import MoveStep, Target
 from rgss.tasks.program import Step, TaskProgram
-from rgss.tasks.release_step import ReleaseEntry, ReleaseStep
-from rgss.tasks.wait_step import WaitEntry, WaitStep
+from rgss.tasks.release_step import ReleaseStep
+from rgss.tasks.wait_step import WaitStep
 
 Location = tuple[str | int, ...]
 MOST_STEPS = 10_000

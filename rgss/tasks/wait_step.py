@@ -4,15 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.documents import DocumentModel, Identifier, Seconds
-
-
-class WaitEntry(DocumentModel):
-    """A rest of the arm."""
-
-    duration: Seconds
-    name: Identifier | None = None
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WaitStep:

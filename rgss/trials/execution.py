@@ -11,7 +11,7 @@ from rgss.evidence import Failure, Metric
 from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
-from rgss.tasks import CheckStep, GripStep, Stage, TaskProgram, default_task
+from rgss.tasks import CheckStep, GripStep, Stage, TaskProgram
 from rgss.trials.conditions_checked import violated_condition
 from rgss.trials.grip_control import GripControl
 from rgss.trials.hands import hand_of
@@ -47,10 +47,10 @@ class Execution:
         control: ControlSettings,
         kinematics: ToolKinematics,
         *,
+        task: TaskProgram,
         estimate: GripEstimate | None = None,
         observer: StepObserver | None = None,
         checkpoint: Callable[[], None] | None = None,
-        task: TaskProgram | None = None,
     ) -> None:
         """Prepare a run.
 
@@ -62,10 +62,10 @@ class Execution:
             estimate: What the robot knows of its grip; None where that is the truth.
             observer: Callback after each step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
-            task: The task; the packaged one if None.
+            task: The task.
         """
         self._world = world
-        self._task = task or default_task()
+        self._task = task
         self._objects = TaskObjects(world, self._task)
         self._references = references
         self._control = control

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, TaskProgram, WaitStep, default_task
+from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, TaskProgram, WaitStep
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants import Plant
 from rgss.trials.reference import Reference
@@ -14,7 +14,7 @@ def run_program(
     plant: Plant,
     references: Mapping[str, Reference],
     *,
-    task: TaskProgram | None = None,
+    task: TaskProgram,
     checkpoint: Callable[[], None] | None = None,
 ) -> tuple[PhaseResult, ...]:
     """Run the steps in order until one fails or has no motion.
@@ -25,13 +25,13 @@ def run_program(
     Args:
         plant: The machine, not yet started.
         references: Targets of the moves; the program ends before the first move that has none.
-        task: The task; the packaged one if None. Its first step is a move.
+        task: The task. Its first step is a move.
         checkpoint: Called before each phase; it may wait, or end the program by raising.
 
     Returns:
         The phases that ran, in order.
     """
-    steps = (task or default_task()).steps
+    steps = task.steps
     first = references.get(steps[0].name)
     if first is None:
         return ()

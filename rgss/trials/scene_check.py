@@ -86,8 +86,8 @@ def reach_problems(
     geometry: GripperGeometry,
     *,
     clearance_m: float,
+    task: TaskProgram,
     friction: float = 0.0,
-    task: TaskProgram | None = None,
 ) -> tuple[SceneProblem, ...]:
     """Problems of the arm with a gripper: a collision at home, or a waypoint without a valid configuration.
 
@@ -96,7 +96,7 @@ def reach_problems(
         geometry: The gripper's shape.
         clearance_m: Distance that planned paths keep from everything.
         friction: Coefficient of the pads, by which grasp candidates are chosen; not used where the grasp is stated.
-        task: The task; the packaged one if None.
+        task: The task.
 
     Raises:
         DefinitionError: The robot is ill defined.

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from rgss.evidence import Fidelity
 from rgss.motion import PlannerSettings
 from rgss.scenes import Gripper, Scene
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN, ONE_WORKLOAD, Uncertainty, Workload
-from rgss.tasks import MoveKind, TaskProgram, default_task
+from rgss.tasks import MoveKind, TaskProgram
 from rgss.trials.settings import TrialSettings
 
 
@@ -26,10 +26,10 @@ class TrialSpec:
         planning_limit_s: Longest planning time for one move.
         tool_speed_m_s: Greatest tool speed.
         settings: How it is planned and simulated.
+        task: The steps.
         planner_settings: The planner with its parameters; the one of OMPL with that name if None.
         uncertainty: What differs from the files; the seed draws it.
         workload: The objects that are carried; the seed chooses one.
-        task: The steps.
     """
 
     variant: int
@@ -41,10 +41,10 @@ class TrialSpec:
     planning_limit_s: float
     tool_speed_m_s: float
     settings: TrialSettings
+    task: TaskProgram
     planner_settings: PlannerSettings | None = None
     uncertainty: Uncertainty = NOTHING_UNCERTAIN
     workload: Workload = ONE_WORKLOAD
-    task: TaskProgram = field(default_factory=default_task)
 
     @property
     def searched(self) -> frozenset[str]:

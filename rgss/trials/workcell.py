@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from rgss.kinematics import Arm, CollisionContext, CollisionModel
 from rgss.scenes import GripperGeometry, Scene
-from rgss.tasks import TaskProgram, default_task
+from rgss.tasks import TaskProgram
 from rgss.trials.conditions import conditions_of
 from rgss.trials.grasp_choice import GraspSearch, search_grasp
 from rgss.trials.route import route_of
@@ -24,20 +24,18 @@ class Workcell:
     shape share it; it holds no state that a use changes.
     """
 
-    def __init__(
-        self, scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram | None = None
-    ) -> None:
+    def __init__(self, scene: Scene, geometry: GripperGeometry, *, clearance_m: float, task: TaskProgram) -> None:
         """Build the models.
 
         Args:
             scene: The scene with its robot.
             geometry: The gripper's shape.
             clearance_m: Distance that planned paths keep from everything.
-            task: The task; the packaged one if None.
+            task: The task.
         """
         self.scene = scene
         self.geometry = geometry
-        self.task = task or default_task()
+        self.task = task
         self.arm = Arm(scene.robot, geometry.grasp_centre)
         self.route = route_of(scene, geometry, self.task)
         contexts = {leg.step.name: (leg.scene, leg.context) for leg in self.route.legs}
@@ -58,16 +56,14 @@ def _models(
 
 
 @lru_cache(maxsize=4)
-def workcell_of(
-    scene: Scene, geometry: GripperGeometry, clearance_m: float, task: TaskProgram | None = None
-) -> Workcell:
+def workcell_of(scene: Scene, geometry: GripperGeometry, clearance_m: float, task: TaskProgram) -> Workcell:
     """The workcell of a scene and a gripper shape, built once in a process.
 
     Args:
         scene: The scene with its robot.
         geometry: The gripper's shape.
         clearance_m: Distance that planned paths keep from everything.
-        task: The task; the packaged one if None.
+        task: The task.
     """
     return Workcell(scene, geometry, clearance_m=clearance_m, task=task)
 
@@ -93,7 +89,7 @@ def grasp_search_of(
     *,
     friction: float,
     clearance_m: float,
-    task: TaskProgram | None = None,
+    task: TaskProgram,
 ) -> GraspSearch:
     """The grasp that is taken of the candidates that a scene states.
 
@@ -102,7 +98,7 @@ def grasp_search_of(
         geometry: The gripper's shape.
         friction: Coefficient of the pads.
         clearance_m: Distance that planned paths keep from everything.
-        task: The task; the packaged one if None.
+        task: The task.
     """
     if scene.task.candidates is None:
         raise AssertionError("asked before: the task states candidates")

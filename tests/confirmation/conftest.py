@@ -12,7 +12,7 @@ from rgss.confirmation import (
     Selection,
     SettingResult,
 )
-from rgss.evidence import Failure, Fidelity, TrialRecord
+from rgss.evidence import Failure, Fidelity, PhaseOutcome, PhaseRecord, TrialRecord
 from rgss.measures import Verdict
 from rgss.physics import PhysicsSettings
 from rgss.physics.mujoco import MujocoSettings
@@ -26,6 +26,10 @@ SETTINGS = (
 )
 
 
+def not_run(phase: Phase) -> PhaseRecord:
+    return PhaseRecord(phase=phase.value, outcome=PhaseOutcome.NOT_RUN, duration_s=None, metrics={})
+
+
 def a_record(variant=28, seed=1, *, failure=None, phase=None, detail="", **metrics) -> TrialRecord:
     return TrialRecord(
         variant=variant,
@@ -35,7 +39,7 @@ def a_record(variant=28, seed=1, *, failure=None, phase=None, detail="", **metri
         failure=failure,
         failed_phase=phase,
         failure_detail=detail,
-        phases=(),
+        phases=tuple(map(not_run, Phase)),
         planning=(),
         metrics=metrics,
     )

@@ -88,7 +88,7 @@ def test_without_evidence_there_is_no_choice(shipped, tmp_path):
 
 
 def test_when_none_meets_every_requirement_there_is_no_choice(shipped, filled, record_of):
-    measured = measure_variants(shipped, filled(shipped, lambda spec: record_of(spec, motion_s=100.0, path_m=50.0)))
+    measured = measure_variants(shipped, filled(shipped, lambda spec: record_of(spec, motion_s=80.0, path_m=50.0)))
     evidence = trace_evidence(shipped, measured, EvidenceState())
 
     assert (evidence.shown, evidence.choice) == (None, "no variant is chosen, for none meets every requirement")

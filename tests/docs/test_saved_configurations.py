@@ -10,6 +10,7 @@ import yaml
 
 from rgss.scenes import Waypoint, waypoint_poses
 from rgss.studies.project import load_project
+from rgss.tasks import default_task
 from rgss.trials import Workcell
 
 REPOSITORY = Path(__file__).parents[2]
@@ -25,7 +26,7 @@ def test_they_reach_the_waypoints_with_clearance():
     }
     project = load_project(REPOSITORY, "studies/yumi_widget.yaml")
     (gripper,) = project.grippers.values()
-    cell = Workcell(project.scene, gripper.geometry, clearance_m=CLEARANCE_M)
+    cell = Workcell(project.scene, gripper.geometry, clearance_m=CLEARANCE_M, task=default_task())
     poses = waypoint_poses(project.scene)
 
     assert set(configurations) == {waypoint.value for waypoint in Waypoint}

@@ -20,7 +20,7 @@ from rgss.regression.report import FailureCause
 from rgss.studies.project import load_project
 from rgss.sweep.running import sweep
 from rgss.sweep.trial_keys import trials_of
-from rgss.trials import execution
+from rgss.trials.hands.finger_hand import FingerHand
 from tests.fixtures.shipped_project import STUDY
 
 from .conftest import REASON, SECTION, without_section
@@ -374,7 +374,7 @@ regression:
     edit(STUDY, "charge_per_check: 0.5 ms", "charge_per_check: 0.25 ms")
 
     # The detector is code, whose digest would be another; the plans are the same ones.
-    monkeypatch.setattr(execution, "_is_firm", lambda *_: False)
+    monkeypatch.setattr(FingerHand, "is_firm", lambda *_: False)
     broken = stores()
     broken.put_many(pieces=list(plans_of(store, load_project(folder))))
     report = compare_with_baseline(load_project(folder), broken, run_in(broken), baseline, label="b")

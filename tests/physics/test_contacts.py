@@ -94,7 +94,7 @@ def test_fingers_pressed_into_the_counter_are_reported_by_name(cell):
 def flat_pads(monkeypatch):
     """Fingers of one solid each, of which the engine tells more and in another order than of those with ribs."""
     monkeypatch.setattr(
-        "rgss.physics.world_builder.assembled_urdf", lambda robot, gripper, ribs: assembled_urdf(robot, gripper)
+        "rgss.physics.world_builder.assembled_urdf", lambda robot, gripper, **_: assembled_urdf(robot, gripper)
     )
 
 
@@ -151,13 +151,13 @@ def test_a_cup_in_the_air_touches_nothing(three_fingers):
 
 def make_the_robot_first(monkeypatch):
     """Make the robot before the workpiece, so that contacts name them in the other order."""
-    add_robot, add_workpiece, robots = WorldBuilder.add_robot, WorldBuilder.add_workpiece, []
+    add_robot, add_objects, robots = WorldBuilder.add_robot, WorldBuilder.add_objects, []
 
-    def both(builder: WorldBuilder) -> int:
+    def both(builder: WorldBuilder) -> object:
         robots.append(add_robot(builder))
-        return add_workpiece(builder)
+        return add_objects(builder)
 
-    monkeypatch.setattr(WorldBuilder, "add_workpiece", both)
+    monkeypatch.setattr(WorldBuilder, "add_objects", both)
     monkeypatch.setattr(WorldBuilder, "add_robot", lambda _: robots.pop())
 
 

@@ -66,7 +66,7 @@ def test_a_broken_urdf_closes_the_client_and_says_why_in_one_line(three_fingers,
     # The text goes to the engine as it is, past the checks of the loader.
     urdf = three_fingers.scene.robot.urdf
     assert old in urdf
-    monkeypatch.setattr("rgss.physics.world_builder.assembled_urdf", lambda robot, gripper, ribs: robot.urdf)
+    monkeypatch.setattr("rgss.physics.world_builder.assembled_urdf", lambda robot, gripper, **_: robot.urdf)
     error = refused(three_fingers, robot=replace(three_fingers.scene.robot, urdf=urdf.replace(old, new)))
     assert error.message.startswith("the physics engine cannot load the robot: ")
     assert reason in error.message

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from rgss.errors import DocumentError
-from rgss.scenes import Cylinder, load_gripper_file, misfit, too_narrow, too_wide
+from rgss.scenes import Cylinder, load_gripper_file, load_scene, misfit, too_narrow, too_wide
 from tests.trials.hands.gripper_files import FILES
 
 
@@ -43,13 +45,14 @@ def test_mountings_are_widths_between_the_pads(tmp_path):
 @pytest.mark.parametrize(
     ("radius_m", "wide", "narrow"), [(0.011, False, True), (0.015, False, False), (0.019, True, False)]
 )
-def test_an_object_fits_between_the_least_and_the_largest_width(tmp_path, radius_m, wide, narrow):
+def test_an_object_fits_between_the_least_and_the_largest_width(shipped, tmp_path, radius_m, wide, narrow):
     path = tmp_path / "gripper.yaml"
     path.write_text(FILES["parallel"], encoding="utf-8")
-    geometry, shape = load_gripper_file(path).geometry, Cylinder(radius_m=radius_m, height_m=0.05)
+    geometry, scene = load_gripper_file(path).geometry, load_scene(shipped / "restaurant.yaml")
+    scene = replace(scene, workpiece=replace(scene.workpiece, shape=Cylinder(radius_m=radius_m, height_m=0.1)))
 
-    assert (bool(too_wide(geometry, shape)), bool(too_narrow(geometry, shape))) == (wide, narrow)
-    assert bool(misfit(geometry, shape)) == (wide or narrow)
+    assert (bool(too_wide(geometry, scene)), bool(too_narrow(geometry, scene))) == (wide, narrow)
+    assert bool(misfit(geometry, scene)) == (wide or narrow)
 
 
 def test_the_speed_of_an_open_loop_gripper_follows_from_its_command(tmp_path):

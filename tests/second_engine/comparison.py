@@ -10,6 +10,7 @@ from rgss.physics import PhysicsSettings
 from rgss.scenes import Scene
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
+from rgss.tasks import default_task
 from rgss.trials.executing import execute
 from rgss.trials.planning import TaskPlan, plan_task
 from rgss.trials.record import assemble_record
@@ -106,7 +107,7 @@ class Comparison:
         # All that the plan depends on and that differs between the variants compared here.
         key = f"{spec.gripper.geometry.id} {spec.planner}"
         if key not in self._plans:
-            cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m)
+            cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m, task=default_task())
             self._plans[key] = cell, plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
         cell, plan = self._plans[key]
         return spec, cell, plan, time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from rgss.findings import Severity
+from rgss.scenes import Cylinder
 from rgss.studies.bench_check import bench_findings
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
@@ -56,6 +58,8 @@ def test_trials_without_contact_have_no_bench(folder):
 
 
 def test_it_is_only_noted_where_no_measure_takes_the_payload_from_the_bench():
-    (finding,) = bench_findings(load_project(REPOSITORY, "studies/yumi_widget.yaml"))
+    project = load_project(REPOSITORY, "studies/yumi_widget.yaml")
+    flat = replace(project.scene.workpiece, shape=Cylinder(radius_m=0.01, height_m=0.002))
+    (finding,) = bench_findings(replace(project, scene=replace(project.scene, workpiece=flat)))
     assert finding.severity is Severity.INFO
-    assert "mass of a finger of 0.02 kg" in finding.message
+    assert "height of the object of 0.002 m" in finding.message

@@ -77,14 +77,16 @@ def test_wrong_records_are_failures_of_their_trials_alone(liars, specs_of, tmp_p
         result = sweep(specs, store, jobs=0, share=False, maker=liars.wrong, on_finished=told.append)
 
         assert sorted(trial.record.seed for trial in told) == [0, liars.TEXTS_FOR_MEMBERS, 99]
-        assert all(type(trial.record.failed_phase) is Phase for trial in told)
+        assert all(trial.record.failed_phase in tuple(Phase) for trial in told)
         lost = {seed: each.failure for each in result.lost for _, seed in each.trials}
         assert sorted(lost) == sorted(liars.WRONG_RECORDS)
         assert {failure.kind for failure in lost.values()} == {RunFailureKind.WRONG_ANSWER}
         details = {seed: failure.detail for seed, failure in lost.items()}
         assert details[2] == "it is the record of another trial"
-        assert details[6] == "it does not have the eight states in their order"
+        assert details[6] == "it does not have the steps of the task in their order"
         assert "task_time_s" in details[5]
+        assert details[7] == "it does not have the planned moves of the task in their order"
+        assert details[8] == "it failed in a step that the task does not have"
         assert store.failures([key_of(specs[1])]).keys() == {key_of(specs[1])}
     assert verify(tmp_path / "evidence.sqlite", label="it").damages == ()
 

@@ -321,6 +321,7 @@ def test_named_inputs_are_those_of_all_seeds_and_leave_out_what_is_none(shipped)
         "settings",
         "uncertainty",
         "workload",
+        "task",
         "code",
     }
     assert "colour" not in repr(inputs.values)

@@ -126,7 +126,7 @@ def test_phases_beyond_the_planning_limit_are_not_in_the_trace(spec, record):
     slow = next(planning for planning in record.planning if planning.time_s > 1.1 * first)
     ends, trace = run_traced_trial(replace(spec, planning_limit_s=1.05 * first))
 
-    assert ends.failed_phase is slow.subtask
+    assert ends.failed_phase == slow.subtask
     assert [span.phase for span in trace.spans] == list(Phase)[: list(Phase).index(slow.subtask)]
     assert trace.duration_s == pytest.approx(ends.metrics["motion_time_s"])
     assert len(trace.grip_margin) == len(trace.time_s)

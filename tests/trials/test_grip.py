@@ -13,6 +13,7 @@ from rgss.evidence import Failure
 from rgss.kinematics import Arm, CollisionContext, CollisionModel, inverse_kinematics
 from rgss.physics import PhysicsSettings, World
 from rgss.scenes import Gripper, load_gripper, load_scene
+from rgss.tasks import default_task
 from rgss.trials.execution import Execution
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.reference import reference_of
@@ -101,7 +102,7 @@ class Lift:
         notes = Notes()
         settings = replace(ControlSettings(), **control)
         with World(self.scene, gripper, PhysicsSettings(rate_hz=RATE_HZ)) as world:
-            results = Execution(world, references, settings, self.arm, observer=notes).run()
+            results = Execution(world, references, settings, self.arm, observer=notes, task=default_task()).run()
         return {result.phase: result for result in results}, notes
 
     def margin(self, force_n, acceleration_m_s2, friction=0.7):

@@ -61,7 +61,7 @@ def test_a_phase_observes_what_its_fidelity_does(recorded, fidelity):
     }
 
     # The variant has two fingers, whose polygon has no irregularity, in some fidelities it is another.
-    # A stated grasp has none of the metrics of a chosen one (tests/trials/test_objects.py).
+    # A stated grasp has none of the metrics of a chosen one (tests/trials/objects/test_objects.py).
     chosen = {metric.name for metric in CHOICE_METRICS}
     assert found | {"grasp_q_gpri_1"} | chosen >= stated
     assert found <= stated

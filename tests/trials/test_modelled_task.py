@@ -121,7 +121,7 @@ def plan(lift_rad=(0.0,), **outcomes):
 
 @pytest.mark.verifies("SYS-023")
 def test_the_states_are_the_phases_in_their_order(machine):
-    results = run_program(ScriptedPlant(), REFERENCES)
+    results = run_program(ScriptedPlant(), REFERENCES, task=default_task())
     assert walked(machine) == ([result.phase for result in results], StateKind.FINAL)
     assert [result.phase for result in results] == list(PHASES)
 
@@ -137,7 +137,7 @@ def test_a_failure_ends_program_and_model_in_the_same_state(machine, modelled_fa
     failures = [failure for where, failure in modelled_failures if where == phase]
     assert failures
     for failure in failures:
-        results = run_program(ScriptedPlant(phase, failure), REFERENCES)
+        results = run_program(ScriptedPlant(phase, failure), REFERENCES, task=default_task())
         assert walked(machine, phase, failure) == ([result.phase for result in results], StateKind.FAILED)
         assert [result.failure for result in results] == [None] * (len(results) - 1) + [failure]
 
@@ -147,7 +147,7 @@ def test_a_move_without_a_motion_is_the_last_state_of_record_and_model(machine, 
     """The program ends before it, and the record names it as the one that failed."""
     missing = {each: reference() for each in MOVES if each != phase}
     failure = Failure.TRAJECTORY_INFEASIBLE
-    results = run_program(ScriptedPlant(), missing)
+    results = run_program(ScriptedPlant(), missing, task=default_task())
     record = assemble_record(spec_of(), plan(), {phase: (failure, "")}, results)
     phases, _ = walked(machine, phase, failure)
     assert [entry.phase for entry in record.phases if entry.outcome is not PhaseOutcome.NOT_RUN] == phases
@@ -171,7 +171,7 @@ def named(failures):
 
 def planning_failures(spec):
     found = set()
-    results = run_program(ScriptedPlant(), REFERENCES)
+    results = run_program(ScriptedPlant(), REFERENCES, task=default_task())
     for phase in PLANNED_PHASES:
         for outcome in set(PlanOutcome) - {PlanOutcome.SOLVED, PlanOutcome.NOT_RUN}:
             record = assemble_record(spec, plan(**{phase.value: outcome}), {}, results)
@@ -197,7 +197,7 @@ def physical_failures(spec):
     for phase in Phase:
         for wrong in WRONG:
             world = ScriptedWorld(spec)
-            execution = Execution(world, REFERENCES, ControlSettings(), world)
+            execution = Execution(world, REFERENCES, ControlSettings(), world, task=default_task())
             execution.start((0.0,) * 6)
             if phase in CARRYING:
                 assert execution.grasp().failure is None
@@ -225,6 +225,7 @@ class ScriptedWorld:
         self.scene, self.gripper = spec.scene, spec.gripper
         self.settings = PhysicsSettings()
         self.wrong = ""
+        self.grip_fault = ""
         self.enter(Phase.GRASP)
 
     def solve_freely(self, *, free):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rgss.evidence import Failure
+from rgss.tasks import default_task
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.program import run_program
 from rgss.trials.reference import Reference
@@ -65,7 +66,7 @@ def references():
 
 def test_the_eight_states_run_in_their_order(references):
     plant = ScriptedPlant()
-    results = run_program(plant, references)
+    results = run_program(plant, references, task=default_task())
     assert [result.phase for result in results] == list(Phase)
     assert plant.calls == [
         ("start", START_RAD),
@@ -82,7 +83,7 @@ def test_the_eight_states_run_in_their_order(references):
 
 def test_it_starts_once_where_the_first_motion_begins_in_plain_numbers(references):
     plant = ScriptedPlant()
-    run_program(plant, references)
+    run_program(plant, references, task=default_task())
     starts = [call for call in plant.calls if call[0] == "start"]
     assert starts == [("start", START_RAD)]
     assert all(type(angle) is float for angle in starts[0][1])
@@ -91,7 +92,7 @@ def test_it_starts_once_where_the_first_motion_begins_in_plain_numbers(reference
 @pytest.mark.parametrize("phase", Phase)
 def test_it_ends_with_the_first_failure(references, phase):
     plant = ScriptedPlant(fails_at=phase)
-    results = run_program(plant, references)
+    results = run_program(plant, references, task=default_task())
     ran = list(Phase)[: list(Phase).index(phase) + 1]
     assert [result.phase for result in results] == ran
     assert [result.failure for result in results] == [None] * (len(ran) - 1) + [Failure.OBJECT_DROPPED]
@@ -101,14 +102,14 @@ def test_it_ends_with_the_first_failure(references, phase):
 @pytest.mark.parametrize("phase", MOVES[1:])
 def test_it_ends_before_a_move_that_has_no_motion(references, phase):
     del references[phase]
-    results = run_program(ScriptedPlant(), references)
+    results = run_program(ScriptedPlant(), references, task=default_task())
     assert [result.phase for result in results] == list(Phase)[: list(Phase).index(phase)]
 
 
 def test_without_the_first_motion_nothing_is_started(references):
     del references[Phase.MOVE_TO_GRASP]
     plant = ScriptedPlant()
-    assert run_program(plant, references) == ()
+    assert run_program(plant, references, task=default_task()) == ()
     assert plant.calls == []
 
 
@@ -121,6 +122,6 @@ def test_a_checkpoint_is_passed_before_each_phase_and_may_end_the_program(refere
             raise RuntimeError("stop")
 
     with pytest.raises(RuntimeError, match="stop"):
-        run_program(plant, references, checkpoint=checkpoint)
+        run_program(plant, references, checkpoint=checkpoint, task=default_task())
     assert passed == [1, 2, 3, 4]
     assert [call[0] for call in plant.calls] == ["start", "move", "grasp", "move"]

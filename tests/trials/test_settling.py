@@ -9,6 +9,7 @@ import pytest
 from rgss.kinematics import Arm
 from rgss.physics import World
 from rgss.scenes import Pose
+from rgss.tasks import default_task
 from rgss.trials.execution import Execution
 from rgss.trials.plants.control import ControlSettings
 
@@ -50,7 +51,9 @@ def place(spec_of):
         with Shaking(scene, spec.gripper, spec.settings.physics) as world:
             for name, value in shaking.items():
                 setattr(world, name, value)
-            execution = Execution(world, {}, CONTROL, Arm(scene.robot, spec.gripper.geometry.grasp_centre))
+            execution = Execution(
+                world, {}, CONTROL, Arm(scene.robot, spec.gripper.geometry.grasp_centre), task=default_task()
+            )
             execution.start(scene.robot.home_rad)
             return execution.place()
 

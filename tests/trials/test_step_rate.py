@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rgss.physics import World
+from rgss.tasks import default_task
 from rgss.trials.execution import Execution
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.planning import plan_task
@@ -41,7 +42,7 @@ class Carry:
     def __init__(self, spec):
         self.spec = spec
         planning = spec.settings.planning
-        self.cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m)
+        self.cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m, task=default_task())
         plan = plan_task(self.cell, spec.planner, seed=spec.seed, settings=planning)
         self.timing = time_task(self.cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
 
@@ -64,7 +65,7 @@ class Carry:
         }
         settings = replace(spec.settings.control, **control)
         with World(scene, replace(spec.gripper, **(gripper or {})), physics) as world:
-            results = Execution(world, references, settings, self.cell.arm).run()
+            results = Execution(world, references, settings, self.cell.arm, task=default_task()).run()
         return {result.phase: result for result in results}
 
 

@@ -94,7 +94,7 @@ def pad_layouts(geometry: GripperGeometry, shape: ObjectShape, tool_in_object: P
 
 def most_elements(layouts: Sequence[PadLayout]) -> int:
     """Greatest number of elements of a pad, by which its stiffness is divided; at least that of a ribbed pad."""
-    return max(RIBS, *(len(layout.elements) for layout in layouts))
+    return max([RIBS, *(len(layout.elements) for layout in layouts)])
 
 
 def _plain(geometry: GripperGeometry) -> PadLayout:

@@ -14,6 +14,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics import Arm, ArmDynamics, Load, inverse_kinematics
 from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
+from rgss.tasks import default_task
 from rgss.trials import Workcell, waypoint_configurations
 
 Array = NDArray[np.float64]
@@ -108,7 +109,7 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
 
 def _stops(scene: Scene, geometry: GripperGeometry) -> Mapping[str, Array]:
     """Valid configurations at the waypoints, with the least travel from one to the next."""
-    return waypoint_configurations(Workcell(scene, geometry, clearance_m=_CLEARANCE_M))
+    return waypoint_configurations(Workcell(scene, geometry, clearance_m=_CLEARANCE_M, task=default_task()))
 
 
 def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -16,7 +16,7 @@ from rgss.evidence import Failure, Metric
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.scenes import Gripper, Pose, Scene, Workpiece, grasp_opening_m
-from rgss.tasks import CheckStep, TaskProgram, default_task
+from rgss.tasks import CheckStep, TaskProgram
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
@@ -38,10 +38,10 @@ class DynamicPlant:
         settings: PhysicsSettings,
         control: ControlSettings,
         *,
+        task: TaskProgram,
         controller: JointController | None = None,
         believed: Workpiece | None = None,
         checkpoint: Callable[[], None] | None = None,
-        task: TaskProgram | None = None,
     ) -> None:
         """Prepare the plant.
 
@@ -55,7 +55,7 @@ class DynamicPlant:
             controller: Mode and gains; computed torque by default.
             believed: The object as the controller's model has it; that of the scene by default.
             checkpoint: Called before each step; it may wait, or end the task by raising.
-            task: The task, which says what is gripped when; the packaged one if None.
+            task: The task, which says what is gripped when.
         """
         self._machine = machine
         self._arm = arm
@@ -70,7 +70,7 @@ class DynamicPlant:
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
         self._believed = scene.workpiece if believed is None else believed
-        self._grips = GripSequence(task or default_task(), scene, gripper.geometry)
+        self._grips = GripSequence(task, scene, gripper.geometry)
         empty = gripper_loads(gripper, opening_m)
         self._empty = ArmDynamics(scene.robot, empty, gravity_m_s2=scene.gravity_m_s2)
         self._loaded: dict[str, ArmDynamics] = {}

@@ -65,7 +65,7 @@ def test_a_move_without_a_path_cannot_be_sent(untouched):
     timing = timing_of(spec, plan)
     first = next(iter(timing.trajectories))
     timing = type(timing)(trajectories={}, failures={}, qualities={})
-    with pytest.raises(MotionError, match=f"the move {first.value} cannot be sent to a robot: its planning ended with"):
+    with pytest.raises(MotionError, match=f"the move {first} cannot be sent to a robot: its planning ended with"):
         timed_task(spec, plan, timing)
 
 

@@ -200,7 +200,7 @@ SPEED = "conditions_of(spec).tool_speed_m_s"
         ("trials/pieces/run.py", "Run one trial by itself;", "Run a trial by itself;", set()),
         ("trials/metrics/task_metrics.py", "how many states the task has", "number of phases", set()),
         ("trials/metrics/task_metrics.py", "trial=Aggregation.LEAST", "trial=Aggregation.LAST", {"record"}),
-        ("trials/planning/plan.py", "# The task is planned up to", "# It is planned up to", set()),
+        ("trials/planning/task_stops.py", "# The task is planned up to", "# It is planned up to", set()),
     ],
 )
 def test_a_change_of_the_code_reaches_the_pieces_that_run_it(tmp_path, file, old, new, pieces):

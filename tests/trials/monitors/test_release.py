@@ -13,6 +13,7 @@ from rgss.evidence import Failure
 from rgss.kinematics import Arm, inverse_kinematics
 from rgss.physics import Contacts, FingerContact, PhysicsSettings, World
 from rgss.scenes import FORCE_WINDOW_S, LANDING_LIMIT_M_S, Pose
+from rgss.tasks import default_task
 from rgss.trials.execution import Execution
 from rgss.trials.monitors.drag_monitor import DragMonitor
 from rgss.trials.monitors.release_monitor import PlacedObjectMonitor, lowest_point_m
@@ -54,7 +55,9 @@ def landed(spec_of):
         place = replace(scene.place, largest_drop_m=1.0)
         scene = replace(scene, place=place, workpiece=replace(scene.workpiece, pose=above, **workpiece))
         with World(scene, spec.gripper, PhysicsSettings(rate_hz=rate_hz)) as world:
-            execution = Execution(world, {}, CONTROL, Arm(scene.robot, spec.gripper.geometry.grasp_centre))
+            execution = Execution(
+                world, {}, CONTROL, Arm(scene.robot, spec.gripper.geometry.grasp_centre), task=default_task()
+            )
             execution.start(scene.robot.home_rad)
             return execution.place()
 
@@ -155,7 +158,7 @@ def run_with_return(request, spec_of):
     """Runs the whole task with another way of the hand at the beginning of its return."""
     spec = spec_of(request.param)
     planning = spec.settings.planning
-    cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
+    cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m, default_task())
     plan = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
     timing = time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
     step_s = spec.settings.physics.step_s
@@ -177,7 +180,7 @@ def run_with_return(request, spec_of):
                 for way in opening_m:
                     nearest = inverse.nearest(scene.place_pose @ Pose(position_m=(way, 0.0, 0.0)), nearest)
                     world.astray_rad.append(nearest.tolist())
-            return Execution(world, references, CONTROL, cell.arm).run()[-1]
+            return Execution(world, references, CONTROL, cell.arm, task=default_task()).run()[-1]
 
     return run
 

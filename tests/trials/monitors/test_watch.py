@@ -34,6 +34,7 @@ class ScriptedWorld:
         self.torques = (0.0,) * 6
         self.velocity = (0.0, 0.0, 0.0)
         self.reach_m = 1.0
+        self.grip_fault = ""
 
     def contacts(self, standing=None):
         return self.now

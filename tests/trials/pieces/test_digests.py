@@ -172,10 +172,10 @@ def test_default_timing_and_controller_add_no_input(spec_of, monkeypatch):
     monkeypatch.setattr(input_digests, "_joined", lambda *inputs: joined.append(inputs) or str(len(joined)))
     spec = replace(spec_of(), fidelity=Fidelity.DYNAMIC)
     digests_of(spec, VERSIONS)
-    assert [len(inputs) for inputs in joined] == [7, 4, 8]
+    assert [len(inputs) for inputs in joined] == [8, 4, 8]
     joined.clear()
     digests_of(with_settings(with_settings(spec, "timing", peak_speed=0.5), "controller", damping_ratio=0.5), VERSIONS)
-    assert [len(inputs) for inputs in joined] == [7, 5, 9]
+    assert [len(inputs) for inputs in joined] == [8, 5, 9]
 
 
 @pytest.mark.parametrize(

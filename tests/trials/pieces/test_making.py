@@ -12,6 +12,7 @@ import pytest
 from rgss.errors import EvidenceError, MotionError
 from rgss.evidence import Failure, Fidelity, Piece, PieceKind, record_digest
 from rgss.motion import PlannerSettings, PlanningClock
+from rgss.tasks import default_task
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.executing import execution_of
 from rgss.trials.pieces.bench_json import bench_from_json, bench_to_json
@@ -85,7 +86,7 @@ def test_a_piece_is_known_by_its_digest_and_small_enough_to_be_kept(spec_of, mad
 def test_a_plan_and_a_timing_are_read_back_bit_for_bit(spec_of, made):
     spec = spec_of(65)
     planning = spec.settings.planning
-    cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
+    cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m, default_task())
     plan = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
     timing = time_task(cell, plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
     read, timed = plan_from_json(made[PieceKind.PLAN].text), timing_from_json(made[PieceKind.TIMING].text)

@@ -11,6 +11,7 @@ import pytest
 
 from rgss.errors import DefinitionError
 from rgss.evidence import Failure, PhaseOutcome, record_digest
+from rgss.tasks import default_task
 from rgss.trials.code.piece_versions import versions
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.pieces.run import Pieces, run_trial
@@ -117,7 +118,7 @@ def test_trials_that_differ_in_their_limit_alone_share_the_phases_before_the_cut
 def test_a_limit_read_off_the_shared_search_equals_a_search_with_that_limit(spec_of, variant, seed):
     spec = spec_of(variant, seed)
     planning = spec.settings.planning
-    cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m)
+    cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m, task=default_task())
     shared = plan_task(cell, spec.planner, seed=seed, settings=planning)
     longest = max((move.checks, phase) for phase, move in shared.moves.items())[1]
     boundary_s = shared.moves[longest].checks * planning.clock.charge_s

@@ -9,6 +9,7 @@ import pytest
 from rgss.evidence import PlanOutcome
 from rgss.motion import ClockKind, PlanningClock
 from rgss.studies.expansion import trial_specs
+from rgss.tasks import default_task
 from rgss.trials.planning import plan_task
 from rgss.trials.workcell import Workcell, workcell_of
 from tests.fixtures.eight_states import PLANNED_PHASES
@@ -24,7 +25,7 @@ def planned_tasks(spec_of, variant):
     """How many of the tasks are planned to the end within each limit; physics is not asked."""
     first = spec_of(variant)
     settings = first.settings.planning
-    cell = Workcell(first.scene, first.gripper.geometry, clearance_m=settings.clearance_m)
+    cell = Workcell(first.scene, first.gripper.geometry, clearance_m=settings.clearance_m, task=default_task())
     plans = [plan_task(cell, first.planner, seed=seed, settings=settings) for seed in SEEDS]
     return [
         sum(
@@ -57,7 +58,7 @@ def test_no_move_of_any_variant_takes_longer_than_both_limits_together(project, 
         planning = replace(spec.settings.planning, simplification_limit_s=limit_s)
         shared = spec.gripper.geometry.id, spec.planner, spec.seed
         if shared not in plans:
-            cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
+            cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m, default_task())
             plans[shared] = plan_task(cell, spec.planner, seed=spec.seed, settings=planning)
         for phase in plans[shared].moves:
             move = plans[shared].move_within(phase, spec.planning_limit_s)
@@ -74,7 +75,7 @@ def test_neither_does_one_by_the_wall_clock(spec_of, limit_s):
         search_limit_s=8.0,
         simplification_limit_s=limit_s,
     )
-    cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m)
+    cell = workcell_of(spec.scene, spec.gripper.geometry, planning.clearance_m, default_task())
     for seed in range(1, 4):
         plan = plan_task(cell, spec.planner, seed=seed, settings=planning)
         for phase in plan.moves:

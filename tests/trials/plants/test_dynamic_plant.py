@@ -12,6 +12,7 @@ import pytest
 from rgss.evidence import Failure, Fidelity, PhaseOutcome
 from rgss.kinematics import ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
+from rgss.tasks import default_task
 from rgss.trials.executing import execute
 from rgss.trials.planning import plan_task
 from rgss.trials.plants.dynamic_plant import DynamicPlant
@@ -60,7 +61,7 @@ class Planned:
     def __init__(self, spec):
         planning = spec.settings.planning
         self.spec = spec
-        self.cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m)
+        self.cell = Workcell(spec.scene, spec.gripper.geometry, clearance_m=planning.clearance_m, task=default_task())
         self.plan = plan_task(self.cell, spec.planner, seed=spec.seed, settings=planning)
         self.timing = time_task(self.cell, self.plan, tool_speed_m_s=spec.tool_speed_m_s, settings=planning)
 
@@ -114,7 +115,14 @@ def plant_of(planned, machine, **options):
     spec = planned.spec
     settings = spec.settings
     return DynamicPlant(
-        machine, planned.cell.arm, spec.scene, spec.gripper, settings.physics, settings.control, **options
+        machine,
+        planned.cell.arm,
+        spec.scene,
+        spec.gripper,
+        settings.physics,
+        settings.control,
+        task=spec.task,
+        **options,
     )
 
 

@@ -54,6 +54,7 @@ def followed(spec):
                 spec.gripper,
                 physics,
                 ControlSettings(largest_tracking_error_m=1.0),
+                task=spec.task,
                 controller=controller,
                 checkpoint=lambda: states.append(machine.state()[0]),
             )

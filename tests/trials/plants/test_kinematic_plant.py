@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rgss.evidence import Fidelity
-from rgss.scenes import Joint, load_gripper
+from rgss.scenes import Cylinder, Joint, load_gripper, load_scene
 from rgss.scenes.gripper import Gripper
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants.control import ControlSettings
@@ -87,9 +87,10 @@ class Grips:
     def __init__(self, gripper, radius_m):
         self.gripper, self.radius_m = gripper, radius_m
 
-    def travel_m(self, phase):
-        geometry = self.gripper.geometry
-        return min(geometry.stroke_m, geometry.largest_opening_m - self.radius_m)
+    def view_of(self, phase):
+        scene = load_scene(ROOT / "scenes" / "restaurant.yaml")
+        shape = Cylinder(radius_m=self.radius_m, height_m=0.1)
+        return replace(scene, workpiece=replace(scene.workpiece, shape=shape))
 
 
 def plant_with(tool=None, *, step_s=STEP_S, response=None, radius_m=0.035, control=None, **gripper):

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from rgss.evidence import Fidelity, Phase
+from rgss.evidence import Fidelity
 from rgss.scenes import Approach, Box, GraspCandidates, LyingCylinder, MeshShape
 from rgss.trials.conditions import conditions_of
 from rgss.trials.pieces.run import Pieces
@@ -59,7 +59,7 @@ def test_the_chosen_grasp_carries_the_object_at_every_fidelity(with_object, name
     for fidelity in Fidelity:
         record = Pieces().record(replace(spec, fidelity=fidelity))
         assert record.success, (fidelity, record.failed_phase, record.failure_detail)
-        grasp = next(phase.metrics for phase in record.phases if phase.phase is Phase.GRASP)
+        grasp = next(phase.metrics for phase in record.phases if phase.phase == "grasp")
         assert grasp["chosen_grasp_rank"] == taken.rejected + 1
         assert grasp["chosen_grasp_position_m"] == taken.tool_in_object.position_m
         if fidelity is Fidelity.CONTACT:
@@ -81,7 +81,7 @@ def test_candidates_are_chosen_on_the_perceived_pose(with_object):
 
 def test_an_object_that_the_hand_cannot_close_on_is_a_finding(with_object):
     spec = with_object(Box(size_m=(0.2, 0.2, 0.1)))
-    problems = reach_problems(spec.scene, spec.gripper.geometry, clearance_m=0.005, friction=0.7)
+    problems = reach_problems(spec.scene, spec.gripper.geometry, clearance_m=0.005, task=spec.task, friction=0.7)
     (problem,) = [one for one in problems if one.kind is SceneProblemKind.NO_GRASP]
     assert "too wide" in problem.detail
 
@@ -91,7 +91,7 @@ def test_a_grasp_that_no_arm_reaches_is_counted_by_its_filter(with_object):
     x, y, z = spec.scene.workpiece.pose.position_m
     away = replace(spec.scene.workpiece.pose, position_m=(x + 3.0, y, z))
     scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, pose=away))
-    search = grasp_search_of(scene, spec.gripper.geometry, friction=0.7, clearance_m=0.005)
+    search = grasp_search_of(scene, spec.gripper.geometry, friction=0.7, clearance_m=0.005, task=spec.task)
     assert search.taken is None
     assert sum(search.rejected.values()) == len(search.ranked.grasps)
     assert "reach: " in search.reasons

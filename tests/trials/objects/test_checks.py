@@ -1,0 +1,86 @@
+"""Steps that check what must hold of an object."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from rgss.evidence import Failure, PhaseOutcome
+from rgss.scenes import NamedPlace, Pose
+from rgss.tasks import CheckStep
+from rgss.trials.conditions_checked import violated_condition
+from rgss.trials.pieces.run import run_trial
+from rgss.trials.plants import ControlSettings
+
+
+def with_checks(spec, **checks):
+    steps = tuple(CheckStep(name=name, **conditions) for name, conditions in checks.items())
+    return replace(spec, task=replace(spec.task, steps=(*spec.task.steps, *steps)))
+
+
+@pytest.mark.engine
+def test_a_check_ends_the_task_unless_its_conditions_hold(spec_of):
+    record = run_trial(
+        with_checks(
+            spec_of(),
+            placed={"is_upright": True, "is_at_rest": True, "held": False},
+            held={"held": True},
+            beyond={"is_upright": True},
+        )
+    )
+
+    assert (record.failure, record.failed_phase) == (Failure.CHECK_FAILED, "held")
+    assert record.failure_detail == "0 of 2 fingers touch cup"
+    assert [phase.outcome for phase in record.phases[-3:]] == [
+        PhaseOutcome.COMPLETED,
+        PhaseOutcome.FAILED,
+        PhaseOutcome.NOT_RUN,
+    ]
+
+
+class Placed:
+    """A world with one object at a place, which some fingers touch."""
+
+    def __init__(self, spec, *, aside_m=0.0, tilt_rad=0.0, touching=0):
+        region = spec.scene.place
+        named = NamedPlace(id="counter_end", region=region, support=spec.scene.place_support)
+        self.scene, self.gripper = replace(spec.scene, places=(named,)), spec.gripper
+        x, y, z = region.centre_m
+        above = z + spec.scene.workpiece.shape.half_height_m
+        self.pose = Pose.from_roll_pitch_yaw((x + aside_m, y, above), (tilt_rad, 0.0, 0.0))
+        self._touching = touching
+
+    def object_pose(self, _):
+        return self.pose
+
+    def contacts(self):
+        return SimpleNamespace(fingers_touching=self._touching)
+
+
+CASES = {
+    "beside its place": ({"at": "counter_end"}, {"aside_m": 0.0501}, "cup is 50.1 mm from counter_end, at most "),
+    "leaning": ({"is_upright": True}, {"tilt_rad": 0.5}, "cup leans by 28.6 deg"),
+    "moving": ({"is_at_rest": True}, {}, "cup has moved by 30.00 mm in "),
+    "not held": ({"held": True}, {"touching": 1}, "1 of 2 fingers touch cup"),
+    "still held": ({"held": False}, {"touching": 2}, "2 of 2 fingers touch cup"),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_what_does_not_hold_is_told_with_its_numbers(spec_of, name):
+    conditions, state, told = CASES[name]
+    world = Placed(spec_of(), **state)
+    x, y, z = world.pose.position_m
+    before = Pose(position_m=(x - 0.03, y, z), quaternion_xyzw=world.pose.quaternion_xyzw)
+    said = violated_condition(world, ControlSettings(), CheckStep(name="checked", **conditions), before)
+
+    assert said.startswith(told)
+
+
+def test_what_holds_is_no_problem(spec_of):
+    step = CheckStep(name="checked", at="counter_end", is_upright=True, is_at_rest=True, held=True)
+    world = Placed(spec_of(), aside_m=0.001, touching=2)
+
+    assert violated_condition(world, ControlSettings(), step, world.pose) == ""
