@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.trials.impact import ClosingImpact, closing_impact
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import (
+        FOR_EACH_JOINT,
         FOR_EACH_MOVE,
         METRICS,
         PHASE_METRICS,
