@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.documents import DocumentModel, Identifier
+from rgss.documents import DocumentModel, Identifier, Metres
+
+
+class NearEntry(DocumentModel):
+    """Greatest distance of the object from exactly one of a place, another object and a point of the world."""
+
+    within: Metres
+    place: Identifier | None = None
+    object: Identifier | None = None
+    point: tuple[Metres, Metres, Metres] | None = None
 
 
 class CheckEntry(DocumentModel):
@@ -16,6 +25,24 @@ class CheckEntry(DocumentModel):
     upright: bool = False
     at_rest: bool = False
     held: bool | None = None
+    near: NearEntry | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Nearness:
+    """Greatest distance of the centre of an object from a point.
+
+    Attributes:
+        within_m: The distance.
+        place: The place; the point is where the object's centre is when it stands in the middle. Empty for another.
+        object: The object whose centre is the point; empty for another.
+        point_m: The point in the world; None for another.
+    """
+
+    within_m: float
+    place: str = ""
+    object: str = ""
+    point_m: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +56,7 @@ class CheckStep:
         is_upright: Whether its tilt must be within that of its place region.
         is_at_rest: Whether it must be settled.
         held: Whether every finger (True) or none (False) must touch it; None for either.
+        near: Where it must be; None for anywhere.
     """
 
     name: str
@@ -37,3 +65,4 @@ class CheckStep:
     is_upright: bool = False
     is_at_rest: bool = False
     held: bool | None = None
+    near: Nearness | None = None

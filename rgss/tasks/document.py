@@ -11,6 +11,7 @@ from rgss.tasks.check_step import CheckEntry
 from rgss.tasks.grip_step import GripEntry
 from rgss.tasks.move_step import MoveEntry, TargetEntry
 from rgss.tasks.release_step import ReleaseEntry
+from rgss.tasks.step_settings import ThresholdsEntry
 from rgss.tasks.wait_step import WaitEntry
 
 MOST_REPETITIONS = 1000
@@ -49,4 +50,5 @@ class TaskDocument(DocumentModel):
     task: Identifier
     start: TargetEntry | None = None
     configurations: dict[Identifier, tuple[JointPosition, ...]] = Field(default_factory=dict)
+    reached_within: ThresholdsEntry = ThresholdsEntry()
     steps: tuple[StepEntry, ...]

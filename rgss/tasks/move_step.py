@@ -8,6 +8,7 @@ from typing import Literal
 from rgss.documents import Dimensionless, DocumentModel, Identifier, JointPosition, Metres, Radians, Seconds
 from rgss.scenes import Pose
 from rgss.tasks.move_kinds import MoveKind
+from rgss.tasks.step_settings import StepControl, StepControlEntry
 
 
 class PoseEntry(DocumentModel):
@@ -38,6 +39,8 @@ class MoveEntry(TargetEntry):
     speed: Dimensionless = 1.0
     time_limit: Seconds | None = None
     resolution: Radians | None = None
+    reached_within: Radians | None = None
+    control: StepControlEntry | None = None
 
 
 Configurations = dict[Identifier, tuple[JointPosition, ...]]
@@ -77,6 +80,9 @@ class MoveStep:
         speed_share: Share of the tool speed of the design.
         limit_s: Longest planning time, where it is less than that of the design; None for that.
         resolution_rad: Greatest joint step between two checked states; None for that of the study.
+        reached_rad: Error of any joint up to which the end counts as reached, a metre of a prismatic joint counting as
+            a radian; None for that of the fidelity.
+        control: Control of the joints in it; None for that of the study.
     """
 
     name: str
@@ -85,3 +91,5 @@ class MoveStep:
     speed_share: float = 1.0
     limit_s: float | None = None
     resolution_rad: float | None = None
+    reached_rad: float | None = None
+    control: StepControl | None = None

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rgss.documents import DocumentModel, Identifier
+from rgss.documents import DocumentModel, Identifier, Metres
+from rgss.tasks.step_settings import StepControl, StepControlEntry
 
 
 class ReleaseEntry(DocumentModel):
@@ -12,6 +13,8 @@ class ReleaseEntry(DocumentModel):
 
     name: Identifier | None = None
     place: Identifier | None = None
+    reached_within: Metres | None = None
+    control: StepControlEntry | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,7 +24,11 @@ class ReleaseStep:
     Attributes:
         name: Name of the phase.
         place: The place; empty for the object's own place region.
+        opened_m: Distance of every finger from open up to which the hand counts as open; None for 0.5 mm.
+        control: Control of the joints in it; None for that of the study.
     """
 
     name: str
     place: str = ""
+    opened_m: float | None = None
+    control: StepControl | None = None

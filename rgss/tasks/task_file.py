@@ -10,7 +10,7 @@ from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes import Pose, Waypoint
-from rgss.tasks.check_step import CheckEntry, CheckStep
+from rgss.tasks.check_step import CheckEntry, CheckStep, NearEntry, Nearness
 from rgss.tasks.document import StepEntry, TaskDocument
 from rgss.tasks.grip_step import GripEntry, GripStep
 from rgss.tasks.hand_states import hand_findings
@@ -18,6 +18,7 @@ from rgss.tasks.move_kinds import MoveKind
 from rgss.tasks.move_step import MoveEntry, MoveStep, Target, TargetEntry
 from rgss.tasks.program import Step, TaskProgram
 from rgss.tasks.release_step import ReleaseEntry, ReleaseStep
+from rgss.tasks.step_settings import StepControl, StepControlEntry, step_control
 from rgss.tasks.wait_step import WaitEntry, WaitStep
 
 Location = tuple[str | int, ...]
@@ -78,6 +79,9 @@ class _Compiler:
         self._configurations: Mapping[str, tuple[float, ...]] = {
             name: tuple(joint.value for joint in joints) for name, joints in entry.configurations.items()
         }
+        self._thresholds = entry.reached_within
+        for key in ("joints", "gripper"):
+            self._refuse_not_positive(key, getattr(entry.reached_within, key), ("reached_within",))
         self._count = 0
 
     def steps(
@@ -144,9 +148,9 @@ class _Compiler:
         if entry.move is not None:
             return self._move(entry.move, at, prefix, bound)
         if entry.grip is not None:
-            return self._grip(entry.grip, prefix, bound)
+            return self._grip(entry.grip, at, prefix, bound)
         if entry.release is not None:
-            return self._release(entry.release, prefix)
+            return self._release(entry.release, at, prefix)
         if entry.wait is not None:
             return self._wait(entry.wait, at, prefix)
         if entry.check is None:
@@ -157,9 +161,8 @@ class _Compiler:
         if not 0.0 < entry.speed <= 1.0:
             message = f"speed must be a share in (0, 1], got {entry.speed:g}"
             self._report("task.share", message, (*at, "speed"), "write 0.5, or 50 %")
-        for key, value in (("time_limit", entry.time_limit), ("resolution", entry.resolution)):
-            if value is not None and value <= 0.0:
-                self._report("task.not-positive", f"{key} must be greater than zero", (*at, key))
+        for key in ("time_limit", "resolution", "reached_within"):
+            self._refuse_not_positive(key, getattr(entry, key), at)
         target = self.target(entry, at, bound)
         mode = MoveKind(entry.mode)
         if mode is MoveKind.STRAIGHT and target.configuration_rad:
@@ -175,22 +178,41 @@ class _Compiler:
             speed_share=entry.speed,
             limit_s=entry.time_limit,
             resolution_rad=entry.resolution,
+            reached_rad=self._thresholds.joints if entry.reached_within is None else entry.reached_within,
+            control=self._control(entry.control, at),
         )
 
-    def _grip(self, entry: GripEntry, prefix: str, bound: str) -> GripStep:
-        return GripStep(name=prefix + (entry.name or "grip"), object=entry.object or bound)
+    def _grip(self, entry: GripEntry, at: Location, prefix: str, bound: str) -> GripStep:
+        for key in ("firm_above", "firm_for"):
+            self._refuse_not_positive(key, getattr(entry, key), at)
+        return GripStep(
+            name=prefix + (entry.name or "grip"),
+            object=entry.object or bound,
+            firm_above_n=entry.firm_above,
+            firm_s=entry.firm_for,
+            control=self._control(entry.control, at),
+        )
 
-    def _release(self, entry: ReleaseEntry, prefix: str) -> ReleaseStep:
-        return ReleaseStep(name=prefix + (entry.name or "release"), place=entry.place or "")
+    def _release(self, entry: ReleaseEntry, at: Location, prefix: str) -> ReleaseStep:
+        self._refuse_not_positive("reached_within", entry.reached_within, at)
+        return ReleaseStep(
+            name=prefix + (entry.name or "release"),
+            place=entry.place or "",
+            opened_m=self._thresholds.gripper if entry.reached_within is None else entry.reached_within,
+            control=self._control(entry.control, at),
+        )
 
     def _wait(self, entry: WaitEntry, at: Location, prefix: str) -> WaitStep:
-        if entry.duration <= 0.0:
-            self._report("task.not-positive", "duration must be greater than zero", (*at, "duration"))
-        return WaitStep(name=prefix + (entry.name or "wait"), duration_s=entry.duration)
+        self._refuse_not_positive("duration", entry.duration, at)
+        return WaitStep(
+            name=prefix + (entry.name or "wait"),
+            duration_s=entry.duration,
+            control=self._control(entry.control, at),
+        )
 
     def _check(self, entry: CheckEntry, at: Location, prefix: str, bound: str) -> CheckStep:
-        if not (entry.at or entry.upright or entry.at_rest or entry.held is not None):
-            hint = "write at, upright, at_rest or held"
+        if not (entry.at or entry.upright or entry.at_rest or entry.held is not None or entry.near):
+            hint = "write at, near, upright, at_rest or held"
             self._report("task.empty", "the check states no condition", at, hint)
         return CheckStep(
             name=prefix + (entry.name or "check"),
@@ -199,7 +221,29 @@ class _Compiler:
             is_upright=entry.upright,
             is_at_rest=entry.at_rest,
             held=entry.held,
+            near=None if entry.near is None else self._near(entry.near, (*at, "near")),
         )
+
+    def _near(self, entry: NearEntry, at: Location) -> Nearness:
+        given = [key for key in ("place", "object", "point") if getattr(entry, key) is not None]
+        if len(given) != 1:
+            said = " and ".join(given) or "none"
+            self._report("task.near", f"near needs one of place, object and point, got {said}", at, "name one")
+        self._refuse_not_positive("within", entry.within, at)
+        return Nearness(within_m=entry.within, place=entry.place or "", object=entry.object or "", point_m=entry.point)
+
+    def _control(self, entry: StepControlEntry | None, at: Location) -> StepControl | None:
+        if entry is not None:
+            for key in ("natural_frequency", "damping_ratio", "velocity_gain"):
+                self._refuse_not_positive(key, getattr(entry, key), (*at, "control"))
+            if entry.position_gain is not None and entry.position_gain < 0.0:
+                message = "position_gain must not be negative"
+                self._report("task.negative", message, (*at, "control", "position_gain"))
+        return step_control(entry)
+
+    def _refuse_not_positive(self, key: str, value: float | None, at: Location) -> None:
+        if value is not None and value <= 0.0:
+            self._report("task.not-positive", f"{key} must be greater than zero", (*at, key))
 
     def _is_too_long(self, at: Location) -> bool:
         if self._count <= MOST_STEPS:

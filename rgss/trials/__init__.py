@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         JointGains,
         is_stable,
         least_stable_rate_hz,
+        stated_in_step,
     )
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.second_engine import mujoco_settings

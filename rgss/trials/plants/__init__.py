@@ -15,6 +15,7 @@ if TYPE_CHECKING:
         JointController,
         JointGains,
         least_stable_rate_hz,
+        stated_in_step,
     )
     from rgss.trials.plants.kinematic_plant import KinematicPlant
     from rgss.trials.plants.plant import Plant
