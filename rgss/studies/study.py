@@ -251,10 +251,7 @@ def _requirements(folder: Path) -> RequirementSet | None:
 
 def _task(project: Path, entry: StudyDocument, findings: list[Finding]) -> LoadedTask | None:
     """The task that a study names, or else its scene; None if neither does, or with what is wrong noted."""
-    name = entry.task
-    if name is None:
-        name, problems = task_of_scene(project, entry.scene)
-        findings.extend(problems)
+    name = entry.task or task_of_scene(project, entry.scene, findings)
     path = None if name is None else named_file(project, name)
     if path is None:
         return None

@@ -28,10 +28,9 @@ from rgss.trials.monitors import (
     ToolKinematics,
     grasp_metrics,
 )
-from rgss.trials.move_targets import MoveTargets
 from rgss.trials.object_checks import check_displacement, check_place, has_moved
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plants import ControlSettings
+from rgss.trials.plants import ControlSettings, MoveTargets
 from rgss.trials.program import run_program
 from rgss.trials.reference import Array, Reference
 from rgss.trials.task_objects import TaskObjects
