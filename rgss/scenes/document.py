@@ -169,6 +169,7 @@ class TaskEntry(DocumentModel):
     grasp_yaw: Radians
     place_yaw: Radians
     grasp: GraspRule | GraspCandidatesEntry = GraspRule.AS_STATED
+    free_yaw: bool = False
     steps: Text | None = None
 
 

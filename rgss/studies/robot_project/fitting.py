@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 
 _SAMPLES = 2048
 _LEAST_REACH_M = 0.2
+_POSE_FREEDOMS = 6
 _ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
 _CLEARANCE_M = 0.008
 _LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.1, 100.0
@@ -59,6 +60,15 @@ def payload_at_reach_kg(robot: Robot) -> float:
     return min(max(held, _LEAST_PAYLOAD_KG), _MOST_PAYLOAD_KG)
 
 
+def is_yaw_free(robot: Robot) -> bool:
+    """True for an arm that cannot turn its tool to every pose, whose task asks for the tool's axis alone.
+
+    Args:
+        robot: The arm.
+    """
+    return len(robot.joints) < _POSE_FREEDOMS
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FittedCell:
     """A cell that suits an arm.
@@ -91,7 +101,7 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
     path = folder / "scenes" / "kitchen.yaml"
     reach_m = horizontal_reach_m(robot)
     for layout in layouts(reach_m) if reach_m >= _LEAST_REACH_M else ():
-        path.write_text(scene_text(layout, robot=robot_file), encoding="utf-8")
+        path.write_text(scene_text(layout, robot=robot_file, is_yaw_free=is_yaw_free(robot)), encoding="utf-8")
         scene = load_scene(path, project=folder)
         if not all(_reaches_ends(scene, geometry) for geometry in geometries):
             continue
@@ -121,7 +131,10 @@ def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tup
 
 
 def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
-    inverse, poses = inverse_kinematics(Arm(scene.robot, geometry.grasp_centre)), waypoint_poses(scene)
+    inverse, poses = (
+        inverse_kinematics(Arm(scene.robot, geometry.grasp_centre), is_turn_free=scene.task.is_yaw_free),
+        waypoint_poses(scene),
+    )
     ends = (Waypoint.GRASP, Waypoint.GRASP_DEPARTURE, Waypoint.PLACE)
     return all(inverse.nearest(poses[waypoint], scene.robot.home_rad) is not None for waypoint in ends)
 

@@ -71,7 +71,7 @@ task: # heights of the gripper over its waypoints, and how it is turned there
   largest_carry_tilt: 45 deg
   grasp_yaw: 0 deg
   place_yaw: 0 deg
-
+{free_yaw}
 assumptions:
   - about: workpiece.force_limit
     rationale: No source gives the force that breaks the cup; this is well above the closing impact of one finger.
@@ -105,12 +105,13 @@ def layouts(reach_m: float) -> Iterator[Layout]:
             yield Layout(reach_m=reach_m, distance_m=share * reach_m, table_m=round(table_m, 3))
 
 
-def scene_text(layout: Layout, *, robot: str) -> str:
+def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
     """The text of a scene file.
 
     Args:
         layout: Where the tables are.
         robot: Name of the robot file.
+        is_yaw_free: Whether the gripper may be turned about the vertical as suits the arm.
     """
     reach = layout.reach_m
     x, y = layout.distance_m * math.cos(_AZIMUTH_RAD), layout.distance_m * math.sin(_AZIMUTH_RAD)
@@ -122,6 +123,9 @@ def scene_text(layout: Layout, *, robot: str) -> str:
     lift = min(0.06, 0.05 * reach)
     return _SCENE.format(
         robot=robot,
+        free_yaw="  free_yaw: true # the cup is round: an arm of few joints turns the gripper as it can\n"
+        if is_yaw_free
+        else "",
         pedestal=_PEDESTAL_HEIGHT_M,
         foot=min(0.14, near * 0.5),
         deep=deep,

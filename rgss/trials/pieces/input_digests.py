@@ -276,11 +276,16 @@ def _geometry_digest(scene: Scene) -> str:
         },
         "supports": [scene.support, scene.place_support],
         "place": to_plain(scene.place.centre_m),
-        "task": to_plain(scene.task),
+        "task": _waypoints(scene),
         **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
         **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),
     }
     return digest(geometry)
+
+
+def _waypoints(scene: Scene) -> dict[str, Any]:
+    task: dict[str, Any] = to_plain(scene.task)
+    return task if scene.task.is_yaw_free else _without(task, ("is_yaw_free",))
 
 
 def _shape(shape: ObjectShape) -> dict[str, Any]:

@@ -10,10 +10,10 @@ import pytest
 from rgss.evidence import Failure, Fidelity
 from rgss.tasks import CheckStep, Nearness, StepControl, default_task
 from rgss.trials import JointController, JointGains, stated_in_step
-from rgss.trials.plants.move_targets import MoveTargets
 from rgss.trials.pieces import Pieces
 from rgss.trials.pieces.input_digests import digests_of
 from rgss.trials.plants import ControlMode
+from rgss.trials.plants.move_targets import MoveTargets
 from rgss.trials.reference import Reference
 from tests.fixtures.eight_states import Phase
 
