@@ -9,7 +9,14 @@ from functools import lru_cache
 
 import numpy as np
 
-from rgss.kinematics import CollisionModel, InverseKinematics, choose_branches, inverse_kinematics, straight_line
+from rgss.kinematics import (
+    CollisionModel,
+    InverseKinematics,
+    choose_branches,
+    follow_line,
+    inverse_kinematics,
+    straight_line,
+)
 from rgss.motion import segment_states
 from rgss.scenes import Pose
 from rgss.tasks import MoveKind
@@ -150,9 +157,18 @@ def _line(cell: Workcell, leg: Leg, found: Mapping[int, Array], *, is_new: bool)
         return np.array([start, goal]) if all(model.is_valid(q) for q in states) else None
     if stop.pose is None:
         raise AssertionError("checked before: a straight line ends at a pose")
-    line = straight_line(inverse_at(cell, stop), start, stop.pose)
+    if stop.is_turn_free:
+        line = _line_to(cell, stop, start, goal)
+    else:
+        line = straight_line(inverse_at(cell, stop), start, stop.pose)
     if line is None or not all(model.is_valid(q) for q in line):
         return None
     if not is_new and np.max(np.abs(line[-1] - goal)) > _SAME_CONFIGURATION_RAD:
         return None
     return line
+
+
+def _line_to(cell: Workcell, stop: Stop, start: Array, goal: Array) -> Array | None:
+    """A straight line of the tool that is led to a configuration, whose turn about the tool's axis it ends with."""
+    line = follow_line(inverse_at(cell, stop), start, cell.arm.tool_pose(goal), goal_configuration=goal)
+    return line.configurations_rad if line.broken is None else None
