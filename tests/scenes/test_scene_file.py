@@ -117,7 +117,10 @@ def test_touching_is_allowed_and_so_is_no_friction(kitchen):
         (
             "  place_yaw: 90 deg\n",
             "  place_yaw: 90 deg\n  grasp: automatic\n  free_yaw: ¦true\n",
-            "scene.free-yaw the yaw is free only where every object is an upright cylinder that is gripped from above",
+            (
+                "scene.free-yaw the yaw is free only where every object is an upright cylinder that is gripped "
+                "from above (leave free_yaw out, or let grasp be as_stated)"
+            ),
         ),
         ("600 mm, 0.7 m", "¦0 mm, 0.7 m", "scene.not-positive box must be greater than zero"),
         ("radius: 50 mm", "radius: ¦-50 mm", "scene.not-positive radius must be greater than zero"),
