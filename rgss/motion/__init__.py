@@ -2,6 +2,7 @@
 
 from rgss.motion.blending import BlendedPath, SmoothPath, blend
 from rgss.motion.clock import ClockKind, PlanningClock
+from rgss.motion.joint_waypoints import time_move_by_joint_waypoints
 from rgss.motion.limits import MotionLimits
 from rgss.motion.paths import JointPath, path_length, segment_states
 from rgss.motion.planner_settings import Objective, OnUnverified, PlannerSettings
