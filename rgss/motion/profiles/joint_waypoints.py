@@ -21,10 +21,10 @@ from rgss.motion.blending import SmoothPath
 from rgss.motion.derivatives import path_derivatives
 from rgss.motion.limits import MotionLimits, require_joints
 from rgss.motion.paths import JointPath
+from rgss.motion.profiles.trapezoid import sampled_peaks
 from rgss.motion.runs import joined
 from rgss.motion.timing import TimedMove, TimingOutcome
 from rgss.motion.trajectory import Trajectory
-from rgss.motion.trapezoid import sampled_peaks
 from rgss.motion.validity import StateValidity, ToolKinematics, first_invalid_between
 
 Vector = NDArray[np.float64]
