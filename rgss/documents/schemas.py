@@ -54,8 +54,9 @@ def json_schema(model: type[DocumentModel], *, title: str, texts: KeyTexts) -> d
 
 def _describe(definition: _Schema, texts: Mapping[str, str]) -> None:
     for key, inner in definition.get("properties", {}).items():
-        said = [inner["description"]] if "description" in inner else []
-        if key in texts:
+        # A field may carry its text itself, which the texts then repeat.
+        if key in texts and inner.get("description") != texts[key]:
+            said = [inner["description"]] if "description" in inner else []
             inner["description"] = " ".join([texts[key], *said])
 
 

@@ -26,6 +26,7 @@ from rgss.scenes import (
 from rgss.studies.document import StudyDocument
 from rgss.studies.project_folders import REQUIREMENT_PARTS, SINGLE_FILES
 from rgss.tasks import TaskDocument
+from rgss.tradeoff import ShapeKeys
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -151,10 +152,13 @@ def key_texts() -> Mapping[str, Mapping[str, str]]:
     """Description of each key of the documents, by the model that reads it."""
     with resources.as_file(resources.files("rgss.studies") / "field_descriptions.yaml") as path:
         texts: Mapping[str, Mapping[str, str]] = read_document(path, label="field_descriptions.yaml").data
+    # Each shape of a value function describes its keys beside them, so that one file adds a shape.
+    of_shapes = {key: field.description for key, field in ShapeKeys.model_fields.items() if field.description}
+    extended = {**texts, ShapeKeys.__name__: of_shapes}
     # A model that extends another has its keys, which are described once.
     return {
         model: {
-            **texts.get(of_model.get("extends", ""), {}),
+            **extended.get(of_model.get("extends", ""), {}),
             **{key: of_model[key] for key in of_model if key != "extends"},
         }
         for model, of_model in texts.items()

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from pydantic import Field
+
 from rgss.documents import DocumentModel
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField
@@ -24,7 +26,7 @@ STEEPEST_EXPONENT = 100.0
 class ExponentialKeys(DocumentModel):
     """Keys of an exponential value in a study, beside ``worst`` and ``best``."""
 
-    halfway: AnchorField | None = None
+    halfway: AnchorField | None = Field(default=None, description="The level that is worth one half.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -23,9 +23,11 @@ if TYPE_CHECKING:
 class PiecewiseKeys(DocumentModel):
     """Keys of a piecewise linear value in a study."""
 
-    worst: AnchorField | None = None
-    best: AnchorField | None = None
-    between: Annotated[tuple[PointEntry, ...], Field(min_length=1)] | None = None
+    worst: AnchorField | None = Field(default=None, description="The level that is worth 0.")
+    best: AnchorField | None = Field(default=None, description="The level that is worth 1.")
+    between: Annotated[tuple[PointEntry, ...], Field(min_length=1)] | None = Field(
+        default=None, description="Points of the value function between worst and best."
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from pydantic import Field
+
 from rgss.documents import DocumentModel
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField
@@ -23,7 +25,7 @@ STEEPNESS = 10.0
 class SCurveKeys(DocumentModel):
     """Keys of an S-shaped value in a study, beside ``worst`` and ``best``."""
 
-    steepest: AnchorField | None = None
+    steepest: AnchorField | None = Field(default=None, description="The level at which a change counts most.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

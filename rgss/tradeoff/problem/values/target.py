@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from pydantic import Field
+
 from rgss.documents import DocumentModel
 from rgss.errors import TradeoffError
 from rgss.tradeoff.problem.values.anchors import Anchor, AnchorField
@@ -20,9 +22,11 @@ if TYPE_CHECKING:
 class TargetKeys(DocumentModel):
     """Keys of a target value in a study."""
 
-    target: AnchorField | None = None
-    too_low: AnchorField | None = None
-    too_high: AnchorField | None = None
+    target: AnchorField | None = Field(
+        default=None, description="The level that is worth 1 where both more and less are worse."
+    )
+    too_low: AnchorField | None = Field(default=None, description="The level below the target that is worth 0.")
+    too_high: AnchorField | None = Field(default=None, description="The level above the target that is worth 0.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
