@@ -108,7 +108,12 @@ def replicate_until_decided(
         run(specs)
         read.read(specs)
         evidence = SequentialEvidence.of(
-            trade_problem(project, read.measured()), proportions, twins=twins, levels=levels
+            trade_problem(project, read.measured(), tolerant=False),
+            proportions,
+            twins=twins,
+            levels=levels,
+            tolerance=project.study.trade_off.tolerance,
+            last_of_equals=project.study.trade_off.last_of_equals,
         )
         answer = next_batch(evidence, rule, progress)
         progress = answer.progress

@@ -98,6 +98,11 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
         f"Probability that variant {made.decision.chosen} is feasible and best: {share_in_words(best)}; that it is "
         f"feasible: {share_in_words(feasible)}; that no variant is feasible: {share_in_words(one.none_feasible)}."
     )
+    if made.tolerance:
+        yield (
+            f"Feasible is here what misses no threshold on what trials observe by more than {made.tolerance:.0%} of it, "
+            "the tolerance of the study; verdicts have none."
+        )
     yield from _ties(found, one)
     gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains)
     yield (

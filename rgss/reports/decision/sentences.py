@@ -41,11 +41,13 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     )
     feasible = decision.counts.feasible
     among = "is the one variant that meets" if feasible == 1 else f"of the {feasible} variants that meet"
-    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement by the estimates.")
+    within = f", within the tolerance of {made.tolerance:.3g}" if made.tolerance else ""
+    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement by the estimates{within}.")
     others = [variant for variant in decision.ties if variant != decision.chosen]
     if others:
         names = ", ".join(map(str, others))
-        yield Reason(text=f"Variants {names} have the same value; the smallest id is chosen.")
+        end = "largest" if decision.chosen == max(decision.ties) else "smallest"
+        yield Reason(text=f"Variants {names} have the same value; the {end} id is chosen.")
     if decision.near_ties:
         near = variants_text(decision.near_ties)
         yield Reason(text=f"Within the practical margin of {made.practical_margin:g} of it: {near}.")

@@ -70,7 +70,9 @@ class SequentialEvidence:
         fixed_value: What the measures that follow from the design add to the value, shape (n,).
         fixed_met: Which alternatives meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
-        feasible: Which alternatives meet everything by their estimates, shape (n,).
+        feasible: Which alternatives meet everything by their estimates, but for the tolerance, shape (n,).
+        tolerance: Share of a threshold on what trials observe by which the choice may miss it.
+        last_of_equals: Whether the largest id of equals is the choice; the smallest otherwise.
         twins: The group of alternatives with which each has all trials in common, whatever the seed, shape (n,).
         levels: The level of each alternative in each factor of its design, shape (n, f), from which posterior draws
             learn; None where designs are not made of levels.
@@ -86,6 +88,8 @@ class SequentialEvidence:
     feasible: NDArray[np.bool_]
     twins: NDArray[np.intp]
     levels: NDArray[np.intp] | None = None
+    tolerance: float = 0.0
+    last_of_equals: bool = False
 
     @staticmethod
     def of(
@@ -94,6 +98,8 @@ class SequentialEvidence:
         *,
         twins: Mapping[int, int] | None = None,
         levels: NDArray[np.intp] | None = None,
+        tolerance: float = 0.0,
+        last_of_equals: bool = False,
     ) -> SequentialEvidence:
         """The evidence of a trade-off.
 
@@ -102,6 +108,8 @@ class SequentialEvidence:
             proportions: The measures that are shares of trials.
             twins: By alternative, the group with which it has all trials in common; each its own by default.
             levels: The level of each alternative, by ascending id, in each factor of its design, shape (n, f).
+            tolerance: As the attribute.
+            last_of_equals: As the attribute.
 
         Raises:
             TradeoffError: The trade-off is none of weighted values under thresholds on estimates.
@@ -133,6 +141,7 @@ class SequentialEvidence:
                 )
             )
         fixed = [one for one in problem.thresholds if one.measure not in table.samples]
+        admitted = [one if one in fixed else one.tolerated(tolerance) for one in problem.thresholds]
         return SequentialEvidence(
             table=table,
             replicates=_replicates(table),
@@ -141,9 +150,11 @@ class SequentialEvidence:
             fixed_value=fixed_value,
             fixed_met=_met(table, fixed),
             values=values,
-            feasible=_met(table, problem.thresholds) & ~np.isnan(values),
+            feasible=_met(table, admitted) & ~np.isnan(values),
             twins=np.array([(twins or {}).get(each, each) for each in table.variants.tolist()], dtype=np.intp),
             levels=levels,
+            tolerance=tolerance,
+            last_of_equals=last_of_equals,
         )
 
     def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:

@@ -253,7 +253,7 @@ def _is_beaten(evidence: SequentialEvidence, rule: SequentialRule, row: int, riv
 
 
 def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focused: bool) -> int | None:
-    """The contender of the highest value that is feasible by its estimates; the smallest id of ties.
+    """The contender of the highest value that is feasible by its estimates; the smallest id of ties, or the largest.
 
     Only those with the most replicates count: who was left alone is known too vaguely to lead. Under a budget
     all count, for whoever leads is replicated first, and the assessment reads the same estimates.
@@ -262,7 +262,7 @@ def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focuse
     most = max((evidence.replicates[row] for row in rows), default=0)
     known = [row for row in rows if focused or evidence.replicates[row] == most]
     best = _best(known, evidence.values.tolist())
-    return int(evidence.table.variants[best[0]]) if best else None
+    return int(evidence.table.variants[best[-1 if evidence.last_of_equals else 0]]) if best else None
 
 
 def _settled(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress) -> dict[tuple[int, int], bool]:
