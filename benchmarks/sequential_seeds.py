@@ -197,9 +197,10 @@ def main() -> int:
     for name in ("pilot", "batch", "cap", "budget"):
         parser.add_argument(f"--{name}", type=int)
     parser.add_argument("--margin", type=float)
+    parser.add_argument("--finalists", type=int)
     given = parser.parse_args()
     pool = Pool.read(given.project.resolve(), given.study, given.most)
-    names = ("pilot", "batch", "cap", "budget", "margin")
+    names = ("pilot", "batch", "cap", "budget", "margin", "finalists")
     stated = {name: getattr(given, name) for name in names if getattr(given, name) is not None}
     rule = replace(pool.project.study.until_decided, **stated)
     runs = []

@@ -63,7 +63,10 @@ def run_trials(project: Project, specs: Sequence[TrialSpec], store: EvidenceStor
 
 def _runner(project: Project, jobs: int | None, on_trial: Callable[[int, int], None] | None) -> _Runner:
     if jobs is not None and jobs < 0:
-        raise DefinitionError(f"{jobs} is no number of processes", hint="0 works in this process")
+        raise DefinitionError(
+            f"{jobs} is no number of processes",
+            hint="0 runs one trial after the other, in one child process that does not import the script",
+        )
     return _Runner(project, jobs=(os.cpu_count() or 1) if jobs is None else jobs, on_trial=on_trial)
 
 

@@ -253,7 +253,7 @@ def test_a_script_that_sweeps_with_processes(empty, guarded, said):
     ("ask", "message"),
     [
         (lambda study: study.columns("trial"), "there is no frame 'trial' (frames: variants, trials, phases,"),
-        (lambda study: study.sweep(jobs=-1), "-1 is no number of processes (0 works in this process)"),
+        (lambda study: study.sweep(jobs=-1), "-1 is no number of processes (0 runs one trial after"),
         (lambda study: study.sweep("d8=PRM", jobs=0), "only: "),
         (lambda study: study.trade({"weight.x": 1}), "--what-if: there is no 'weight.x'"),
         (lambda study: study.trade("weight.t_e"), "--what-if: 'weight.t_e' is no supposition"),

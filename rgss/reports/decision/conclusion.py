@@ -100,8 +100,8 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
     )
     if made.tolerance:
         yield (
-            f"Feasible is here what misses no threshold on what trials observe by more than {made.tolerance:.0%} of it, "
-            "the tolerance of the study; verdicts have none."
+            f"Feasible is here what misses no threshold on what trials observe by more than {made.tolerance:.0%} of "
+            "it, the tolerance of the study; verdicts have none."
         )
     yield from _ties(found, one)
     gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains)

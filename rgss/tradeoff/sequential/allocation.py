@@ -13,9 +13,12 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 
+import numpy as np
+
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.probability import probabilities_of_loss
 from rgss.tradeoff.sequential.rule import SequentialRule
+from rgss.tradeoff.sequential.settling import INFEASIBLE, Progress
 
 COVERED = 0.8
 """Posterior probability that the best is among the alternatives that are replicated next."""
@@ -55,6 +58,56 @@ def likely_better(
         covered += open_[variant]
         members.append(variant)
     return tuple(members)
+
+
+def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int) -> tuple[int, ...]:
+    """The leading alternatives, which a budget is spent on.
+
+    Leading are those of the highest value by their estimates among the feasible, then those that come nearest to
+    being feasible. They are brought to the same number of replicates, and so to the same seeds: alternatives that
+    differ in few trials are told apart by these alone, and not by the luck of seeds that only one of them had. Who
+    comes to lead by a few lucky replicates is given as many as the others, which ends it. As in sequential halving
+    (Karnin, Koren and Somekh, "Almost optimal exploration in multi-armed bandits", 2013), nobody is replicated by an
+    estimate of more seeds than the others have.
+
+    Args:
+        evidence: The evidence so far.
+        progress: What earlier looks found: who is proven to be infeasible does not lead.
+        finalists: So many lead.
+
+    Returns:
+        Their ids, the first one leading.
+    """
+    possible = [
+        row
+        for row, variant in enumerate(evidence.table.variants.tolist())
+        if evidence.fixed_met[row] and progress.dropped.get(variant) != INFEASIBLE
+    ]
+    short = evidence.shortfalls()
+    values = np.nan_to_num(evidence.values, nan=-math.inf)
+    possible.sort(key=lambda row: (0.0 if evidence.feasible[row] else short[row] + _ROUNDING, -values[row], row))
+    return tuple(int(evidence.table.variants[row]) for row in possible[:finalists])
+
+
+def levelled(evidence: SequentialEvidence, rule: SequentialRule, leading: Sequence[int]) -> Mapping[int, int]:
+    """The number of replicates that each of the leading alternatives should have after the next look, all the same.
+
+    Args:
+        evidence: The evidence so far.
+        rule: The rule.
+        leading: The alternatives.
+
+    Returns:
+        The numbers; empty where the cap is reached, or the budget has no room for one replicate of each.
+    """
+    ran = {variant: int(evidence.replicates[evidence.table.row_of(variant)]) for variant in leading}
+    fewest = min((ran[variant] for variant in leading), default=rule.cap)
+    left = math.inf if rule.budget is None else rule.budget - int(evidence.replicates.sum())
+    for target in range(min(fewest + rule.batch, rule.cap), fewest, -1):
+        raised = {variant: target for variant in leading if ran[variant] < target}
+        if sum(target - ran[variant] for variant in raised) <= left:
+            return raised
+    return {}
 
 
 def raised_together(evidence: SequentialEvidence, rule: SequentialRule, members: Sequence[int]) -> Mapping[int, int]:

@@ -195,6 +195,20 @@ class SequentialEvidence:
                 values[missed] = np.nan
         return values
 
+    def shortfalls(self) -> NDArray[np.float64]:
+        """The largest share of a threshold by which the estimates of each alternative miss one, shape (n,).
+
+        Infinite where a measure is unknown; 0 where every threshold on what is observed is kept.
+        """
+        short = np.zeros(len(self.table))
+        for one in self.observed:
+            column = self.table.column(one.measure)
+            for threshold in one.thresholds.values():
+                missed = threshold.comparison.margin(1.0, 0.0) * (threshold.value - column)
+                share = missed / max(abs(threshold.value), np.finfo(np.float64).tiny)
+                short = np.maximum(short, np.where(np.isnan(column), np.inf, share))
+        return short
+
     def is_nearly_feasible(self, row: int, slack: float) -> bool:
         """Tell whether an alternative's estimates miss no threshold by more than a share of it.
 
