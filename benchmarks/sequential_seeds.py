@@ -227,14 +227,14 @@ def _reported(pool: Pool, rule: SequentialRule, runs: Sequence[Run]) -> bool:
     feasible = set(variants[enumeration.feasible].tolist())
     choices, sets = Counter(one.chosen for one in runs), Counter(one.tied for one in runs)
     out.write(f"rule: pilot {rule.pilot}, batch {rule.batch}, cap {rule.cap}, budget {rule.budget}\n")
-    out.write(f"the whole pool: best {sorted(good(0.0))}, within {margin:g} {sorted(good(margin))}, ")
+    out.write(f"the whole pool: best {sorted(good(0.0), key=str)}, within {margin:g} {sorted(good(margin), key=str)}, ")
     out.write(f"feasible {sorted(feasible)}\n| of {count} master seeds | number |\n|---|---|\n")
     for name, found in (("choice", choices), ("set named as tied", sets)):
-        most = ", ".join(
+        often = ", ".join(
             f"{sorted(each) if isinstance(each, frozenset) else each} ({number})"
             for each, number in found.most_common(6)
         )
-        out.write(f"| the same {name}; {len(found)} different: {most} | {found.most_common(1)[0][1]} |\n")
+        out.write(f"| the same {name}; {len(found)} different: {often} | {found.most_common(1)[0][1]} |\n")
     some = [one for one in runs if one.chosen is not None]
     inside = sum(good(0.0) <= one.tied for one in some)
     out.write(f"| the pool's best are in the set, of {len(some)} | {inside} |\n\n")
@@ -247,8 +247,9 @@ def _reported(pool: Pool, rule: SequentialRule, runs: Sequence[Run]) -> bool:
     ):
         out.write(f"| {name} | {np.mean(told):.3f} | {np.mean(true):.3f} |\n")
         kept &= abs(float(np.mean(told)) - float(np.mean(true))) <= POINTS
-    trials, most = [one.trials for one in runs], [one.most for one in runs]
-    out.write(f"\ntrials {np.mean(trials):.0f}, replicates of the choice {np.median(most):g} in the median\n")
+    trials, replicates = [one.trials for one in runs], [one.most for one in runs]
+    most = float(np.median(np.array(replicates)))
+    out.write(f"\ntrials {np.mean(trials):.0f}, replicates of the choice {most:g} in the median\n")
     return kept
 
 
