@@ -287,12 +287,13 @@ def _same(truth: Outcome, outcomes: Sequence[Outcome]) -> bool:
 def _calibrated(pool: Pool, outcomes: Sequence[Outcome]) -> bool:
     out = sys.stdout
     decision = decide(pool.problem, margin=0.0, seed=pool.project.study.seed, resamples=0)
-    kept = {one.variant: one.value for one in decision.ranking}
+    kept = {one.variant: one.value for one in decision.ranking if one.value is not None}
     best = max(kept.values(), default=0.0)
     margin = pool.project.study.trade_off.practical_margin
 
     def share(least: float) -> float:
-        good = {variant for variant, value in kept.items() if value >= best - least - 1e-9} or {None}
+        good: set[int | None] = {variant for variant, value in kept.items() if value >= best - least - 1e-9}
+        good = good or {None}
         return float(np.mean([one.chosen in good for one in outcomes]))
 
     rows = {
