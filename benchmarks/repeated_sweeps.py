@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.assessment import VariantMeasures, measure_variants
+from rgss.decision import trial_twins
 from rgss.decision.choosing import proportion_measures, trade_problem
 from rgss.decision.level_structure import level_numbers
 from rgss.evidence import EvidenceStore
@@ -73,6 +74,8 @@ class Pool:
     Attributes:
         project: The project.
         problem: The trade-off, whose samples are in the order of the seeds.
+        required: The same with thresholds as they are required, without the tolerance of the choice.
+        twins: By variant, the first one whose trials are the same whatever the seed.
         counts: The number of trials of each variant.
         cases: The workload case of each seed.
         levels: The level of each variant in each factor.
@@ -80,6 +83,8 @@ class Pool:
 
     project: Project
     problem: TradeProblem
+    required: TradeProblem
+    twins: Mapping[int, int]
     counts: Mapping[int, int]
     cases: NDArray[np.str_]
     levels: NDArray[np.intp] | None
@@ -88,22 +93,29 @@ class Pool:
         """One repetition of the sweep, and the decision from its trials."""
         picks = self._picks(np.random.default_rng([7, seed]), rule.cap)
         wanted = dict.fromkeys(self.counts, rule.pilot)
-        proportions = proportion_measures(self.project)
+        proportions, trade_off = proportion_measures(self.project), self.project.study.trade_off
         progress = Progress()
         while True:
-            problem = self._problem(picks, wanted)
-            evidence = SequentialEvidence.of(problem, proportions, levels=self.levels)
+            evidence = SequentialEvidence.of(
+                self._problem(self.required, picks, wanted),
+                proportions,
+                twins=self.twins,
+                levels=self.levels,
+                tolerance=trade_off.tolerance,
+                last_of_equals=trade_off.last_of_equals,
+            )
             answer = next_batch(evidence, rule, progress)
             progress = answer.progress
             if isinstance(answer, Decided):
-                return self.outcome(problem, wanted, seed)
+                return self.outcome(self._problem(self.problem, picks, wanted), wanted, seed)
             wanted = {**wanted, **answer.replicates}
 
     def outcome(self, problem: TradeProblem, wanted: Mapping[int, int], seed: int) -> Outcome:
         """The decision from some trials, as `rgss trade` states it."""
         project = self.project
         margin = project.study.trade_off.practical_margin
-        decision = decide(problem, margin=margin, seed=project.study.seed, resamples=0)
+        last = project.study.trade_off.last_of_equals
+        decision = decide(problem, margin=margin, last_of_equals=last, seed=project.study.seed, resamples=0)
         table = tabulated(problem.alternatives)
         variants = table.variants.tolist()
         found = PosteriorOutcomes.of(
@@ -170,13 +182,11 @@ class Pool:
                 picks[size].append(drawn)
         return picks
 
-    def _problem(self, picks: Mapping[int, Sequence[int]], wanted: Mapping[int, int]) -> TradeProblem:
-        return replace(
-            self.problem,
-            alternatives=tuple(
-                _some(one, picks[self.counts[one.variant]][: wanted[one.variant]]) for one in self.problem.alternatives
-            ),
-        )
+    def _problem(
+        self, whole: TradeProblem, picks: Mapping[int, Sequence[int]], wanted: Mapping[int, int]
+    ) -> TradeProblem:
+        some = (_some(one, picks[self.counts[one.variant]][: wanted[one.variant]]) for one in whole.alternatives)
+        return replace(whole, alternatives=tuple(some))
 
 
 def _some(one: Alternative, picks: Sequence[int]) -> Alternative:
@@ -201,6 +211,8 @@ def read_pool(folder: Path, study: str, most: int) -> Pool:
     return Pool(
         project=project,
         problem=trade_problem(project, measured),
+        required=trade_problem(project, measured, tolerant=False),
+        twins=trial_twins(project, project.designs.expand()),
         counts={one.variant.id: len(one.records) for one in measured},
         cases=np.array([str(record.workload) for record in longest.records]),
         levels=level_numbers(project.designs, sorted(one.variant.id for one in measured)),
@@ -214,6 +226,7 @@ def main() -> int:
     parser.add_argument("--project", type=Path, default=Path())
     parser.add_argument("--most", type=int, default=512, help="trials of a variant that are read")
     parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--first", type=int, default=0, help="the first repetition")
     parser.add_argument("--budget", type=int)
     parser.add_argument("--cap", type=int)
     parser.add_argument("--batch", type=int)
@@ -227,7 +240,7 @@ def main() -> int:
         return _equal_seeds(pool, given.equal, given.seeds)
     truth = pool.outcome(pool.problem, pool.counts, 0)
     outcomes = []
-    for seed in range(given.seeds):
+    for seed in range(given.first, given.first + given.seeds):
         outcomes.append(pool.sweep(seed, rule))
         one = outcomes[-1]
         sys.stderr.write(
@@ -274,12 +287,13 @@ def _same(truth: Outcome, outcomes: Sequence[Outcome]) -> bool:
 def _calibrated(pool: Pool, outcomes: Sequence[Outcome]) -> bool:
     out = sys.stdout
     decision = decide(pool.problem, margin=0.0, seed=pool.project.study.seed, resamples=0)
-    kept = {one.variant: one.value for one in decision.ranking}
+    kept = {one.variant: one.value for one in decision.ranking if one.value is not None}
     best = max(kept.values(), default=0.0)
     margin = pool.project.study.trade_off.practical_margin
 
     def share(least: float) -> float:
-        good = {variant for variant, value in kept.items() if value >= best - least - 1e-9} or {None}
+        good: set[int | None] = {variant for variant, value in kept.items() if value >= best - least - 1e-9}
+        good = good or {None}
         return float(np.mean([one.chosen in good for one in outcomes]))
 
     rows = {

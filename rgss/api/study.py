@@ -224,6 +224,9 @@ class Study:
     ) -> Study:
         """Run every trial that has no evidence yet; pieces that trials share are made once.
 
+        These are the study's `replicates` of each variant, as of ``rgss sweep --replicates``. Where the study states a
+        budget, plain ``rgss sweep`` adds replicates until it is decided; this does not.
+
         Args:
             only: Which variants, as ``--only`` takes it: ids such as ``"1,5,60-72"``, filters such as
                 ``"planning.planner=RRT"`` or ``"robot.tool_speed <= 0.8 m/s"``; of several all must hold. All

@@ -18,6 +18,6 @@ if TYPE_CHECKING:
     from rgss.decision.screening_result import ScreenedVariant, ScreeningResult, screening_summary
     from rgss.decision.staged_sweep import sweep_in_stages
     from rgss.decision.tracing import trace_evidence
-    from rgss.decision.until_decided import UntilDecided, replicate_until_decided
+    from rgss.decision.until_decided import UntilDecided, replicate_until_decided, trial_twins
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

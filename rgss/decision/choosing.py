@@ -24,12 +24,13 @@ from rgss.tradeoff import (
 )
 
 
-def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> TradeProblem:
+def trade_problem(project: Project, measured: Sequence[VariantMeasures], *, tolerant: bool = True) -> TradeProblem:
     """The choice among a study's variants under its requirements.
 
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
+        tolerant: Whether thresholds on what trials observe have the study's tolerance; they are as required otherwise.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -44,8 +45,11 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures]) -> Trad
         if requirement.criterion is not None
     }
     trade_off = project.study.trade_off
+    tolerance = trade_off.tolerance if tolerant else 0.0
     thresholds = tuple(
-        threshold_of(project, requirement, criterion, column=_column(criterion))
+        threshold_of(project, requirement, criterion, column=_column(criterion)).tolerated(
+            tolerance if project.measures.measure(criterion.measure).from_trials else 0.0
+        )
         for requirement, criterion in criteria.items()
     )
     functions = tuple(value_function_of(project, valued) for valued in trade_off.valued)
@@ -94,7 +98,14 @@ def choose(
     """
     margin = project.study.trade_off.practical_margin
     posed = trade_problem(project, measured) if problem is None else problem
-    return decide(posed, margin=margin, seed=project.study.seed, independent=independent, time_limit=time_limit)
+    return decide(
+        posed,
+        margin=margin,
+        last_of_equals=project.study.trade_off.last_of_equals,
+        seed=project.study.seed,
+        independent=independent,
+        time_limit=time_limit,
+    )
 
 
 def proportion_measures(project: Project) -> frozenset[str]:

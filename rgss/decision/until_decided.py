@@ -101,14 +101,19 @@ def replicate_until_decided(
     wanted = {variant.id: rule.pilot for variant in variants}
     progress = Progress()
     proportions = proportion_measures(project)
-    twins = _twins(project, variants)
+    twins = trial_twins(project, variants)
     levels = level_numbers(project.designs, sorted(variant.id for variant in variants))
     while True:
         specs = read.missing(wanted)
         run(specs)
         read.read(specs)
         evidence = SequentialEvidence.of(
-            trade_problem(project, read.measured()), proportions, twins=twins, levels=levels
+            trade_problem(project, read.measured(), tolerant=False),
+            proportions,
+            twins=twins,
+            levels=levels,
+            tolerance=project.study.trade_off.tolerance,
+            last_of_equals=project.study.trade_off.last_of_equals,
         )
         answer = next_batch(evidence, rule, progress)
         progress = answer.progress
@@ -138,8 +143,16 @@ def replicate_until_decided(
     )
 
 
-def _twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[int, int]:
-    """By variant, the first one whose trials are the same whatever the seed: the two differ in what no trial sees."""
+def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[int, int]:
+    """The variants with the same trials whatever the seed, which differ in what no trial sees.
+
+    Args:
+        project: The project.
+        variants: The variants.
+
+    Returns:
+        By variant, the first one that has its trials.
+    """
     first: dict[str, int] = {}
     found = {}
     for spec in trial_specs(project, variants=variants, seeds=[project.study.seed]):

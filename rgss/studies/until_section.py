@@ -31,6 +31,7 @@ class UntilDecidedEntry(DocumentModel):
     cap: _Count = _DEFAULT.cap
     verdict_cap: Annotated[int, Field(ge=0, le=MOST_TRIALS)] = _DEFAULT.verdict_cap
     budget: Annotated[int, Field(ge=1)] | None = None
+    finalists: Annotated[int, Field(ge=2)] | None = None
 
 
 def read_until_decided(
@@ -78,6 +79,8 @@ def _problems(entry: UntilDecidedEntry, pilot: int, replicates: int) -> list[tup
             found.append(
                 (key if key in entry.model_fields_set else "cap", message, "raise the cap, or lower the other")
             )
+    if entry.finalists is not None and entry.budget is None:
+        found.append(("finalists", "finalists are those that a budget is spent on", "give a budget too"))
     if pilot < replicates:
         message = f"pilot must be at least the study's replicates, {replicates}, got {pilot}"
         found.append(("pilot", message, "raise it, or lower the replicates"))

@@ -35,6 +35,7 @@ def decide(
     problem: TradeProblem,
     *,
     margin: float = 0.0,
+    last_of_equals: bool = False,
     seed: int = 0,
     resamples: int | None = None,
     independent: tuple[SolverRun, ...] = (),
@@ -43,13 +44,14 @@ def decide(
     """Choose the best feasible alternative, prove it, and explain it.
 
     The mixed-integer programs are solved to optimality and the answer is compared with exhaustive enumeration.
-    Of tied alternatives the solver may return any; the decision is the smallest id.
+    Of tied alternatives the solver may return any; the decision is the smallest id, or the largest.
 
     Args:
         problem: The trade-off.
         margin: The practical margin: feasible alternatives whose value, distance or regret is
             within it of the best are listed as near-ties. Programs that look at quantities take
             the tolerance of their last measure instead.
+        last_of_equals: Whether the largest id of tied alternatives is chosen; the smallest otherwise.
         seed: Seed of the draws that test a conflict against the noise of the replicates.
         resamples: How many draws; 0 for none, 1,000 by default, fewer where alternatives are many.
         independent: Runs of other solvers than HiGHS; each solves the whole program as a further check.
@@ -81,6 +83,9 @@ def decide(
     certificate = _certified(problem, enumeration, (), independent, time_limit)
     ties = tuple(int(variant) for variant in enumeration.variants[enumeration.tied])
     ranking = rank(enumeration)
+    if last_of_equals:
+        ties = ties[::-1]
+        ranking = (*(ranking[: len(ties)][::-1]), *ranking[len(ties) :])
     chosen = ties[0] if ties else None
     runner_up = find_runner_up(enumeration, ranking, ties)
     better, deciding_requirements, better_count = excluded_better(enumeration)

@@ -113,7 +113,7 @@ class Decision:
         objectives: What it optimises, in turn.
         status: Optimal, or infeasible when no alternative meets every requirement; then nothing
             is chosen and the conflicts say why.
-        chosen: Among the tied best, the smallest id.
+        chosen: Among the tied best, the smallest id, or the largest where it is asked for.
         near_ties: Feasible alternatives that are not tied but come within the practical margin of
             the best, in the order of the ranking.
         runner_up: The next in the ranking that is not tied; if all feasible

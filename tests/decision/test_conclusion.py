@@ -11,7 +11,7 @@ from rgss.decision.choosing import trade_problem
 from rgss.decision.robustness import robustness
 from rgss.decision.study_decision import Conclusion, DesignStanding, Feasibility, decide_study
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
-from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
+from rgss.reports.decision.conclusion import headline, rule_sentence, standing_sentence, uncertainty_sentences
 from rgss.tradeoff.robustness import Rival
 
 
@@ -166,3 +166,44 @@ def test_a_study_may_ask_that_feasibility_is_shown(shipped, measured):
     problem = trade_problem(strict, measured)
     assert {"S.low", "t_e_simulated.high", "t_p.high", "P_max"} <= {one.measure for one in problem.thresholds}
     assert not problem.feasible_alternatives(at_most=100)
+
+
+def test_every_page_states_the_rule_of_the_choice(made):
+    ruled = dataclasses.replace(made, tolerance=0.05, last_of_equals=True)
+    sentence = (
+        "Rule: of the variants whose estimates miss no threshold by more than 5 % of it, the one of the highest value "
+        "is chosen; of equals the largest id."
+    )
+    assert sentence in list(decision_lines(ruled))
+    assert sentence in decision_section(ruled)
+    assert sentence in decision_part(ruled)["standing"]
+    rule = trade_document(ruled)["conclusion"]["rule"]
+    margin = made.practical_margin
+    assert rule == {"sentence": sentence, "practical_margin": margin, "tolerance": 0.05, "of_equals": "last"}
+    assert rule_sentence(dataclasses.replace(made, tolerance=0.0)) == (
+        "Rule: of the variants whose estimates meet every requirement, the one of the highest value is chosen; of "
+        "equals the smallest id."
+    )
+
+
+def test_the_probability_that_is_stated_is_that_of_being_within_the_margin(made):
+    weighting = made.robustness.analysis.weighting
+    one = dataclasses.replace(weighting.uncertainty, good=0.75)
+    weighting = dataclasses.replace(weighting, uncertainty=one)
+    analysis = dataclasses.replace(made.robustness.analysis, weighting=weighting)
+    stated = dataclasses.replace(
+        made, robustness=dataclasses.replace(made.robustness, analysis=analysis), practical_margin=0.05, tolerance=0.1
+    )
+    first, second = list(uncertainty_sentences(stated))[:2]
+    chosen = made.decision.chosen
+    assert first.startswith(
+        f"Probability that variant {chosen} is feasible and the best, or worth less than it by at most the practical "
+        "margin of 0.05: 75 %; that it is feasible: "
+    )
+    assert second == (
+        "Feasible is here what misses no threshold on what trials observe by more than 10 % of it, the tolerance of "
+        "the choice; verdicts have none."
+    )
+    assert next(uncertainty_sentences(dataclasses.replace(stated, practical_margin=0.0))).startswith(
+        f"Probability that variant {chosen} is feasible and best: 75 %"
+    )

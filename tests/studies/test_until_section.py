@@ -122,6 +122,15 @@ def test_mistakes_are_found_at_their_place(section, place_of, problems, old, new
     assert message in found
 
 
+def test_finalists_without_a_budget_are_found(section, place_of, problems):
+    section("until_decided: {finalists: 6}\n")
+    (found,) = problems()
+    assert found == (
+        f"{place_of(STUDY, '6}')}: error: finalists are those that a budget is spent on (give a budget too) "
+        "[study.until-decided]"
+    )
+
+
 def test_a_cap_below_a_default_is_found_at_the_cap(section, place_of, problems):
     section("until_decided: {cap: 12}\n")
     (found,) = problems()

@@ -388,3 +388,13 @@ def test_the_runner_up_where_more_are_tied_than_are_listed(build_problem, monkey
     monkeypatch.setattr(rgss.tradeoff.explanation, "LONGEST_LIST", 3)
     decision = decide(build_problem({variant: {"a": 0.5 if variant < 6 else 0.4} for variant in range(1, 9)}))
     assert (decision.ties, decision.runner_up) == ((1, 2, 3, 4, 5), 6)
+
+
+def test_of_equals_the_last_may_be_chosen(build_problem):
+    rows = {1: {"a": 0.7}, 2: {"a": 0.6}, 3: {"a": 0.7}, 4: {"a": 0.7}}
+    problem = build_problem(rows)
+    first, last = decide(problem), decide(problem, last_of_equals=True)
+    assert (first.chosen, first.ties) == (1, (1, 3, 4))
+    assert (last.chosen, last.ties) == (4, (4, 3, 1))
+    assert [one.variant for one in last.ranking] == [4, 3, 1, 2]
+    assert last.runner_up == first.runner_up == 2

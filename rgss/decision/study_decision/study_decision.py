@@ -48,6 +48,8 @@ class StudyDecision:
         gains: The gains of the choice over the runner-up, in the order of the weights.
         closest_limits: The limits that the choice comes closest to.
         practical_margin: Differences in value below this are of no practical meaning.
+        tolerance: Share of a threshold on what trials observe by which the choice may miss it.
+        last_of_equals: Whether the largest id of equals is chosen; the smallest otherwise.
         double_counted: Valued measures of which one contains the other.
         shared_parts: Valued measures that depend on measures in common.
         robustness: What nearly won and what would change the decision; None if not analysed.
@@ -90,6 +92,8 @@ class StudyDecision:
     drivers: DriversOfFailures | None = None
     cases: tuple[CaseSuccess, ...] = ()
     seeds: tuple[SeedGroup, ...] = ()
+    tolerance: float = 0.0
+    last_of_equals: bool = False
 
     @property
     def is_final(self) -> bool:
@@ -223,6 +227,8 @@ def study_decision(
         gains=gains_over_runner_up(decision),
         closest_limits=closest_limits(problem, decision.chosen),
         practical_margin=project.study.trade_off.practical_margin,
+        tolerance=project.study.trade_off.tolerance,
+        last_of_equals=project.study.trade_off.last_of_equals,
         double_counted=double_counting(project),
         shared_parts=shared_measures(project),
         robustness=None if found is None else robustness_findings(project, found),

@@ -38,6 +38,20 @@ def headline(made: StudyDecision) -> str:
     return f"Variant {made.decision.chosen} {words}: {counts}"
 
 
+def rule_sentence(made: StudyDecision) -> str:
+    """The rule of the choice.
+
+    Args:
+        made: The decision.
+    """
+    within = "meet every requirement"
+    if made.tolerance:
+        within = f"miss no threshold by more than {share_text(made.tolerance)} of it"
+    value = "of the highest value" if made.decision.program == "additive" else f"that {made.decision.program} prefers"
+    end = "largest" if made.last_of_equals else "smallest"
+    return f"Rule: of the variants whose estimates {within}, the one {value} is chosen; of equals the {end} id."
+
+
 def standing_sentence(made: StudyDecision) -> str:
     """The verdicts on the choice, counted, with the ids of those that are open and missed; empty without a choice.
 
@@ -93,16 +107,29 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
     if found is None or weighting is None or weighting.uncertainty is None:
         return
     one = weighting.uncertainty
-    best, feasible = float(one.best[one.chosen]), float(one.feasible[one.chosen])
+    good = "best"
+    if made.practical_margin:
+        good = f"the best, or worth less than it by at most the practical margin of {made.practical_margin:g}"
     yield (
-        f"Probability that variant {made.decision.chosen} is feasible and best: {share_in_words(best)}; that it is "
-        f"feasible: {share_in_words(feasible)}; that no variant is feasible: {share_in_words(one.none_feasible)}."
+        f"Probability that variant {made.decision.chosen} is feasible and {good}: {share_in_words(one.good)}; that it "
+        f"is feasible: {share_in_words(float(one.feasible[one.chosen]))}; that no variant is feasible: "
+        f"{share_in_words(one.none_feasible)}."
     )
+    if made.tolerance:
+        yield (
+            "Feasible is here what misses no threshold on what trials observe by more than "
+            f"{share_text(made.tolerance)} of it, the tolerance of the choice; verdicts have none."
+        )
     yield from _ties(found, one)
     gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains)
     yield (
         f"Expected gain of value by more replicates of every variant: {gains}; by perfect knowledge: {one.perfect:.4f}."
     )
+
+
+def share_text(share: float) -> str:
+    """A share as it is stated, such as 5 %."""
+    return f"{100.0 * share:.3g} %"
 
 
 def _ties(found: RobustnessFindings, one: ChoiceUncertainty) -> Iterator[str]:

@@ -11,7 +11,13 @@ from rgss.documents import LARGEST_FILE_BYTES, chunks_of
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible
 from rgss.reports.decision.assumption_rows import ASSUMPTION_HEADS, assumption_rows, assumption_sentences
-from rgss.reports.decision.conclusion import headline, seeds_sentences, standing_sentence, uncertainty_sentences
+from rgss.reports.decision.conclusion import (
+    headline,
+    rule_sentence,
+    seeds_sentences,
+    standing_sentence,
+    uncertainty_sentences,
+)
 from rgss.reports.decision.words import UNKNOWN, amount, ids_text, moves_text, score, variants_text
 from rgss.trace.views import share_in_words
 
@@ -91,7 +97,8 @@ def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
         f"{decision.counts.feasible} of them meet every requirement by their estimates."
     )
     yield ""
-    lines = (headline(made), standing_sentence(made), *uncertainty_sentences(made), *seeds_sentences(made.seeds))
+    standing = (headline(made), standing_sentence(made), rule_sentence(made))
+    lines = (*standing, *uncertainty_sentences(made), *seeds_sentences(made.seeds))
     yield from (f"- {line}" for line in lines if line)
     yield ""
     shown = len(compared.variants)

@@ -8,7 +8,13 @@ from rgss.decision import screening_summary
 from rgss.decision.robustness import not_computed_lines
 from rgss.decision.study_decision import LimitMoves, RobustnessFindings, StudyDecision
 from rgss.reports.decision.assumption_rows import ASSUMPTION_HEADS, assumption_rows, assumption_sentences
-from rgss.reports.decision.conclusion import headline, seeds_sentences, standing_sentence, uncertainty_sentences
+from rgss.reports.decision.conclusion import (
+    headline,
+    rule_sentence,
+    seeds_sentences,
+    standing_sentence,
+    uncertainty_sentences,
+)
 from rgss.reports.decision.json import assumptions_to_json, costs_to_json
 from rgss.reports.decision.report_conflicts import conflict_reasons
 from rgss.reports.decision.sentences import cautions, no_portfolio, portfolio_proof, reading_lines, reasons
@@ -42,7 +48,12 @@ def decision_part(made: StudyDecision) -> Plain:
         "headline": headline(made),
         "standing": [
             line
-            for line in (standing_sentence(made), *uncertainty_sentences(made), *seeds_sentences(made.seeds))
+            for line in (
+                standing_sentence(made),
+                rule_sentence(made),
+                *uncertainty_sentences(made),
+                *seeds_sentences(made.seeds),
+            )
             if line
         ],
         "reasons": _reasons(made),

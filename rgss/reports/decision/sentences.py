@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from rgss.decision.study_decision import StudyDecision
 from rgss.measures import ModelGap
+from rgss.reports.decision.conclusion import share_text
 from rgss.reports.decision.flat_sentences import flat_sentences
 from rgss.reports.decision.words import amount, ids_text, variants_text
 from rgss.trace.views import share_in_words, value_in_words
@@ -41,11 +42,13 @@ def reasons(made: StudyDecision) -> Iterator[Reason]:
     )
     feasible = decision.counts.feasible
     among = "is the one variant that meets" if feasible == 1 else f"of the {feasible} variants that meet"
-    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement by the estimates.")
+    within = f", within the tolerance of {share_text(made.tolerance)}" if made.tolerance else ""
+    yield Reason(text=f"Variant {decision.chosen} {best} {among} every requirement by the estimates{within}.")
     others = [variant for variant in decision.ties if variant != decision.chosen]
     if others:
         names = ", ".join(map(str, others))
-        yield Reason(text=f"Variants {names} have the same value; the smallest id is chosen.")
+        end = "largest" if made.last_of_equals else "smallest"
+        yield Reason(text=f"Variants {names} have the same value; the {end} id is chosen.")
     if decision.near_ties:
         near = variants_text(decision.near_ties)
         yield Reason(text=f"Within the practical margin of {made.practical_margin:g} of it: {near}.")

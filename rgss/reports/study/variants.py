@@ -126,6 +126,7 @@ def weight_columns(project: Project, found: Robustness) -> Plain:
             for place, (measure, weight) in enumerate(zip(found.measures, found.weights.tolist(), strict=True))
         ],
         "practical_margin": project.study.trade_off.practical_margin,
+        "of_equals": "last" if project.study.trade_off.last_of_equals else "first",
     }
 
 

@@ -17,7 +17,7 @@ const worth = (place, weights) => {
   }
   return value;
 };
-// As the trade-off ranks: of those within a tie of the best the smallest id first, then the rest.
+// As the trade-off ranks: of those within a tie of the best the smallest id first, or the largest, then the rest.
 const ranked = (weights, places) => {
   const found = [];
   for (const place of places) {
@@ -29,6 +29,7 @@ const ranked = (weights, places) => {
     let end = first + 1;
     while (end < found.length && found[first].value - found[end].value <= TIE) end += 1;
     const tied = found.slice(first, end).sort((one, other) => variants.id[one.place] - variants.id[other.place]);
+    if (first === 0 && data.weights.of_equals === "last") tied.reverse();
     tied.forEach((one, index) => { found[first + index] = one; });
     first = end;
   }

@@ -192,6 +192,8 @@ class TradeOffEntry(DocumentModel):
     chance: tuple[ChanceEntry, ...] = ()
     tail: tuple[TailEntry, ...] = ()
     practical_margin: Dimensionless = 0.0
+    tolerance: Dimensionless = 0.0
+    of_equals: Literal["first", "last"] = "first"
     choose: Literal["variants", "levels"] = "variants"
     feasible_by: Literal["estimates", "verdicts"] = "estimates"
     portfolio: PortfolioEntry | None = None

@@ -42,6 +42,9 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
     if not 0.0 <= entry.accept_within <= 1.0:
         message = f"accept_within must be from 0 to 1, got {entry.accept_within:g}"
         places.report("stakeholders", message, (*SECTION, "accept_within"), hint="a difference of value, such as 0.05")
+    if not 0.0 <= entry.tolerance < 1.0:
+        message = f"tolerance must be from 0 to below 1, got {entry.tolerance:g}"
+        places.report("tolerance", message, (*SECTION, "tolerance"), hint="a share of each threshold, such as 5 %")
     if entry.practical_margin < 0.0:
         message = f"the practical margin is {entry.practical_margin:g}"
         places.report("margin", message, (*SECTION, "practical_margin"), hint="give a value from 0 on, such as 0.01")
@@ -62,6 +65,8 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         program=program,
         risks=risks,
         practical_margin=entry.practical_margin,
+        tolerance=entry.tolerance,
+        last_of_equals=entry.of_equals == "last",
         choose_levels=entry.choose == "levels",
         shown_feasible=entry.feasible_by == "verdicts",
         portfolio=portfolio,

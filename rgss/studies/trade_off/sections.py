@@ -35,6 +35,8 @@ class TradeOff:
         program: The program that decides.
         risks: What is demanded of the replicates.
         practical_margin: Alternatives within it of the best are near-ties.
+        tolerance: Share of a threshold by which the estimate of a measure from trials may miss it; verdicts have none.
+        last_of_equals: Whether the last of the design space is chosen of designs of the same value, not the first.
         choose_levels: Whether levels of factors are chosen instead of variants.
         shown_feasible: Whether a choice must be shown to meet the requirements, by the end of the
             interval that a verdict needs; by its estimates otherwise.
@@ -52,6 +54,8 @@ class TradeOff:
     program: StatedProgram = field(default_factory=AdditiveValue)
     risks: tuple[RiskChoice, ...] = ()
     practical_margin: float = 0.0
+    tolerance: float = 0.0
+    last_of_equals: bool = False
     choose_levels: bool = False
     shown_feasible: bool = False
     portfolio: PortfolioEntry | None = None

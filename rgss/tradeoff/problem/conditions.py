@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rgss.errors import TradeoffError
@@ -108,6 +108,11 @@ class Threshold(BoundedMeasure):
     def is_met_by(self, quantity: float | None) -> bool:
         """Tell whether a quantity meets the threshold; an unknown one (None) does not."""
         return self.comparison.holds(quantity, self.value)
+
+    def tolerated(self, share: float) -> Threshold:
+        """The threshold that may be missed by a share of its magnitude."""
+        better = math.copysign(share * abs(self.value), self.comparison.margin(1.0, 0.0))
+        return replace(self, value=self.value - better)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,9 +13,12 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 
+import numpy as np
+
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.probability import probabilities_of_loss
 from rgss.tradeoff.sequential.rule import SequentialRule
+from rgss.tradeoff.sequential.settling import INFEASIBLE, Progress
 
 COVERED = 0.8
 """Posterior probability that the best is among the alternatives that are replicated next."""
@@ -24,6 +27,7 @@ FEWEST_RAISED = 2
 """Alternatives that a part of a look is for, at least."""
 
 _ROUNDING = 1e-12
+_EQUAL = 1e-9
 
 
 def likely_better(
@@ -55,6 +59,62 @@ def likely_better(
         covered += open_[variant]
         members.append(variant)
     return tuple(members)
+
+
+def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int) -> tuple[int, ...]:
+    """The alternatives that a budget is spent on: those that would be chosen, then those that may come to be.
+
+    The first are those of the highest value among the feasible by the estimates, equals together: whoever leads by a
+    few lucky replicates is given as many as the others, which ends it, so that the choice rests on the most replicates.
+    The others are taken by what they would be worth if their estimates erred to their disadvantage by a standard error
+    (`SequentialEvidence.hopes`), an upper confidence bound as in Auer, Cesa-Bianchi and Fischer ("Finite-time analysis
+    of the multiarmed bandit problem", 2002): an unlucky pilot does not end anyone. All are brought to the same number
+    of replicates, and so to the same seeds, on which alternatives that differ in few trials are told apart.
+
+    Args:
+        evidence: The evidence so far.
+        progress: What earlier looks found: who is proven to be infeasible does not lead.
+        finalists: So many lead, and all that are equal to the first.
+
+    Returns:
+        Their ids, the first one leading.
+    """
+    possible = [
+        row
+        for row, variant in enumerate(evidence.table.variants.tolist())
+        if evidence.fixed_met[row] and progress.dropped.get(variant) != INFEASIBLE
+    ]
+    feasible = [row for row in possible if evidence.feasible[row]]
+    highest = max((float(evidence.values[row]) for row in feasible), default=-math.inf)
+    first = [row for row in feasible if evidence.values[row] >= highest - _EQUAL]
+    hopes = evidence.hopes()
+    values = np.nan_to_num(hopes.values, nan=-math.inf)
+    others = sorted(
+        (row for row in possible if row not in first), key=lambda row: (hopes.shortfalls[row], -values[row], row)
+    )
+    leading = [*first, *others[: max(0, finalists - len(first))]]
+    return tuple(int(evidence.table.variants[row]) for row in leading)
+
+
+def levelled(evidence: SequentialEvidence, rule: SequentialRule, leading: Sequence[int]) -> Mapping[int, int]:
+    """The number of replicates that each of the leading alternatives should have after the next look, all the same.
+
+    Args:
+        evidence: The evidence so far.
+        rule: The rule.
+        leading: The alternatives.
+
+    Returns:
+        The numbers; empty where the cap is reached, or the budget has no room for one replicate of each.
+    """
+    ran = {variant: int(evidence.replicates[evidence.table.row_of(variant)]) for variant in leading}
+    fewest = min((ran[variant] for variant in leading), default=rule.cap)
+    left = math.inf if rule.budget is None else rule.budget - int(evidence.replicates.sum())
+    for target in range(min(fewest + rule.batch, rule.cap), fewest, -1):
+        raised = {variant: target for variant in leading if ran[variant] < target}
+        if sum(target - ran[variant] for variant in raised) <= left:
+            return raised
+    return {}
 
 
 def raised_together(evidence: SequentialEvidence, rule: SequentialRule, members: Sequence[int]) -> Mapping[int, int]:

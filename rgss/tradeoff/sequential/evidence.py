@@ -43,6 +43,17 @@ class Observed:
         values = self.values[row, after:]
         return values[~np.isnan(values)]
 
+    def standard_errors(self) -> NDArray[np.float64]:
+        """The standard error of each alternative's estimate, shape (n,); 0 for a mean of one replicate or none."""
+        known = ~np.isnan(self.values)
+        counts = known.sum(axis=1)
+        if self.is_proportion:
+            share = (np.where(known, self.values, 0.0).sum(axis=1) + 1.0) / (counts + 2.0)
+            return np.asarray(np.sqrt(share * (1.0 - share) / np.maximum(counts, 1)), dtype=np.float64)
+        means = np.where(known, self.values, 0.0).sum(axis=1) / np.maximum(counts, 1)
+        squares = (np.where(known, self.values - means[:, None], 0.0) ** 2).sum(axis=1)
+        return np.asarray(np.sqrt(squares / np.maximum(counts * (counts - 1.0), 1.0)), dtype=np.float64)
+
     @property
     def least(self) -> float:
         """The smallest quantity that meets every threshold."""
@@ -59,6 +70,20 @@ class Observed:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Hopes:
+    """What n alternatives come to if their estimates err to their disadvantage.
+
+    Attributes:
+        values: Weighted value, shape (n,); NaN where a measure is unknown.
+        shortfalls: The largest share of a threshold by which each still misses one, the tolerance granted, shape (n,);
+            0 where every threshold is kept, infinite where a measure is unknown or the design misses one.
+    """
+
+    values: NDArray[np.float64]
+    shortfalls: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SequentialEvidence:
     """Evidence on n alternatives.
 
@@ -70,7 +95,9 @@ class SequentialEvidence:
         fixed_value: What the measures that follow from the design add to the value, shape (n,).
         fixed_met: Which alternatives meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
-        feasible: Which alternatives meet everything by their estimates, shape (n,).
+        feasible: Which alternatives meet everything by their estimates, but for the tolerance, shape (n,).
+        tolerance: Share of a threshold on what trials observe by which the choice may miss it.
+        last_of_equals: Whether the largest id of equals is the choice; the smallest otherwise.
         twins: The group of alternatives with which each has all trials in common, whatever the seed, shape (n,).
         levels: The level of each alternative in each factor of its design, shape (n, f), from which posterior draws
             learn; None where designs are not made of levels.
@@ -86,6 +113,8 @@ class SequentialEvidence:
     feasible: NDArray[np.bool_]
     twins: NDArray[np.intp]
     levels: NDArray[np.intp] | None = None
+    tolerance: float = 0.0
+    last_of_equals: bool = False
 
     @staticmethod
     def of(
@@ -94,6 +123,8 @@ class SequentialEvidence:
         *,
         twins: Mapping[int, int] | None = None,
         levels: NDArray[np.intp] | None = None,
+        tolerance: float = 0.0,
+        last_of_equals: bool = False,
     ) -> SequentialEvidence:
         """The evidence of a trade-off.
 
@@ -102,6 +133,8 @@ class SequentialEvidence:
             proportions: The measures that are shares of trials.
             twins: By alternative, the group with which it has all trials in common; each its own by default.
             levels: The level of each alternative, by ascending id, in each factor of its design, shape (n, f).
+            tolerance: As the attribute.
+            last_of_equals: As the attribute.
 
         Raises:
             TradeoffError: The trade-off is none of weighted values under thresholds on estimates.
@@ -133,6 +166,7 @@ class SequentialEvidence:
                 )
             )
         fixed = [one for one in problem.thresholds if one.measure not in table.samples]
+        admitted = [one if one in fixed else one.tolerated(tolerance) for one in problem.thresholds]
         return SequentialEvidence(
             table=table,
             replicates=_replicates(table),
@@ -141,9 +175,11 @@ class SequentialEvidence:
             fixed_value=fixed_value,
             fixed_met=_met(table, fixed),
             values=values,
-            feasible=_met(table, problem.thresholds) & ~np.isnan(values),
+            feasible=_met(table, admitted) & ~np.isnan(values),
             twins=np.array([(twins or {}).get(each, each) for each in table.variants.tolist()], dtype=np.intp),
             levels=levels,
+            tolerance=tolerance,
+            last_of_equals=last_of_equals,
         )
 
     def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:
@@ -183,6 +219,29 @@ class SequentialEvidence:
                 missed = threshold.comparison.margin(1.0, 0.0) * (column - threshold.value) < 0.0
                 values[missed] = np.nan
         return values
+
+    def hopes(self) -> Hopes:
+        """The evidence if every estimate from trials were better by one standard error.
+
+        That of a proportion is of its posterior mean under a uniform prior, so that it is not 0 where all replicates
+        succeeded or all failed.
+        """
+        values = self.fixed_value.copy()
+        short = np.where(self.fixed_met, 0.0, np.inf)
+        for one in self.observed:
+            column, error = self.table.column(one.measure), one.standard_errors()
+            low, high = column - error, column + error
+            if one.is_proportion:
+                low, high = np.maximum(low, 0.0), np.minimum(high, 1.0)
+            if one.function is not None:
+                values += one.weight * np.fmax(_worth(one.function, low), _worth(one.function, high))
+            for required in one.thresholds.values():
+                threshold = required.tolerated(self.tolerance)
+                best = high if threshold.comparison is Comparison.AT_LEAST else low
+                missed = threshold.comparison.margin(1.0, 0.0) * (threshold.value - best)
+                share = missed / max(abs(threshold.value), np.finfo(np.float64).tiny)
+                short = np.maximum(short, np.where(np.isnan(best), np.inf, share))
+        return Hopes(values=values, shortfalls=short)
 
     def is_nearly_feasible(self, row: int, slack: float) -> bool:
         """Tell whether an alternative's estimates miss no threshold by more than a share of it.

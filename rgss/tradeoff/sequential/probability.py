@@ -36,7 +36,7 @@ def probability_of_good_selection(
         draws: How many.
 
     Returns:
-        The share of the draws in which the choice is feasible and good, or nothing is feasible.
+        The share of the draws in which the choice is feasible, within the tolerance, and good, or nothing is.
     """
     values, feasible = _posterior(evidence, draws=draws, seed=seed)
     if chosen is None:
@@ -83,7 +83,8 @@ def _posterior(evidence: SequentialEvidence, *, draws: int, seed: int) -> tuple[
         if one.function is not None:
             worth = one.function.values_at(np.where(known, drawn, 0.0).ravel()).reshape(drawn.shape)
             values += np.where(known, one.weight * worth, np.nan)
-        for threshold in one.thresholds.values():
+        for required in one.thresholds.values():
+            threshold = required.tolerated(evidence.tolerance)
             margins = threshold.comparison.margin(1.0, 0.0) * (drawn - threshold.value)
             feasible &= known & (margins >= -1e-12)
     return values, feasible & ~np.isnan(values)

@@ -24,6 +24,8 @@ class SequentialRule:
         cap: Most replicates of an alternative.
         verdict_cap: Most replicates of an alternative that only its verdicts need.
         budget: Most replicates of all alternatives together; None for no such limit.
+        finalists: Number of leading alternatives that a budget is spent on, kept at the same seeds; None to spend it by
+            posterior probability.
 
     Raises:
         TradeoffError: A number is out of its range.
@@ -37,6 +39,7 @@ class SequentialRule:
     cap: int = 200
     verdict_cap: int = 16
     budget: int | None = None
+    finalists: int | None = None
 
     def __post_init__(self) -> None:
         if not 0.0 < self.error_rate < 1.0:
@@ -50,6 +53,10 @@ class SequentialRule:
             raise TradeoffError(
                 f"a pilot of {self.pilot} and batches of {self.batch} replicates are too small",
                 hint="give a pilot of at least 2 and batches of at least 1",
+            )
+        if self.finalists is not None and self.finalists < 2:
+            raise TradeoffError(
+                f"finalists must be at least 2, got {self.finalists}", hint="one alternative is compared with nothing"
             )
         if self.cap < self.pilot or not 0 <= self.verdict_cap <= self.cap:
             raise TradeoffError(

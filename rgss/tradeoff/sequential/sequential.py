@@ -31,7 +31,7 @@ import numpy as np
 
 from rgss.measures import Verdict
 from rgss.tradeoff.problem import EVIDENCE_PREFIX
-from rgss.tradeoff.sequential.allocation import likely_better, raised_together
+from rgss.tradeoff.sequential.allocation import leaders, levelled, likely_better, raised_together
 from rgss.tradeoff.sequential.comparison import is_infeasible, threshold_evidence
 from rgss.tradeoff.sequential.evidence import SequentialEvidence
 from rgss.tradeoff.sequential.rule import SequentialRule, affordable_replicates, check_pilot
@@ -123,7 +123,10 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     open_pairs = unsettled(evidence, rule, progress, chosen, ids)
     accepted = chosen is not None and is_accepted(evidence, rule, progress, chosen)
     decided = (accepted and not open_pairs) or not any(progress.dropped.get(each) != INFEASIBLE for each in ids)
-    if rule.budget is not None and not decided:
+    if rule.budget is not None and rule.finalists is not None and not decided:
+        leading = leaders(evidence, progress, rule.finalists)
+        wanted, affordable = dict.fromkeys(leading, rule.cap), levelled(evidence, rule, leading)
+    elif rule.budget is not None and not decided:
         members = likely_better(evidence, rule, chosen, open_pairs, seed=progress.looks)
         wanted = dict.fromkeys(members, rule.cap)
         affordable = raised_together(evidence, rule, members)
@@ -253,7 +256,7 @@ def _is_beaten(evidence: SequentialEvidence, rule: SequentialRule, row: int, riv
 
 
 def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focused: bool) -> int | None:
-    """The contender of the highest value that is feasible by its estimates; the smallest id of ties.
+    """The contender of the highest value that is feasible by its estimates; the smallest id of ties, or the largest.
 
     Only those with the most replicates count: who was left alone is known too vaguely to lead. Under a budget
     all count, for whoever leads is replicated first, and the assessment reads the same estimates.
@@ -262,7 +265,7 @@ def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focuse
     most = max((evidence.replicates[row] for row in rows), default=0)
     known = [row for row in rows if focused or evidence.replicates[row] == most]
     best = _best(known, evidence.values.tolist())
-    return int(evidence.table.variants[best[0]]) if best else None
+    return int(evidence.table.variants[best[-1 if evidence.last_of_equals else 0]]) if best else None
 
 
 def _settled(evidence: SequentialEvidence, rule: SequentialRule, progress: Progress) -> dict[tuple[int, int], bool]:

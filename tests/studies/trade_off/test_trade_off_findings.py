@@ -200,6 +200,8 @@ FINDINGS = [
     ),
     # margins
     ((*BOTH, "practical_margin: -0.1"), "5:21: error: the practical margin is -0.1"),
+    ((*BOTH, "tolerance: 100 %"), "5:14: error: tolerance must be from 0 to below 1, got 1"),
+    ((*BOTH, "tolerance: -0.1"), "5:14: error: tolerance must be from 0 to below 1, got -0.1"),
     (
         (*BOTH, "practical_margin: 0.1", "decide_by: {program: lexicographic, order: [{measure: t_e}]}"),
         "5:21: error: the lexicographic program compares quantities, not values",

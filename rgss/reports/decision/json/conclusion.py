@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rgss.decision.study_decision import DesignStanding, Feasibility, StudyDecision
-from rgss.reports.decision.conclusion import headline
+from rgss.reports.decision.conclusion import headline, rule_sentence
 
 Plain = dict[str, object]
 
@@ -17,6 +17,12 @@ def conclusion_to_json(made: StudyDecision) -> Plain:
     found = made.conclusion
     return {
         "headline": headline(made),
+        "rule": {
+            "sentence": rule_sentence(made),
+            "practical_margin": made.practical_margin,
+            "tolerance": made.tolerance,
+            "of_equals": "last" if made.last_of_equals else "first",
+        },
         "counts": {kind.value: found.count(kind) for kind in Feasibility},
         "open_by": list(found.open_by),
         "unmeasured": list(found.unmeasured),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rgss.decision.study_decision import SideBySide, StudyDecision
-from rgss.reports.decision.conclusion import headline, standing_sentence, uncertainty_sentences
+from rgss.reports.decision.conclusion import headline, rule_sentence, standing_sentence, uncertainty_sentences
 from rgss.reports.decision.sentences import certificate_sentence, no_portfolio, notable_checks, portfolio_proof, reasons
 from rgss.reports.decision.text.conflicts import conflict_lines
 from rgss.reports.decision.words import score
@@ -27,6 +27,7 @@ def choice_lines(made: StudyDecision) -> Iterator[str]:
         return
     yield headline(made)
     yield standing_sentence(made)
+    yield rule_sentence(made)
     yield from uncertainty_sentences(made)
     yield ""
     yield from _comparison(made.comparison)
