@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rgss.api.column import Column, Kind
-from rgss.trials import METRICS, PHASE_METRICS, PhaseValue
+from rgss.trials import METRICS, PHASE_METRICS, MetricDescriptor, PhaseValue
 
 _HAS_ITS_OWN_COLUMN = "success"
 
@@ -11,7 +11,7 @@ _HAS_ITS_OWN_COLUMN = "success"
 def trial_metric_columns() -> tuple[Column, ...]:
     """The columns of a trial's metrics, in the order in which a record has them; a row is one column here."""
     return tuple(
-        Column(name=name, unit=metric.unit, meaning=metric.meaning_in_trial, kind=Kind.NUMBER, items=metric.length)
+        Column(name=name, unit=metric.unit, meaning=metric.meaning_in_trial, kind=Kind.NUMBER, items=_items(metric))
         for name, metric in METRICS.items()
         if name != _HAS_ITS_OWN_COLUMN
     )
@@ -20,7 +20,7 @@ def trial_metric_columns() -> tuple[Column, ...]:
 def phase_metric_columns() -> tuple[Column, ...]:
     """The columns of a phase's observed metrics; those that a trial has too are of the phase alone."""
     return tuple(
-        Column(name=name, unit=metric.unit, meaning=metric.meaning_in_phase, kind=Kind.NUMBER, items=metric.length)
+        Column(name=name, unit=metric.unit, meaning=metric.meaning_in_phase, kind=Kind.NUMBER, items=_items(metric))
         for name, metric in PHASE_METRICS.items()
         if metric.phase is PhaseValue.OBSERVED
     )
@@ -35,3 +35,8 @@ def recorded_column(name: str, kind: Kind = Kind.NUMBER) -> Column:
     """
     metric = PHASE_METRICS[name]
     return Column(name=name, unit=metric.unit, meaning=metric.meaning_in_phase, kind=kind)
+
+
+def _items(metric: MetricDescriptor) -> int | None:
+    """Number of entries of a row; 0 where it follows from the project: fingers, planned moves, joints."""
+    return None if metric.length is None else max(metric.length, 0)

@@ -74,7 +74,7 @@ def make_baseline(
     return Baseline(
         study=project.study.id,
         units=units_of(guard),
-        record=record_schema(),
+        record=record_schema(project),
         phase_record={name: metric.unit for name, metric in PHASE_METRICS.items()},
         runs={trials.run.id: _baseline_run(guard, trials, records, inputs, shared) for trials in watched},
         decision=decision,

@@ -130,7 +130,7 @@ class _Comparing:
             comparisons=tuple(latest[subject] for subject in sorted(latest, key=self._order)),
             behaviour=self._behaviour(inputs),
             failing=(*failing, *unstable),
-            notes=(*self._of_the_baseline(), *schema_notes(self._baseline, record_schema()), *notes),
+            notes=(*self._of_the_baseline(), *schema_notes(self._baseline, record_schema(self._project)), *notes),
             looks=settled.looks,
             trials=dict(self._seeds),
             error_rate=self._guard.error_rate,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from rgss.errors import DefinitionError
-from rgss.studies import RegressionGuard
+from rgss.studies import Project, RegressionGuard
 from rgss.trials import METRICS
 
 LONGEST_REASON = 500
@@ -26,8 +26,14 @@ def units_of(guard: RegressionGuard) -> dict[str, str]:
     return {metric.metric: metric.guard.unit for metric in guard.metrics}
 
 
-def record_schema() -> dict[str, str]:
-    """Unit, and length of a row, of each metric that a record may have."""
+def record_schema(project: Project) -> dict[str, str]:
+    """Unit, and length of a row, of each metric that a record of a project's study may have.
+
+    Args:
+        project: The project with its study.
+    """
+    planned, joints = len(project.study.task.planned), len(project.scene.robot.joints)
+    lengths = {name: kind.length_in_trial(planned=planned, joints=joints) for name, kind in METRICS.items()}
     return {
-        name: kind.unit if kind.length is None else f"{kind.length} × {kind.unit}" for name, kind in METRICS.items()
+        name: kind.unit if lengths[name] is None else f"{lengths[name]} × {kind.unit}" for name, kind in METRICS.items()
     }

@@ -6,7 +6,8 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.identification.calibration import MISFIT, calibration_text
-    from rgss.identification.excitation import ExcitationDocument, load_excitation
+    from rgss.identification.excitation import load_excitation
+    from rgss.identification.excitation_document import ExcitationDocument
     from rgss.identification.fitting import FitStatus, FittedParameter, ServoFit, fit_joint
     from rgss.identification.motion_of_servos import ServoMotion, servo_motion
     from rgss.identification.recording import JointSeries, Recording, Segment

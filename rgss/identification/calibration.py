@@ -45,12 +45,13 @@ def calibration_text(recording: Recording, fits: Sequence[ServoFit], *, file: st
             lines.append(f"    adequate: false  # {MISFIT}")
         for each in fit.parameters:
             key, unit = _KEYS[each.name]
+            unit = unit.replace("rad", recording.unit_of(fit.joint))
             if each.status is FitStatus.DETERMINED and each.interval is not None:
                 low, high = each.interval
                 lines.append(f"    {key}: {each.value:.6g} {unit}  # {low:.6g} to {high:.6g} {unit}")
             else:
                 lines.append(f"    # {key}: {each.status.value}: {each.reason}")
-        lines.append(f"    residual: {max(fit.rms_rad_s.values()):.6g} rad/s")
+        lines.append(f"    residual: {max(fit.rms_rad_s.values()):.6g} {recording.unit_of(fit.joint)}/s")
     lines.extend(f"# {fit.joint}: velocity gain not determined" for fit in fits if fit not in usable)
     return "\n".join(lines) + "\n"
 

@@ -6,67 +6,19 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
-from rgss.documents import (
-    Document,
-    DocumentModel,
-    Hertz,
-    Identifier,
-    Radians,
-    RadiansPerSecond,
-    Seconds,
-    load_document,
-)
+from rgss.documents import Document, JointQuantity, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
-from rgss.scenes import Robot, ServoControl
+from rgss.identification.excitation_document import ExcitationDocument
+from rgss.scenes import JointKind, Robot
 
 Array = NDArray[np.float64]
-Speeds = Annotated[tuple[RadiansPerSecond, ...], Field(min_length=1)]
 _LEAST_PER_CYCLE = 20
 _MOST_RATE_HZ = 10_000.0
-
-
-class StepsEntry(DocumentModel):
-    """Steps of the speed: each speed forwards, then backwards, each for `hold`."""
-
-    speeds: Speeds
-    hold: Seconds
-
-
-class SinesEntry(DocumentModel):
-    """Sine speeds: each amplitude at each frequency, for a number of cycles."""
-
-    amplitudes: Speeds
-    frequencies: Annotated[tuple[Hertz, ...], Field(min_length=1)]
-    cycles: Annotated[int, Field(ge=1, le=100)] = 2
-
-
-class NoiseEntry(DocumentModel):
-    """Standard deviations of the simulated measurements."""
-
-    position: Radians = 0.0
-    velocity: RadiansPerSecond = 0.0
-    seed: Annotated[int, Field(ge=0, lt=2**31)] = 0
-
-
-class ExcitationDocument(DocumentModel):
-    """An excitation file."""
-
-    excitation: Identifier
-    control: ServoControl = ServoControl.VELOCITY
-    rate: Hertz
-    rest: Seconds
-    steps: StepsEntry | None = None
-    sines: SinesEntry | None = None
-    poses: Annotated[dict[Identifier, tuple[Radians, ...]], Field(min_length=1)]
-    joints: tuple[Identifier, ...] | None = None
-    noise: NoiseEntry = NoiseEntry()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,8 +27,8 @@ class Signal:
 
     Attributes:
         name: Its name.
-        velocities_rad_s: Commanded speed of each sample, shape (times,).
-        positions_rad: Commanded position relative to the pose, shape (times,).
+        velocities_rad_s: Commanded speed of each sample, shape (times,); in m/s for a joint that slides.
+        positions_rad: Commanded position relative to the pose, shape (times,); in m for a joint that slides.
     """
 
     name: str
@@ -103,24 +55,35 @@ def load_excitation(path: Path, robot: Robot) -> ExcitationDocument:
     return loaded.value
 
 
-def signals(excitation: ExcitationDocument) -> Iterator[Signal]:
-    """The signals of an excitation; each begins and ends with the time of rest."""
+def signals(excitation: ExcitationDocument, kind: JointKind = JointKind.REVOLUTE) -> Iterator[Signal]:
+    """The signals of an excitation for a kind of joint; each begins and ends with the time of rest.
+
+    Args:
+        excitation: The excitation.
+        kind: Joints that turn have the signals in rad/s, joints that slide those in m/s.
+    """
+    slides = kind is JointKind.PRISMATIC
+    unit = "m/s" if slides else "rad/s"
     if excitation.steps is not None:
         held = math.ceil(excitation.steps.hold * excitation.rate - 1e-9)
-        for speed in excitation.steps.speeds:
+        for speed in _of_kind(excitation.steps.speeds, slides=slides):
             course = np.concatenate([np.full(held, speed), np.full(held, -speed)])
-            yield _signal(excitation, f"step {speed:.6g} rad/s", course)
+            yield _signal(excitation, f"step {speed:.6g} {unit}", course)
     if excitation.sines is not None:
-        for amplitude in excitation.sines.amplitudes:
+        for amplitude in _of_kind(excitation.sines.amplitudes, slides=slides):
             for frequency in excitation.sines.frequencies:
                 count = math.ceil(excitation.sines.cycles / frequency * excitation.rate - 1e-9)
                 course = amplitude * np.sin(2 * np.pi * frequency * np.arange(count) / excitation.rate)
-                yield _signal(excitation, f"sine {amplitude:.6g} rad/s {frequency:.6g} Hz", course)
+                yield _signal(excitation, f"sine {amplitude:.6g} {unit} {frequency:.6g} Hz", course)
 
 
 def chosen_joints(excitation: ExcitationDocument, robot: Robot) -> tuple[str, ...]:
     """Names of the joints that are excited."""
     return excitation.joints or tuple(joint.name for joint in robot.joints)
+
+
+def _of_kind(speeds: Sequence[JointQuantity], *, slides: bool) -> Iterator[float]:
+    yield from (speed.value for speed in speeds if speed.is_linear == slides)
 
 
 def _signal(excitation: ExcitationDocument, name: str, course: Array) -> Signal:
@@ -133,10 +96,12 @@ def _signal(excitation: ExcitationDocument, name: str, course: Array) -> Signal:
 def _number_findings(entry: ExcitationDocument, document: Document) -> Iterator[Finding]:
     numbers: list[tuple[tuple[str | int, ...], float]] = [(("rate",), entry.rate), (("rest",), entry.rest)]
     if entry.steps is not None:
-        numbers += [(("steps", "speeds", index), speed) for index, speed in enumerate(entry.steps.speeds)]
+        numbers += [(("steps", "speeds", index), speed) for index, speed in enumerate(_values(entry.steps.speeds))]
         numbers.append((("steps", "hold"), entry.steps.hold))
     if entry.sines is not None:
-        numbers += [(("sines", "amplitudes", index), each) for index, each in enumerate(entry.sines.amplitudes)]
+        numbers += [
+            (("sines", "amplitudes", index), each) for index, each in enumerate(_values(entry.sines.amplitudes))
+        ]
         numbers += [(("sines", "frequencies", index), each) for index, each in enumerate(entry.sines.frequencies)]
     for place, value in numbers:
         if value <= 0.0:
@@ -153,9 +118,13 @@ def _number_findings(entry: ExcitationDocument, document: Document) -> Iterator[
         if each * _LEAST_PER_CYCLE > entry.rate:
             problem = f"a sine of {each:g} Hz has fewer than {_LEAST_PER_CYCLE} samples a cycle"
             yield document.finding("excitation.range", problem, ("sines", "frequencies", index))
-    for key in ("position", "velocity"):
+    for key in ("position", "velocity", "slide_position", "slide_velocity"):
         if getattr(entry.noise, key) < 0.0:
             yield document.finding("excitation.range", f"{key} must not be negative", ("noise", key))
+
+
+def _values(quantities: Sequence[JointQuantity]) -> Iterator[float]:
+    yield from (quantity.value for quantity in quantities)
 
 
 def _robot_findings(entry: ExcitationDocument, document: Document, robot: Robot) -> Iterator[Finding]:
@@ -164,23 +133,46 @@ def _robot_findings(entry: ExcitationDocument, document: Document, robot: Robot)
         if name not in names:
             hint = f"the robot has {', '.join(names)}"
             yield document.finding("excitation.joint", f"unknown joint {name!r}", ("joints", index), hint=hint)
+    yield from _kind_findings(entry, document, robot)
     for pose, configuration in entry.poses.items():
         if len(configuration) != len(names):
             problem = f"the pose has {len(configuration)} positions, the robot {len(names)} joints"
             yield document.finding("excitation.pose", problem, ("poses", pose))
-        else:
+            continue
+        wrong = [
+            index
+            for index, (position, joint) in enumerate(zip(configuration, robot.joints, strict=True))
+            if position.is_linear != (joint.kind is JointKind.PRISMATIC)
+        ]
+        for index in wrong:
+            joint, needed = robot.joints[index], "deg" if configuration[index].is_linear else "mm"
+            problem = f"joint {joint.name!r} is {joint.kind.value}, so its position is in {needed}"
+            yield document.finding("excitation.unit", problem, ("poses", pose, index))
+        if not wrong:
             yield from _limit_findings(entry, document, robot, pose)
 
 
+def _kind_findings(entry: ExcitationDocument, document: Document, robot: Robot) -> Iterator[Finding]:
+    """Excited joints for whose kind there is no signal."""
+    for joint in robot.joints:
+        if joint.name in chosen_joints(entry, robot) and not any(signals(entry, joint.kind)):
+            unit = "m/s" if joint.kind is JointKind.PRISMATIC else "rad/s"
+            problem = f"there is no signal for joint {joint.name!r}, which is {joint.kind.value}"
+            hint = f"add a speed in {unit}, or leave the joint out of joints"
+            place = ("excitation",) if entry.joints is None else ("joints", entry.joints.index(joint.name))
+            yield document.finding("excitation.signal", problem, place, hint=hint)
+
+
 def _limit_findings(entry: ExcitationDocument, document: Document, robot: Robot, pose: str) -> Iterator[Finding]:
-    courses = list(signals(entry))
-    at: Mapping[str, float] = dict(zip([each.name for each in robot.joints], entry.poses[pose], strict=True))
+    positions = _values(entry.poses[pose])
+    at: Mapping[str, float] = dict(zip([each.name for each in robot.joints], positions, strict=True))
     chosen: Sequence[str] = chosen_joints(entry, robot)
     for joint in (each for each in robot.joints if each.name in chosen):
-        for course in courses:
+        scale, unit = (1e3, "mm") if joint.kind is JointKind.PRISMATIC else (math.degrees(1.0), "deg")
+        for course in signals(entry, joint.kind):
             reached = at[joint.name] + course.positions_rad
             if reached.min() < joint.lower_rad or reached.max() > joint.upper_rad:
-                span = f"from {math.degrees(reached.min()):.4g} to {math.degrees(reached.max()):.4g} deg"
+                span = f"from {scale * reached.min():.4g} to {scale * reached.max():.4g} {unit}"
                 problem = f"{course.name} moves joint {joint.name!r} {span}, beyond its range"
             elif np.abs(course.velocities_rad_s).max() > joint.speed_rad_s:
                 problem = f"{course.name} exceeds the speed limit of joint {joint.name!r}"

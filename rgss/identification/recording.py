@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointSeries:
-    """Commanded and measured motion of one joint, each array of shape (times,)."""
+    """Commanded and measured motion of one joint, each array of shape (times,); in m where it slides."""
 
     commanded_rad: Array
     commanded_rad_s: Array
@@ -58,6 +58,7 @@ class Recording:
         joints: Names of the joints.
         segments: The segments in the order of time.
         digest: SHA-256 of its file; empty if it was not read from one.
+        slides: Those of the joints that slide, whose positions are in m.
     """
 
     robot: str
@@ -66,6 +67,11 @@ class Recording:
     joints: tuple[str, ...]
     segments: tuple[Segment, ...]
     digest: str = ""
+    slides: frozenset[str] = frozenset()
+
+    def unit_of(self, joint: str) -> str:
+        """Unit of the positions of a joint."""
+        return "m" if joint in self.slides else "rad"
 
     def of_joint(self, joint: str) -> tuple[Segment, ...]:
         """The segments in which a joint is excited."""

@@ -31,11 +31,12 @@ _QUANTITIES = (
     ("measured position", ""),
     ("measured velocity", "/s"),
 )
-_COLUMN = re.compile(r"^(?P<joint>\S+) commanded position \[(?P<unit>rad|deg)\]$")
+_FACTORS = {"rad": 1.0, "deg": math.pi / 180.0, "m": 1.0}
+_COLUMN = re.compile(r"^(?P<joint>\S+) commanded position \[(?P<unit>rad|deg|m)\]$")
 
 
 def write_recording(path: Path, recording: Recording) -> None:
-    """Write a recording as CSV, in seconds and radians.
+    """Write a recording as CSV, in seconds, radians and metres.
 
     Args:
         path: The file.
@@ -48,7 +49,9 @@ def write_recording(path: Path, recording: Recording) -> None:
     for key, value in zip(_COMMENTS, (recording.robot, recording.recorded, recording.control.value), strict=True):
         text.write(f"# {key}: {value}\n")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*_LABELS, *(name for joint in recording.joints for name in _columns(joint, "rad"))])
+    writer.writerow(
+        [*_LABELS, *(name for joint in recording.joints for name in _columns(joint, recording.unit_of(joint)))]
+    )
     for segment in recording.segments:
         columns = [
             values
@@ -90,9 +93,9 @@ def read_recording(path: Path) -> Recording:
     except csv.Error as error:
         raise _wrong(path, len(_COMMENTS) + reader.line_num, f"the file is not CSV: {error}") from error
     header = rows[0] if rows else []
-    joints, factors = _joints(path, header)
+    joints, units = _joints(path, header)
     values = _values(path, rows[1:], header)
-    values[:, 1:] *= factors
+    values[:, 1:] *= np.repeat([_FACTORS[unit] for unit in units], len(_QUANTITIES))
     labels = [(row[1], row[2], row[3]) for row in rows[1:]]
     _check_times(path, values[:, 0], labels)
     segments, start = [], 0
@@ -123,6 +126,7 @@ def read_recording(path: Path) -> Recording:
         joints=joints,
         segments=tuple(segments),
         digest=hashlib.sha256(content).hexdigest(),
+        slides=frozenset(joint for joint, unit in zip(joints, units, strict=True) if unit == "m"),
     )
 
 
@@ -144,21 +148,23 @@ def _comments(path: Path, lines: Sequence[str]) -> dict[str, str]:
     return found
 
 
-def _joints(path: Path, header: Sequence[str]) -> tuple[tuple[str, ...], list[float]]:
-    """Names of the joints, and the factor of each column behind the time."""
+def _joints(path: Path, header: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Names of the joints, and the unit of the positions of each."""
     line = len(_COMMENTS) + 1
     for index, name in enumerate(_LABELS):
         got = header[index] if index < len(header) else ""
         if got != name:
             raise _wrong(path, line, f"column {index + 1} must be {name!r}, got {shown(got)}", "", index + 1)
     joints: list[str] = []
-    factors: list[float] = []
+    units: list[str] = []
     for first in range(len(_LABELS), max(len(header), len(_LABELS) + 1), 4):
         begin = _COLUMN.match(header[first]) if first < len(header) else None
         if begin is None:
             got = header[first] if first < len(header) else ""
             problem = f"column {first + 1} must be 'JOINT commanded position [rad]', got {shown(got)}"
-            raise _wrong(path, line, problem, "angles are in rad or in deg", first + 1)
+            raise _wrong(
+                path, line, problem, "angles are in rad or in deg, positions of a joint that slides in m", first + 1
+            )
         joint, unit = begin["joint"], begin["unit"]
         for index, name in enumerate(_columns(joint, unit), start=first):
             got = header[index] if index < len(header) else ""
@@ -167,8 +173,8 @@ def _joints(path: Path, header: Sequence[str]) -> tuple[tuple[str, ...], list[fl
         if joint in joints:
             raise _wrong(path, line, f"joint {shown(joint)} has columns twice", "", first + 1)
         joints.append(joint)
-        factors += [1.0 if unit == "rad" else math.pi / 180.0] * 4
-    return tuple(joints), factors
+        units.append(unit)
+    return tuple(joints), tuple(units)
 
 
 def _values(path: Path, rows: Sequence[Sequence[str]], header: Sequence[str]) -> np.ndarray[tuple[int, int]]:

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
-from rgss.identification.excitation import ExcitationDocument, Signal, chosen_joints, signals
+from rgss.identification.excitation import Signal, chosen_joints, signals
+from rgss.identification.excitation_document import ExcitationDocument
 from rgss.identification.recording import JointSeries, Recording, Segment
 from rgss.kinematics import ArmDynamics, gripper_loads
 from rgss.physics import PhysicsSettings, TorqueArm, VelocityLoop, mean_commands
-from rgss.scenes import Gripper, JointServo, Robot, ServoControl
+from rgss.scenes import Gripper, JointKind, JointServo, Robot, ServoControl
 
 Array = NDArray[np.float64]
 
@@ -58,18 +59,24 @@ def simulated_recording(
     noise = excitation.noise
     generator = np.random.default_rng(noise.seed)
     segments, begin_s = [], 0.0
-    courses = list(signals(excitation))
+    kinds = {joint.name: joint.kind for joint in robot.joints}
+    slides = np.array([joint.kind is JointKind.PRISMATIC for joint in robot.joints])
+    deviations = (
+        np.where(slides, noise.slide_position, noise.position),
+        np.where(slides, noise.slide_velocity, noise.velocity),
+    )
     with TorqueArm(robot, gripper, PhysicsSettings(rate_hz=excitation.rate), gravity_m_s2=gravity_m_s2) as machine:
         arm = _ServoArm(machine, robot, gripper, excitation, gravity_m_s2)
-        for pose, configuration in excitation.poses.items():
+        for pose, positions in excitation.poses.items():
+            configuration = tuple(position.value for position in positions)
             for joint in chosen_joints(excitation, robot):
-                for course in courses:
+                for course in signals(excitation, kinds[joint]):
                     index = names.index(joint)
                     found = arm.run(np.array(configuration), index, course, servos.get(joint, nominal_servo()))
                     signal = f"{course.name} (torque limit)" if arm.saturated else course.name
                     q, v = (
                         values + deviation * generator.standard_normal(values.shape)
-                        for values, deviation in zip(found, (noise.position, noise.velocity), strict=True)
+                        for values, deviation in zip(found, deviations, strict=True)
                     )
                     times_s = begin_s + np.arange(len(q)) / excitation.rate
                     begin_s = float(times_s[-1]) + 1.0 / excitation.rate
@@ -81,6 +88,7 @@ def simulated_recording(
         control=excitation.control,
         joints=names,
         segments=tuple(segments),
+        slides=frozenset(name for name, kind in kinds.items() if kind is JointKind.PRISMATIC),
     )
 
 

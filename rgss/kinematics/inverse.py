@@ -52,12 +52,15 @@ class InverseKinematics(Protocol):
         """
 
 
-def inverse_kinematics(arm: Arm) -> InverseKinematics:
+def inverse_kinematics(arm: Arm, *, is_turn_free: bool = False) -> InverseKinematics:
     """The inverse kinematics of an arm: analytic where its geometry allows, numerical otherwise.
 
     Args:
         arm: The arm with its tool.
+        is_turn_free: Whether of a pose the position and the tool's axis alone are asked for, which is numerical.
     """
+    if is_turn_free:
+        return NumericalInverse(arm, is_turn_free=True)
     try:
         return AnalyticInverse(arm)
     except DefinitionError:

@@ -45,12 +45,18 @@ class NumericalInverse:
     Source: T. Sugihara, "Solvability-Unconcerned Inverse Kinematics by the Levenberg-Marquardt Method", IEEE T-RO
     27(5), 2011: the damping is proportional to the squared error.
 
+    Where the turn about the tool's axis is free, position and axis alone are asked for, five freedoms. Their
+    configurations count as a continuum: an arm of more joints has one, and an arm of five has one if its last axis is
+    the tool's.
+
     Args:
         arm: The arm with its tool.
+        is_turn_free: Whether the tool may be turned about its own axis, z.
     """
 
-    def __init__(self, arm: Arm) -> None:
+    def __init__(self, arm: Arm, *, is_turn_free: bool = False) -> None:
         self.arm = arm
+        self._is_turn_free = is_turn_free
         self._chain = SerialChain(arm)
         self._joints = arm.robot.joints
         self._lower, self._upper = arm.lower_rad, arm.upper_rad
@@ -59,7 +65,7 @@ class NumericalInverse:
     @property
     def is_redundant(self) -> bool:
         """Whether the configurations of a pose form a continuum, of which a sample is found."""
-        return len(self._joints) > _POSE_FREEDOMS
+        return self._is_turn_free or len(self._joints) > _POSE_FREEDOMS
 
     def solve(self, tool_pose_world: Pose) -> tuple[Vector, ...]:
         """Find configurations within the planning ranges that reach a pose.
@@ -125,9 +131,10 @@ class NumericalInverse:
     def _residuals(self, pose: Pose) -> tuple[PoseResidual, ...]:
         target = transform(pose)
         whole = PoseResidual(position_m=target.translation, rotation=target.rotation)
-        if len(self._joints) >= _POSE_FREEDOMS:
-            return (whole,)
-        return whole, PoseResidual(position_m=target.translation, rotation=target.rotation, is_axis_alone=True)
+        axis = PoseResidual(position_m=target.translation, rotation=target.rotation, is_axis_alone=True)
+        if self._is_turn_free:
+            return (axis,)
+        return (whole,) if len(self._joints) >= _POSE_FREEDOMS else (whole, axis)
 
     def _starts(self, count: int) -> Vector:
         """The home, then quasi-random configurations, shape (count, n)."""

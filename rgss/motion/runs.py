@@ -14,6 +14,7 @@ from rgss.motion.trajectory import Trajectory
 Vector = NDArray[np.float64]
 
 _CELL_RAD = 0.04
+_SHORTEST_CELL_RAD = 1e-9
 _TURN_OF_CELL = 0.12
 _FEWEST_CELLS = 24
 
@@ -53,7 +54,11 @@ def run_grid(path: SmoothPath, first: int, last: int, refinement: int) -> Vector
         np.linspace(start, end, count, endpoint=False)
         for start, end, count in zip(breaks[:-1], breaks[1:], counts, strict=True)
     ]
-    return np.append(np.concatenate(parts), breaks[-1])
+    grid = np.concatenate(parts)
+    # The reachability analysis divides by the length of a cell, and one of rounding errors makes the motion creep.
+    apart = np.append(True, np.diff(grid) > _SHORTEST_CELL_RAD) & (breaks[-1] - grid > _SHORTEST_CELL_RAD)
+    apart[0] = True
+    return np.append(grid[apart], breaks[-1])
 
 
 def joined(path: SmoothPath, runs: Sequence[Run]) -> Trajectory:

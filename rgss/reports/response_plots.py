@@ -74,5 +74,5 @@ def response_figure(recording: Recording, joint: str, servo: JointServo | None) 
         if index == 0:
             ax.legend(frameon=False, fontsize=8)
     figure.supxlabel("time [s]")
-    figure.supylabel("joint speed [rad/s]")
+    figure.supylabel(f"joint speed [{recording.unit_of(joint)}/s]")
     return figure

@@ -169,6 +169,8 @@ class TaskEntry(DocumentModel):
     grasp_yaw: Radians
     place_yaw: Radians
     grasp: GraspRule | GraspCandidatesEntry = GraspRule.AS_STATED
+    free_yaw: bool = False
+    steps: Text | None = None
 
 
 class RobotPlacementEntry(DocumentModel):

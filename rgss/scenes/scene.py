@@ -157,6 +157,7 @@ class Task:
         place_yaw_rad: Turn of the gripper about the vertical at the place.
         candidates: Which grasps are tried; None for the grasp from above at the stated turn.
         grasp: The grasp that is taken of them; None before one is chosen.
+        is_yaw_free: Whether the gripper may be turned about the vertical at the waypoints as suits the arm.
     """
 
     approach_height_m: float
@@ -169,6 +170,7 @@ class Task:
     place_yaw_rad: float
     candidates: GraspCandidates | None = None
     grasp: TakenGrasp | None = None
+    is_yaw_free: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
-from rgss.scenes.document import BodyEntry, SceneDocument
+from rgss.scenes.document import BodyEntry, GraspRule, Rest, SceneDocument
 from rgss.scenes.findings import Location, named_file_findings, negative, not_positive
 from rgss.scenes.objects import (
     candidates_of,
@@ -49,6 +49,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
         *_body_findings(entry, document),
         *_workpiece_findings(entry, document),
         *_drop_findings(entry, document),
+        *_free_yaw_findings(entry, document),
         *name_findings(entry, document),
         *not_positive(document, (*_positive_values(entry), *positive_values(entry))),
         *negative(document, _values_from_zero(entry)),
@@ -83,6 +84,7 @@ def load_scene(path: Path, *, label: str | None = None, project: Path | None = N
             grasp_yaw_rad=entry.task.grasp_yaw,
             place_yaw_rad=entry.task.place_yaw,
             candidates=candidates_of(entry.task.grasp),
+            is_yaw_free=entry.task.free_yaw,
         ),
         uncertainty=uncertainty,
     )
@@ -156,6 +158,19 @@ def _drop_findings(entry: SceneDocument, document: Document) -> Iterable[Finding
             ("task", "place_clearance"),
             hint="release it lower, or give the workpiece a greater landing_limit",
         )
+
+
+def _free_yaw_findings(entry: SceneDocument, document: Document) -> Iterable[Finding]:
+    if not entry.task.free_yaw:
+        return
+    is_round = all(
+        one.box is None and one.mesh is None and one.rests is Rest.UPRIGHT
+        for one in (entry.workpiece, *entry.workpieces)
+    )
+    if not is_round or entry.task.grasp is not GraspRule.AS_STATED:
+        message = "the yaw is free only where every object is an upright cylinder that is gripped from above"
+        hint = "leave free_yaw out, or let grasp be as_stated"
+        yield document.finding("scene.free-yaw", message, ("task", "free_yaw"), hint=hint)
 
 
 def _positive_values(entry: SceneDocument) -> Iterable[tuple[Location, float]]:

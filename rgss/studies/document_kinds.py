@@ -12,6 +12,7 @@ from typing import Any
 from rgss.designs import CatalogueModel, DesignSpaceModel
 from rgss.documents import DocumentModel, json_schema, read_document
 from rgss.errors import DefinitionError
+from rgss.identification import ExcitationDocument
 from rgss.measures import MeasuresDocument
 from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, StakeholderFile, SystemFile
 from rgss.scenes import (
@@ -86,6 +87,9 @@ DOCUMENT_KINDS = (
     DocumentKind(
         id="calibration", title="Calibration of a robot's servos", model=CalibrationDocument, place="scenes/robots/"
     ),
+    DocumentKind(
+        id="excitation", title="Excitation of a robot's joints", model=ExcitationDocument, place="scenes/robots/"
+    ),
     DocumentKind(id="gripper", title="Gripper", model=GripperDocument, place="scenes/grippers/"),
     DocumentKind(id="task", title="Task", model=TaskDocument, place="scenes/tasks/"),
     DocumentKind(
@@ -105,6 +109,7 @@ _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
         ("mountings", "parallel-gripper"),
         ("cup", "vacuum-gripper"),
         ("servos", "calibration"),
+        ("excitation", "excitation"),
         ("steps", "task"),
     ),
     "studies": (("study", "study"),),

@@ -9,13 +9,18 @@ from rgss.documents import Document
 from rgss.findings import Finding
 from rgss.measures import InputSymbol
 from rgss.quantities import dimension
-from rgss.trials import METRICS
+from rgss.trials import FOR_EACH_JOINT, METRICS
 
 _LONGEST_LIST = 12
 
 
 def source_findings(
-    inputs: Iterable[InputSymbol], design_units: Mapping[str, str], document: Document, *, planned: int
+    inputs: Iterable[InputSymbol],
+    design_units: Mapping[str, str],
+    document: Document,
+    *,
+    planned: int,
+    joints: int | None,
 ) -> Iterator[Finding]:
     """Find inputs whose source is not there or measures something else.
 
@@ -24,6 +29,7 @@ def source_findings(
         design_units: The unit of each source that designs have; empty for a name.
         document: The measures' file, for positions.
         planned: Number of planned moves of the task.
+        joints: Number of joints of the arm; None if the scene cannot be read, and rows of joints are not checked.
     """
     trial_units = {f"trial.{name}": kind.unit for name, kind in METRICS.items()}
     for index, symbol in enumerate(inputs):
@@ -40,8 +46,13 @@ def source_findings(
             message = f"{symbol.id}: {symbol.source!r} is measured in {unit!r}, not in {symbol.unit!r}"
             hint = "correct the source or the unit"
             yield document.finding("measures.source-unit", message, ("inputs", index, "unit"), hint=hint)
-        elif symbol.from_trial and symbol.length != METRICS[symbol.metric].length_in_trial(planned):
-            length = METRICS[symbol.metric].length_in_trial(planned)
+        elif symbol.from_trial:
+            metric = METRICS[symbol.metric]
+            if joints is None and metric.length == FOR_EACH_JOINT:
+                continue
+            length = metric.length_in_trial(planned=planned, joints=joints or 0)
+            if symbol.length == length:
+                continue
             message = f"{symbol.id}: {symbol.source!r} is {'one number' if length is None else f'a row of {length}'}"
             hint = "remove 'length'" if length is None else f"write 'length: {length}'"
             yield document.finding("measures.source-length", message, ("inputs", index), hint=hint)

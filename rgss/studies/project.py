@@ -165,8 +165,9 @@ class _Reader:
             if measures is not None and named_set is not None:
                 document = read_document(folder / measures_of(named_set), label=measures_of(named_set))
                 planned = len((default_task() if study is None else study.task).planned)
+                joints = None if scene is None else len(scene.robot.joints)
                 self._findings.extend(
-                    source_findings(measures.inputs, designs.source_units(), document, planned=planned)
+                    source_findings(measures.inputs, designs.source_units(), document, planned=planned, joints=joints)
                 )
         if (
             named_set is None

@@ -24,11 +24,12 @@ from rgss.scenes.uncertainty import (
 )
 from rgss.studies.assumptions_section import StudyAssumption, read_assumptions
 from rgss.studies.document import StudyDocument
-from rgss.studies.motion import MotionChoice, read_motion
+from rgss.studies.motion import MotionChoice, read_motion, step_control_findings
 from rgss.studies.planning import PlanningChoice, read_moves, read_planning
 from rgss.studies.project_folders import folder_problem, normal_folder
 from rgss.studies.promotion import Screening, read_screening
 from rgss.studies.regression import RegressionGuard, read_regression
+from rgss.studies.scene_task import task_of_scene
 from rgss.studies.trade_off import TradeOff, TradeOffPlaces, read_trade_off
 from rgss.studies.until_section import read_until_decided
 from rgss.tasks import LoadedTask, TaskProgram, default_task, load_task
@@ -156,6 +157,8 @@ def read_study(
     motion = read_motion(entry.timing, entry.control, document, findings, rate_hz=entry.physics.rate)
     screening = read_screening(entry, document, findings)
     loaded_task = _task(project, entry, findings)
+    if loaded_task is not None:
+        findings.extend(step_control_findings(loaded_task, motion.controller, rate_hz=entry.physics.rate))
     program = default_task() if loaded_task is None else loaded_task.program
     moves = read_moves(entry.moves, program, document, findings)
     regression = read_regression(entry.regression, document, findings, phases=program.phases)
@@ -247,12 +250,13 @@ def _requirements(folder: Path) -> RequirementSet | None:
 
 
 def _task(project: Path, entry: StudyDocument, findings: list[Finding]) -> LoadedTask | None:
-    """The task that a study names; None if it names none, or if it cannot be read, with what is wrong noted."""
-    path = None if entry.task is None else named_file(project, entry.task)
+    """The task that a study names, or else its scene; None if neither does, or with what is wrong noted."""
+    name = entry.task or task_of_scene(project, entry.scene, findings)
+    path = None if name is None else named_file(project, name)
     if path is None:
         return None
     try:
-        return load_task(path, label=entry.task)
+        return load_task(path, label=name)
     except DocumentError as error:
         findings.extend(error.findings)
         return None

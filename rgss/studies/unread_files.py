@@ -26,6 +26,7 @@ _KIND_OF_KEY: Mapping[str, str] = {
     "bodies": "scene",
     "joints": "robot",
     "azimuths": "gripper",
+    "excitation": "excitation",
     "steps": "task",
     "measures": "measures",
     "rules": "rules",
@@ -41,6 +42,7 @@ _FOLDER_OF_KIND: Mapping[str, str] = {
     "robot": "scenes",
     "gripper": "scenes",
     "task": "scenes",
+    "excitation": "scenes",
 }
 _KINDS: Mapping[Callable[[int], bool], str] = {
     stat.S_ISDIR: "a folder",

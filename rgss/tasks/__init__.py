@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.tasks.check_step import CheckStep
+    from rgss.tasks.check_step import CheckStep, Nearness
     from rgss.tasks.document import TaskDocument
     from rgss.tasks.grip_step import GripStep
     from rgss.tasks.move_kinds import MoveKind
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rgss.tasks.release_step import ReleaseStep
     from rgss.tasks.scene_findings import task_findings
     from rgss.tasks.stages import Stage, stages_of
+    from rgss.tasks.step_settings import StepControl
     from rgss.tasks.task_file import LoadedTask, load_task
     from rgss.tasks.wait_step import WaitStep
 else:

@@ -6,9 +6,36 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from rgss.documents import Dimensionless, DocumentModel, Identifier, JointPosition, Metres, Radians, Seconds
+from rgss.documents import (
+    Dimensionless,
+    DocumentModel,
+    Identifier,
+    JointPosition,
+    Metres,
+    Newtons,
+    Radians,
+    RadiansPerSecond,
+    Seconds,
+)
 
 MOST_REPETITIONS = 1000
+
+
+class ThresholdsEntry(DocumentModel):
+    """Thresholds of the task's steps that state none of their own."""
+
+    joints: Radians | None = None
+    gripper: Metres | None = None
+
+
+class StepControlEntry(DocumentModel):
+    """Control of the joints in one step; what it does not state is that of the study."""
+
+    mode: Literal["position", "velocity", "computed_torque", "tool_tracking"] | None = None
+    natural_frequency: RadiansPerSecond | None = None
+    damping_ratio: Dimensionless | None = None
+    position_gain: RadiansPerSecond | None = None
+    velocity_gain: RadiansPerSecond | None = None
 
 
 class PoseEntry(DocumentModel):
@@ -39,6 +66,8 @@ class MoveEntry(TargetEntry):
     speed: Dimensionless = 1.0
     time_limit: Seconds | None = None
     resolution: Radians | None = None
+    reached_within: Radians | None = None
+    control: StepControlEntry | None = None
 
 
 class GripEntry(DocumentModel):
@@ -46,6 +75,9 @@ class GripEntry(DocumentModel):
 
     name: Identifier | None = None
     object: Identifier | None = None
+    firm_above: Newtons | None = None
+    firm_for: Seconds | None = None
+    control: StepControlEntry | None = None
 
 
 class ReleaseEntry(DocumentModel):
@@ -53,6 +85,8 @@ class ReleaseEntry(DocumentModel):
 
     name: Identifier | None = None
     place: Identifier | None = None
+    reached_within: Metres | None = None
+    control: StepControlEntry | None = None
 
 
 class WaitEntry(DocumentModel):
@@ -60,6 +94,16 @@ class WaitEntry(DocumentModel):
 
     duration: Seconds
     name: Identifier | None = None
+    control: StepControlEntry | None = None
+
+
+class NearEntry(DocumentModel):
+    """Greatest distance of the object from exactly one of a place, another object and a point of the world."""
+
+    within: Metres
+    place: Identifier | None = None
+    object: Identifier | None = None
+    point: tuple[Metres, Metres, Metres] | None = None
 
 
 class CheckEntry(DocumentModel):
@@ -71,6 +115,7 @@ class CheckEntry(DocumentModel):
     upright: bool = False
     at_rest: bool = False
     held: bool | None = None
+    near: NearEntry | None = None
 
 
 class RepeatEntry(DocumentModel):
@@ -106,4 +151,5 @@ class TaskDocument(DocumentModel):
     task: Identifier
     start: TargetEntry | None = None
     configurations: dict[Identifier, tuple[JointPosition, ...]] = Field(default_factory=dict)
+    reached_within: ThresholdsEntry = ThresholdsEntry()
     steps: tuple[StepEntry, ...]

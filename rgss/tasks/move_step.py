@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from rgss.scenes import Pose
 from rgss.tasks.move_kinds import MoveKind
+from rgss.tasks.step_settings import StepControl
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +43,9 @@ class MoveStep:
         speed_share: Share of the tool speed of the design.
         limit_s: Longest planning time, where it is less than that of the design; None for that.
         resolution_rad: Greatest joint step between two checked states; None for that of the study.
+        reached_rad: Error of any joint up to which the end counts as reached, a metre of a prismatic joint counting as
+            a radian; None for that of the fidelity.
+        control: Control of the joints in it; None for that of the study.
     """
 
     name: str
@@ -50,3 +54,5 @@ class MoveStep:
     speed_share: float = 1.0
     limit_s: float | None = None
     resolution_rad: float | None = None
+    reached_rad: float | None = None
+    control: StepControl | None = None

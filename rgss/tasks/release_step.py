@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rgss.tasks.step_settings import StepControl
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReleaseStep:
@@ -12,7 +14,11 @@ class ReleaseStep:
     Attributes:
         name: Name of the phase.
         place: The place; empty for the object's own place region.
+        opened_m: Distance of every finger from open up to which the hand counts as open; None for 0.5 mm.
+        control: Control of the joints in it; None for that of the study.
     """
 
     name: str
     place: str = ""
+    opened_m: float | None = None
+    control: StepControl | None = None

@@ -31,6 +31,9 @@ def task_findings(loaded: LoadedTask, scene: Scene) -> tuple[Finding, ...]:
             found += _of_object(loaded, scene, step.object, at)
         if isinstance(step, CheckStep):
             found += _of_place(loaded, scene, step.at, (*at, "at"))
+            if step.near is not None:
+                found += _of_place(loaded, scene, step.near.place, (*at, "near", "place"))
+                found += _of_object(loaded, scene, step.near.object, (*at, "near", "object"))
         elif isinstance(step, ReleaseStep):
             found += _of_place(loaded, scene, step.place, (*at, "place"))
     return tuple(sorted(set(found)))

@@ -10,12 +10,14 @@ from rgss.documents import Document, load_document
 from rgss.errors import DocumentError
 from rgss.findings import Finding
 from rgss.scenes import Pose, Waypoint
-from rgss.tasks.check_step import CheckStep
+from rgss.tasks.check_step import CheckStep, Nearness
 from rgss.tasks.document import (
     CheckEntry,
     GripEntry,
     MoveEntry,
+    NearEntry,
     ReleaseEntry,
+    StepControlEntry,
     StepEntry,
     TargetEntry,
     TaskDocument,
@@ -27,6 +29,7 @@ from rgss.tasks.move_kinds import MoveKind
 from rgss.tasks.move_step import MoveStep, Target
 from rgss.tasks.program import Step, TaskProgram
 from rgss.tasks.release_step import ReleaseStep
+from rgss.tasks.step_settings import StepControl
 from rgss.tasks.wait_step import WaitStep
 
 Location = tuple[str | int, ...]
@@ -87,6 +90,9 @@ class _Compiler:
         self._configurations: Mapping[str, tuple[float, ...]] = {
             name: tuple(joint.value for joint in joints) for name, joints in entry.configurations.items()
         }
+        self._thresholds = entry.reached_within
+        for key in ("joints", "gripper"):
+            self._refuse_not_positive(key, getattr(entry.reached_within, key), ("reached_within",))
         self._count = 0
 
     def steps(
@@ -153,9 +159,9 @@ class _Compiler:
         if entry.move is not None:
             return self._move(entry.move, at, prefix, bound)
         if entry.grip is not None:
-            return self._grip(entry.grip, prefix, bound)
+            return self._grip(entry.grip, at, prefix, bound)
         if entry.release is not None:
-            return self._release(entry.release, prefix)
+            return self._release(entry.release, at, prefix)
         if entry.wait is not None:
             return self._wait(entry.wait, at, prefix)
         if entry.check is None:
@@ -166,9 +172,8 @@ class _Compiler:
         if not 0.0 < entry.speed <= 1.0:
             message = f"speed must be a share in (0, 1], got {entry.speed:g}"
             self._report("task.share", message, (*at, "speed"), "write 0.5, or 50 %")
-        for key, value in (("time_limit", entry.time_limit), ("resolution", entry.resolution)):
-            if value is not None and value <= 0.0:
-                self._report("task.not-positive", f"{key} must be greater than zero", (*at, key))
+        for key in ("time_limit", "resolution", "reached_within"):
+            self._refuse_not_positive(key, getattr(entry, key), at)
         target = self.target(entry, at, bound)
         mode = MoveKind(entry.mode)
         if mode is MoveKind.STRAIGHT and target.configuration_rad:
@@ -184,22 +189,41 @@ class _Compiler:
             speed_share=entry.speed,
             limit_s=entry.time_limit,
             resolution_rad=entry.resolution,
+            reached_rad=self._thresholds.joints if entry.reached_within is None else entry.reached_within,
+            control=self._control(entry.control, at),
         )
 
-    def _grip(self, entry: GripEntry, prefix: str, bound: str) -> GripStep:
-        return GripStep(name=prefix + (entry.name or "grip"), object=entry.object or bound)
+    def _grip(self, entry: GripEntry, at: Location, prefix: str, bound: str) -> GripStep:
+        for key in ("firm_above", "firm_for"):
+            self._refuse_not_positive(key, getattr(entry, key), at)
+        return GripStep(
+            name=prefix + (entry.name or "grip"),
+            object=entry.object or bound,
+            firm_above_n=entry.firm_above,
+            firm_s=entry.firm_for,
+            control=self._control(entry.control, at),
+        )
 
-    def _release(self, entry: ReleaseEntry, prefix: str) -> ReleaseStep:
-        return ReleaseStep(name=prefix + (entry.name or "release"), place=entry.place or "")
+    def _release(self, entry: ReleaseEntry, at: Location, prefix: str) -> ReleaseStep:
+        self._refuse_not_positive("reached_within", entry.reached_within, at)
+        return ReleaseStep(
+            name=prefix + (entry.name or "release"),
+            place=entry.place or "",
+            opened_m=self._thresholds.gripper if entry.reached_within is None else entry.reached_within,
+            control=self._control(entry.control, at),
+        )
 
     def _wait(self, entry: WaitEntry, at: Location, prefix: str) -> WaitStep:
-        if entry.duration <= 0.0:
-            self._report("task.not-positive", "duration must be greater than zero", (*at, "duration"))
-        return WaitStep(name=prefix + (entry.name or "wait"), duration_s=entry.duration)
+        self._refuse_not_positive("duration", entry.duration, at)
+        return WaitStep(
+            name=prefix + (entry.name or "wait"),
+            duration_s=entry.duration,
+            control=self._control(entry.control, at),
+        )
 
     def _check(self, entry: CheckEntry, at: Location, prefix: str, bound: str) -> CheckStep:
-        if not (entry.at or entry.upright or entry.at_rest or entry.held is not None):
-            hint = "write at, upright, at_rest or held"
+        if not (entry.at or entry.upright or entry.at_rest or entry.held is not None or entry.near):
+            hint = "write at, near, upright, at_rest or held"
             self._report("task.empty", "the check states no condition", at, hint)
         return CheckStep(
             name=prefix + (entry.name or "check"),
@@ -208,7 +232,29 @@ class _Compiler:
             is_upright=entry.upright,
             is_at_rest=entry.at_rest,
             held=entry.held,
+            near=None if entry.near is None else self._near(entry.near, (*at, "near")),
         )
+
+    def _near(self, entry: NearEntry, at: Location) -> Nearness:
+        given = [key for key in ("place", "object", "point") if getattr(entry, key) is not None]
+        if len(given) != 1:
+            said = " and ".join(given) or "none"
+            self._report("task.near", f"near needs one of place, object and point, got {said}", at, "name one")
+        self._refuse_not_positive("within", entry.within, at)
+        return Nearness(within_m=entry.within, place=entry.place or "", object=entry.object or "", point_m=entry.point)
+
+    def _control(self, entry: StepControlEntry | None, at: Location) -> StepControl | None:
+        if entry is not None:
+            for key in ("natural_frequency", "damping_ratio", "velocity_gain"):
+                self._refuse_not_positive(key, getattr(entry, key), (*at, "control"))
+            if entry.position_gain is not None and entry.position_gain < 0.0:
+                message = "position_gain must not be negative"
+                self._report("task.negative", message, (*at, "control", "position_gain"))
+        return _step_control(entry)
+
+    def _refuse_not_positive(self, key: str, value: float | None, at: Location) -> None:
+        if value is not None and value <= 0.0:
+            self._report("task.not-positive", f"{key} must be greater than zero", (*at, key))
 
     def _is_too_long(self, at: Location) -> bool:
         if self._count <= MOST_STEPS:
@@ -227,3 +273,20 @@ def _name_findings(document: Document, placed: list[tuple[Step, Location]]) -> I
             hint = "give each step its own name"
             yield document.finding("task.duplicate-name", f"there are two steps {step.name!r}", at, hint=hint)
         seen.add(step.name)
+
+
+def _step_control(entry: StepControlEntry | None) -> StepControl | None:
+    """The control of a step; None where it is that of the study.
+
+    Args:
+        entry: Its form in the file.
+    """
+    if entry is None:
+        return None
+    return StepControl(
+        mode=entry.mode,
+        natural_frequency_rad_s=entry.natural_frequency,
+        damping_ratio=entry.damping_ratio,
+        position_gain_1_s=entry.position_gain,
+        velocity_gain_1_s=entry.velocity_gain,
+    )

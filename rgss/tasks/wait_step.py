@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rgss.tasks.step_settings import StepControl
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WaitStep:
@@ -12,7 +14,9 @@ class WaitStep:
     Attributes:
         name: Name of the phase.
         duration_s: How long it rests.
+        control: Control of the joints in it; None for that of the study.
     """
 
     name: str
     duration_s: float
+    control: StepControl | None = None

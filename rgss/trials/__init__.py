@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rgss.trials.impact import ClosingImpact, closing_impact
     from rgss.trials.lifecycle import Simulation, SimulationState
     from rgss.trials.metrics import (
+        FOR_EACH_JOINT,
         FOR_EACH_MOVE,
         METRICS,
         PHASE_METRICS,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
         JointGains,
         is_stable,
         least_stable_rate_hz,
+        stated_in_step,
     )
     from rgss.trials.scene_check import SceneProblem, SceneProblemKind, reach_problems, scene_problems
     from rgss.trials.second_engine import mujoco_settings

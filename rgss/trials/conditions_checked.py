@@ -7,8 +7,10 @@ import math
 from rgss.grasping import configuration_distance_m
 from rgss.physics import ContactWorld
 from rgss.scenes import Pose
-from rgss.tasks import CheckStep
+from rgss.tasks import CheckStep, Nearness
 from rgss.trials.plants import ControlSettings
+
+Point = tuple[float, float, float]
 
 
 def violated_condition(world: ContactWorld, control: ControlSettings, step: CheckStep, before: Pose) -> str:
@@ -28,6 +30,12 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
         error_m = math.dist(pose.position_m[:2], region.centre_m[:2])
         if error_m > region.radius_m:
             return f"{name} is {error_m * 1e3:.1f} mm from {step.at}, at most {region.radius_m * 1e3:g} mm are allowed"
+    if step.near is not None:
+        point_m, name_of_point = _point(world, step.near, about.workpiece.shape.half_height_m)
+        distance_m = math.dist(pose.position_m, point_m)
+        if distance_m > step.near.within_m:
+            allowed = f"at most {step.near.within_m * 1e3:g} mm are allowed"
+            return f"the centre of {name} is {distance_m * 1e3:.1f} mm from {name_of_point}, {allowed}"
     if step.is_upright and pose.tilt_rad > about.place.largest_tilt_rad:
         return f"{name} leans by {math.degrees(pose.tilt_rad):.1f} deg"
     if step.is_at_rest:
@@ -40,3 +48,13 @@ def violated_condition(world: ContactWorld, control: ControlSettings, step: Chec
         if touching != (fingers if step.held else 0):
             return f"{touching} of {fingers} fingers touch {name}"
     return ""
+
+
+def _point(world: ContactWorld, near: Nearness, half_height_m: float) -> tuple[Point, str]:
+    """The point of the world that an object must be near, and its name."""
+    if near.point_m is not None:
+        return near.point_m, "the point"
+    if near.object:
+        return world.object_pose(near.object).position_m, f"that of {near.object}"
+    x, y, z = next(one.region for one in world.scene.places if one.id == near.place).centre_m
+    return (x, y, z + half_height_m), f"where it stands at {near.place}"

@@ -93,6 +93,7 @@ def execute(
             observer=observer,
             checkpoint=checkpoint,
             task=spec.task,
+            settling_limit_s=spec.settings.controller.settling_limit_s,
         )
         return _with_quality(execution.run(), timing)
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from rgss.evidence import Failure, Metric
 from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
-from rgss.tasks import CheckStep, GripStep, Stage, TaskProgram
+from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Stage, TaskProgram
 from rgss.trials.conditions_checked import violated_condition
 from rgss.trials.grip_control import GripControl
 from rgss.trials.hands import hand_of
@@ -29,7 +30,7 @@ from rgss.trials.monitors import (
 )
 from rgss.trials.object_checks import check_displacement, check_place, has_moved
 from rgss.trials.phase_result import PhaseResult
-from rgss.trials.plants import ControlSettings
+from rgss.trials.plants import ControlSettings, MoveTargets
 from rgss.trials.program import run_program
 from rgss.trials.reference import Array, Reference
 from rgss.trials.task_objects import TaskObjects
@@ -51,6 +52,7 @@ class Execution:
         estimate: GripEstimate | None = None,
         observer: StepObserver | None = None,
         checkpoint: Callable[[], None] | None = None,
+        settling_limit_s: float = 0.5,
     ) -> None:
         """Prepare a run.
 
@@ -63,8 +65,10 @@ class Execution:
             observer: Callback after each step.
             checkpoint: Called after every step; it may wait, or end the task by raising.
             task: The task.
+            settling_limit_s: Longest wait for the end of a move that states when it is reached.
         """
         self._world = world
+        self._settling_limit_s = settling_limit_s
         self._task = task
         self._objects = TaskObjects(world, self._task)
         self._references = references
@@ -97,20 +101,13 @@ class Execution:
         carried_at = self._held_at if stage.is_carrying else None
         self._grip.begin_phase()
         placed = PlacedObjectMonitor(world) if stage.is_retreat else None
-        watch = self._watch(carried_at, self._objects.resting_on(stage), reference.tool_m, placed)
-        positions, velocities = reference.positions_rad.tolist(), reference.velocities_rad_s.tolist()
+        targets = self._targets(stage, reference)
+        watch = self._watch(carried_at, self._objects.resting_on(stage), targets.tool_m, placed)
         steps, least_margin, is_alone = 0, self._control.tighten_below, self._is_alone
         world.solve_freely(free=carried_at is None)
         # The overhead of a step is a tenth of its cost: nothing is looked up here that can be computed before.
         is_held = carried_at is not None
-        for position, velocity, target, load, arc_m in zip(
-            positions,
-            velocities,
-            positions[1:],
-            reference.load_m_s2.tolist(),
-            reference.arc_m.tolist(),
-            strict=False,
-        ):
+        for position, velocity, target, load, arc_m in targets:
             world.command_arm(position, velocity)
             world.step()
             if is_held:
@@ -128,7 +125,9 @@ class Execution:
             if watch.failure is not None:
                 break
         world.solve_freely(free=False)
-        self._configuration = tuple(positions[-1])
+        self._configuration = tuple(reference.positions_rad[-1].tolist())
+        if targets.shortfall:
+            watch.fail(Failure.TRACKING_ERROR, targets.shortfall)
         watch.finish()
         metrics = watch.metrics()
         metrics["commanded_tool_speed_m_s"] = reference.peak_tool_speed_m_s
@@ -138,6 +137,15 @@ class Execution:
         if watch.failure is None:
             self._judge_move(stage, watch, metrics)
         return self._result(phase, watch, steps, metrics)
+
+    def _targets(self, stage: Stage, reference: Reference) -> MoveTargets:
+        return MoveTargets(
+            reference,
+            reached_rad=stage.step.reached_rad if isinstance(stage.step, MoveStep) else None,
+            positions_rad=lambda: self._world.arm_state()[0],
+            gravity_m_s2=self._world.scene.gravity_m_s2,
+            longest_wait_steps=math.ceil(self._settling_limit_s / self._step_s),
+        )
 
     def _judge_move(self, stage: Stage, watch: PhaseMonitor, metrics: dict[str, Metric]) -> None:
         """Check after a move: the object must not have moved, or at the end must be in its place."""
@@ -162,6 +170,8 @@ class Execution:
         scene = world.scene
         watch = self._watch(None, scene.support)
         needed_n = self._hand.needed_force_n(self._grip.mass_kg * scene.gravity_m_s2, self._grip.friction)
+        stated_n, firm_for_s = _firmness(stage, control.firm_grasp_s)
+        threshold_n = needed_n if stated_n is None else stated_n
         travel_s = self._hand.longest_travel_s
         self._grip.close()
         self._grip.tightenings = 0
@@ -172,21 +182,22 @@ class Execution:
         firm_s, touching_s, steps = 0.0, 0.0, 0
         forces: tuple[float, ...] = (0.0,)
         least_s = self._hand.least_closing_s - 1e-9
-        while watch.failure is None and (firm_s < control.firm_grasp_s - 1e-9 or steps * self._step_s < least_s):
+        while watch.failure is None and (firm_s < firm_for_s - 1e-9 or steps * self._step_s < least_s):
             self._hold_arm_and_step()
             contacts = self._observe(name, watch, scene.gravity_m_s2)
             steps += 1
             if steps % look_every == 0:
                 hand.look(steps)
             forces = self._grip.readings(contacts.finger_forces_n)
-            firm_s = firm_s + self._step_s if self._hand.is_firm(forces, needed_n) else 0.0
+            is_firm = self._hand.is_firm(forces, threshold_n) and (stated_n is None or min(forces) > stated_n)
+            firm_s = firm_s + self._step_s if is_firm else 0.0
             touching_s = touching_s + self._step_s if min(forces) > 0.0 else 0.0
-            if firm_s == 0.0 and touching_s > control.firm_grasp_s:
+            if firm_s == 0.0 and touching_s > firm_for_s:
                 touching_s = 0.0
                 self._grip.tighten()
             if steps * self._step_s > travel_s + control.grasp_timeout_s:
                 why = self._hand.misfit(scene) or world.grip_fault
-                watch.fail(Failure.NO_FIRM_GRASP, why or self._hand.shortfall(forces, needed_n))
+                watch.fail(Failure.NO_FIRM_GRASP, why or self._hand.shortfall(forces, threshold_n))
         self._held_at = hand.look(steps).held
         metrics = watch.metrics()
         metrics["finger_force_n"] = forces
@@ -209,8 +220,10 @@ class Execution:
         steps = 0
         contacts = world.contacts()
         least_s = self._hand.least_opening_s - 1e-9
+        stated_m = stage.step.opened_m if isinstance(stage.step, ReleaseStep) else None
+        open_within_m = _OPEN_TOLERANCE_M if stated_m is None else stated_m
         while watch.failure is None and (
-            max(world.finger_travel_m(), default=0.0) > _OPEN_TOLERANCE_M or steps * self._step_s < least_s
+            max(world.finger_travel_m(), default=0.0) > open_within_m or steps * self._step_s < least_s
         ):
             self._hold_arm_and_step()
             contacts = self._observe(name, watch, 0.0)
@@ -334,3 +347,11 @@ class Execution:
             duration_s=steps * self._step_s,
             metrics=metrics,
         )
+
+
+def _firmness(stage: Stage, common_s: float) -> tuple[float | None, float]:
+    """Force above which every finger must press, None if the step does not state it, and for how long."""
+    step = stage.step
+    if not isinstance(step, GripStep):
+        return None, common_s
+    return step.firm_above_n, common_s if step.firm_s is None else step.firm_s

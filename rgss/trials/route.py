@@ -30,11 +30,13 @@ class Stop:
         name: Its name in messages.
         pose: Transform of the grasp-centre frame to the world; None for a configuration.
         configuration_rad: Joint positions; empty for a pose.
+        is_turn_free: Whether the tool may be turned about its axis at the pose.
     """
 
     name: str
     pose: Pose | None = None
     configuration_rad: tuple[float, ...] = ()
+    is_turn_free: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,7 +141,8 @@ class _Cell:
         parts = [target.name]
         parts += [f"of {name}"] if name != self._scene.workpiece.id else []
         parts += [f"at {place}"] if place and waypoint in _AT_PLACE else []
-        return Stop(name=" ".join(parts), pose=waypoint_poses(view)[waypoint].raised(target.raised_m))
+        pose = waypoint_poses(view)[waypoint].raised(target.raised_m)
+        return Stop(name=" ".join(parts), pose=pose, is_turn_free=self._scene.task.is_yaw_free)
 
     def context_of(self, stage: Stage) -> tuple[Scene, CollisionContext]:
         """The scene and the collision context of a move."""

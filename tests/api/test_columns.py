@@ -73,6 +73,15 @@ def test_each_column_of_each_frame_is_described(study, name):
             assert str(frame[column.name].dtype) == column.kind.value
 
 
+def test_a_row_has_a_column_for_each_planned_move(study):
+    trials = study.trials
+
+    for name in ("planning_time_s", "planning_checks", "path_length_m"):
+        columns = [column for column in trials.columns if column.endswith(f"_{name}")]
+        assert columns == [f"item_{number}_{name}" for number in range(1, 6)]
+        assert trials[columns[0]].notna().all()
+
+
 def test_what_a_trial_with_contact_knows_is_described(gripped):
     columns = {column.name: column for column in phase_metric_columns()}
     metrics = {name for phase in gripped.record.phases for name in phase.metrics}
@@ -135,7 +144,12 @@ def test_metrics_have_their_units(study):
         assert column.meaning
         assert column.kind is Kind.NUMBER
         if column.name in METRICS:
-            assert (column.unit, column.items) == (METRICS[column.name].unit, METRICS[column.name].length)
+            length = METRICS[column.name].length
+            # A row whose length follows from the project has as many columns as a record has entries.
+            assert (column.unit, column.items) == (
+                METRICS[column.name].unit,
+                None if length is None else max(0, length),
+            )
 
 
 @pytest.mark.parametrize("name", FRAMES)

@@ -13,7 +13,7 @@ from rgss.kinematics.configurations import TOLERANCE
 from rgss.kinematics.numerical_inverse import NumericalInverse
 from rgss.kinematics.serial_chain import SerialChain
 from rgss.scenes import JointKind, Pose
-from tests.fixtures.serial_arms import ARMS, FIVE, SCARA, SEVEN, serial_robot
+from tests.fixtures.serial_arms import ARMS, FIVE, GANTRY, SCARA, SEVEN, serial_robot
 
 TOOL = Pose.from_roll_pitch_yaw((0.01, 0.0, 0.12), (0.0, 0.0, 0.4))
 
@@ -141,6 +141,44 @@ def test_few_joints_turn_about_the_tool_where_they_must():
         pose = arm.tool_pose(q)
         assert pose.rotate((0.0, 0.0, 1.0)) == pytest.approx((0.0, 0.0, -1.0), abs=1e-6)
         assert pose.position_m == pytest.approx(down.position_m, abs=1e-6)
+
+
+@pytest.mark.parametrize(("links", "least"), [(FIVE, 20), (FIVE[:4], 1), (SCARA, 20), (SEVEN, 20), (GANTRY, 1)])
+def test_position_and_axis_alone_leave_the_turn_to_the_arm(links, least):
+    arm = Arm(serial_robot(links, base=Pose()), Pose())
+    inverse = inverse_kinematics(arm, is_turn_free=True)
+    # Every tool of these points down at the middle of the joints' ranges, or can be brought to do so.
+    down = Pose.from_roll_pitch_yaw((0.4, 0.1, 0.25), (math.pi, 0.0, 0.9))
+
+    solutions = inverse.solve(down)
+
+    assert len(solutions) >= least
+    for q in solutions:
+        pose = arm.tool_pose(q)
+        assert pose.rotate((0.0, 0.0, 1.0)) == pytest.approx((0.0, 0.0, -1.0), abs=1e-6)
+        assert pose.position_m == pytest.approx(down.position_m, abs=1e-6)
+        assert np.all((q >= arm.lower_rad) & (q <= arm.upper_rad))
+    # However the pose is turned about its axis, the answer is the same.
+    turned = Pose.from_roll_pitch_yaw((0.4, 0.1, 0.25), (math.pi, 0.0, -1.3))
+    again = inverse.solve(turned)
+    assert len(again) == len(solutions)
+    assert np.max(np.abs(np.array(again) - np.array(solutions))) < 1e-4
+
+
+def test_a_line_with_a_free_turn_keeps_the_last_joint_still():
+    arm = Arm(serial_robot(FIVE, base=Pose()), Pose())
+    inverse = inverse_kinematics(arm, is_turn_free=True)
+    start = inverse.nearest(
+        Pose.from_roll_pitch_yaw((0.4, -0.25, 0.25), (math.pi, 0.0, 0.0)), (-0.5, 0.5, 1.5, 1.1, 0.3)
+    )
+    goal = Pose.from_roll_pitch_yaw((0.4, 0.25, 0.25), (math.pi, 0.0, 2.0))
+
+    line = follow_line(inverse, start, goal)
+
+    assert line.broken is None
+    assert np.max(np.abs(np.diff(line.configurations_rad[:, 4]))) < 1e-6
+    heights = arm.tool_position(line.configurations_rad)[:, 2]
+    assert np.max(np.abs(heights - 0.25)) < 1e-6
 
 
 def test_the_batched_chain_is_the_arm(inverse):

@@ -216,6 +216,17 @@ def test_many_small_steps_are_one_motion(timed, arm):
     assert one.trajectory.duration_s == pytest.approx(other.trajectory.duration_s, rel=0.01)
 
 
+def test_rows_of_one_line_whose_distances_differ_by_rounding_are_one_motion(timed, arm, limits):
+    start, end = np.zeros(6), np.array([0.03, 0.0, 0.0, 0.0, 0.0, 0.0])
+    shares = np.linspace(0.0, 1.0, 94)[:, None]
+    # Numerical inverse kinematics rounds its rows to 11 digits.
+    rows = np.round(start + shares * (end - start), 11)
+
+    whole, divided = (timed(np.vstack(points)).trajectory.duration_s for points in ([start, end], rows))
+
+    assert divided == pytest.approx(whole, rel=1e-3)
+
+
 def test_one_rounded_path_serves_several_speeds(anything, arm, limits, polylines):
     blended = blend(JointPath(polylines(1, seed=7)[0]), anything, resolution_rad=RESOLUTION)
     slow, fast = (time_blended(blended, arm, limits(speed)).trajectory for speed in (0.5, 1.0))

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import shutil
 
 import pytest
 
 from rgss.cli.main import main
+from rgss.guard.schema import record_schema
+from rgss.studies import load_project
 from tests.robots.conftest import urdf_of
 
 
@@ -34,6 +37,25 @@ def test_a_project_of_an_arm_is_checked_swept_and_decided(projects, arm_name, ca
     decision = json.loads(text)
     assert status in (0, 1)
     assert decision["chosen"] is not None
+
+
+def test_a_row_of_joints_has_as_many_entries_as_the_arm_has_joints(projects, tmp_path, capsys):
+    project = tmp_path / "project"
+    shutil.copytree(projects["seven"], project)
+    measures = project / "requirements" / "measures.yaml"
+    written = measures.read_text(encoding="utf-8")
+    source = (
+        "inputs:\n  - {id: torques, source: trial.peak_joint_torque_n_m, unit: N*m, length: 6, definition: Torques.}\n"
+    )
+    measures.write_text(written.replace("inputs:\n", source, 1), encoding="utf-8")
+    assert main(["variants", "--project", str(project)]) == 2
+    message = "torques: 'trial.peak_joint_torque_n_m' is a row of 7 (write 'length: 7')"
+    assert message in " ".join(capsys.readouterr().err.split())
+    measures.write_text(written.replace("inputs:\n", source.replace("6", "7"), 1), encoding="utf-8")
+    assert main(["variants", "--project", str(project)]) == 0
+    # What a baseline says of a record is that of the arm.
+    assert record_schema(load_project(project))["peak_joint_torque_n_m"] == "7 × N*m"
+    assert record_schema(load_project(project))["path_length_m"] == "5 × m"
 
 
 def test_the_object_is_carried_in_contact(projects, capsys):

@@ -114,6 +114,14 @@ def test_touching_is_allowed_and_so_is_no_friction(kitchen):
             "  - ¦id: pole\n    box: [1 m, 1 m, 1 m]\n",
             "scene.shape body 'pole' needs exactly one of 'box' and 'cylinder'",
         ),
+        (
+            "  place_yaw: 90 deg\n",
+            "  place_yaw: 90 deg\n  grasp: automatic\n  free_yaw: ¦true\n",
+            (
+                "scene.free-yaw the yaw is free only where every object is an upright cylinder that is gripped "
+                "from above (leave free_yaw out, or let grasp be as_stated)"
+            ),
+        ),
         ("600 mm, 0.7 m", "¦0 mm, 0.7 m", "scene.not-positive box must be greater than zero"),
         ("radius: 50 mm", "radius: ¦-50 mm", "scene.not-positive radius must be greater than zero"),
         ("height: 2 m", "height: ¦0 m", "scene.not-positive height must be greater than zero"),

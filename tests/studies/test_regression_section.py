@@ -52,7 +52,7 @@ FINDINGS = [
     (
         "metric: success",
         "metric: joint_saturated_s",
-        "8:16: error: joint_saturated_s is a row of 6 numbers (guard one that is a single number)",
+        "8:16: error: joint_saturated_s is a row of numbers, one per joint of the arm (guard one",
     ),
     ("margin: 0.2 s", "margin: 0.2 m", "9:87: error: unit 'm' does not measure what 's' measures (give it in s"),
     ("margin: 0.2 s", "margin: 0.2", "9:87: error: '0.2' has no unit"),

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rgss.errors import DocumentError
-from rgss.tasks import MoveKind, default_task, load_task, stages_of
+from rgss.tasks import MoveKind, Nearness, StepControl, default_task, load_task, stages_of
 from tests.fixtures.eight_states import CARRYING, PLANNED_PHASES, Phase
 
 ROOT = Path(__file__).parents[2]
@@ -84,12 +84,56 @@ def test_loops_give_each_step_a_name_of_its_own(tmp_path):
         ("  - move: {to: grasp, speed: 2}\n", "speed must be a share in (0, 1], got 2"),
         ("  - move: {to: grasp, time_limit: 0 s}\n", "time_limit must be greater than zero"),
         ("  - move: {to: grasp, mode: joint, time_limit: 1 s}\n", "only a planned move has a planning limit"),
+        ("  - move: {to: grasp, reached_within: 0 deg}\n", "3:39: error: reached_within must be greater than zero"),
+        (REACH + "  - grip: {firm_above: 0 N}\n", "4:24: error: firm_above must be greater than zero"),
+        (REACH + "  - grip: {firm_for: -1 s}\n", "4:22: error: firm_for must be greater than zero"),
+        (CARRY + "  - release: {reached_within: 0 mm}\n", "6:31: error: reached_within must be greater than zero"),
+        (
+            "  - move: {to: grasp, control: {velocity_gain: 0 rad/s}}\n",
+            "3:48: error: velocity_gain must be greater than zero",
+        ),
+        (
+            "  - move: {to: grasp, control: {position_gain: -1 rad/s}}\n",
+            "3:48: error: position_gain must not be negative [task.negative]",
+        ),
+        (
+            REACH + "  - check: {near: {within: 1 mm}}\n",
+            "4:19: error: near needs one of place, object and point, got none (name one) [task.near]",
+        ),
+        (
+            REACH + "  - check: {near: {place: a, object: b, within: 1 mm}}\n",
+            "near needs one of place, object and point, got place and object",
+        ),
+        (REACH + "  - check: {near: {place: a, within: 0 mm}}\n", "within must be greater than zero"),
     ],
 )
 def test_what_is_wrong_is_found_at_its_place(tmp_path, steps, problem):
     (finding, *_) = findings_of(tmp_path, HEAD + steps)
 
     assert problem in finding
+
+
+def test_thresholds_of_the_task_are_those_of_steps_that_state_none(tmp_path):
+    text = (
+        "task: t\nreached_within: {joints: 2 mrad, gripper: 1 mm}\nsteps:\n"
+        "  - move: {to: grasp}\n"
+        "  - grip: {firm_above: 3 N, firm_for: 80 ms, control: {mode: velocity}}\n"
+        "  - move: {to: place, reached_within: 5 mrad, control: {natural_frequency: 60 rad/s}}\n"
+        "  - release: {}\n"
+        "  - wait: {duration: 1 s, control: {damping_ratio: 0.9}}\n"
+        "  - check: {near: {point: [1 m, 2 m, 30 cm], within: 4 mm}}\n"
+    )
+
+    move, grip, carry, release, wait, check = program_of(tmp_path, text).steps
+
+    assert (move.reached_rad, carry.reached_rad) == (0.002, 0.005)
+    assert (move.control, carry.control) == (None, StepControl(natural_frequency_rad_s=60.0))
+    assert (grip.firm_above_n, grip.firm_s, grip.control) == (3.0, 0.08, StepControl(mode="velocity"))
+    assert release.opened_m == 1e-3
+    assert wait.control == StepControl(damping_ratio=0.9)
+    assert check.near == Nearness(within_m=0.004, point_m=(1.0, 2.0, 0.3))
+    (finding,) = findings_of(tmp_path, text.replace("joints: 2 mrad", "joints: 0 rad"))
+    assert finding.startswith("task.yaml:2:26: error: joints must be greater than zero")
 
 
 def test_a_straight_line_does_not_end_at_a_configuration(tmp_path):

@@ -138,7 +138,11 @@ def test_every_metric_is_named_with_its_length(spec, checks, execution):
 
     assert set(metrics) == set(METRICS)
     for name, kind in METRICS.items():
-        assert (length := kind.length_in_trial(5)) is None or metrics[name] is None or len(metrics[name]) == length
+        assert (
+            (length := kind.length_in_trial(planned=5, joints=6)) is None
+            or metrics[name] is None
+            or len(metrics[name]) == length
+        )
 
 
 def test_the_load_of_each_joint_is_that_of_all_phases(spec):

@@ -117,6 +117,7 @@ def _as_json(recording: Recording, fits: Sequence[ServoFit]) -> dict[str, Any]:
         "recorded": recording.recorded,
         "control": recording.control.value,
         "sha256": recording.digest,
+        "units": {joint: recording.unit_of(joint) for joint in recording.joints},
         "responses": [asdict(each) for each in responses(recording)],
         "fits": [
             {
@@ -166,15 +167,16 @@ def _show(recording: Recording, fits: Sequence[ServoFit]) -> None:
         ]
         for each in responses(recording)
     ]
+    per_s = "rad/s, m/s" if recording.slides else "rad/s"
     titles = [
         "joint",
         "pose",
         "signal",
         "rise [ms]",
         "overshoot [%]",
-        "steady error [rad/s]",
+        f"steady error [{per_s}]",
         "lag [ms]",
-        "RMS [rad/s]",
+        f"RMS [{per_s}]",
     ]
     print_table(titles, rows, right=(3, 4, 5, 6, 7))
     print()
@@ -187,6 +189,7 @@ def _show(recording: Recording, fits: Sequence[ServoFit]) -> None:
     print_table(["joint", "parameter", "fitted", "from", "to", "95 % interval"], rows, right=(2, 3, 4))
     for fit in fits:
         residuals = ", ".join(f"{pose} {number(value)}" for pose, value in fit.rms_rad_s.items())
-        print(printable(f"{fit.joint}: residual {residuals} rad/s; autocorrelation {fit.autocorrelation:.2f}"))
+        residuals = f"residual {residuals} {recording.unit_of(fit.joint)}/s"
+        print(printable(f"{fit.joint}: {residuals}; autocorrelation {fit.autocorrelation:.2f}"))
         if not fit.adequate:
             print(printable(f"{fit.joint}: {MISFIT}"))

@@ -23,6 +23,7 @@ DOCUMENTS = (
     "scene",
     "robot",
     "calibration",
+    "excitation",
     "gripper",
     "task",
     "parallel-gripper",

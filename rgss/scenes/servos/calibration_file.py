@@ -13,9 +13,9 @@ from rgss.documents import (
     DocumentModel,
     Hertz,
     Identifier,
+    JointAcceleration,
+    JointSpeed,
     QuantityText,
-    RadiansPerSecond,
-    RadiansPerSecondSquared,
     Seconds,
     Text,
     load_document,
@@ -46,8 +46,8 @@ class ServoEntry(DocumentModel):
     position_gain: QuantityText | None = None
     delay: Seconds = 0.0
     viscous_friction: Hertz = 0.0
-    coulomb_friction: RadiansPerSecondSquared = 0.0
-    residual: RadiansPerSecond | None = None
+    coulomb_friction: JointAcceleration | None = None
+    residual: JointSpeed | None = None
     adequate: bool = True
 
 
@@ -116,7 +116,7 @@ def _servo(entry: ServoEntry) -> JointServo | RgssError:
             position_gain_hz2=gain,
             delay_s=entry.delay,
             viscous_hz=entry.viscous_friction,
-            coulomb_rad_s2=entry.coulomb_friction,
+            coulomb_rad_s2=0.0 if entry.coulomb_friction is None else entry.coulomb_friction.value,
         )
     except (QuantityError, DefinitionError) as error:
         return error

@@ -34,7 +34,7 @@ class JointServo:
         position_gain_hz2: k_p in 1/s²; without effect under velocity control.
         delay_s: T.
         viscous_hz: b in 1/s: viscous friction per inertia.
-        coulomb_rad_s2: c: Coulomb friction per inertia.
+        coulomb_rad_s2: c: Coulomb friction per inertia; of a joint that slides per mass, in m/s².
     """
 
     velocity_gain_hz: float

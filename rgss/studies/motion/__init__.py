@@ -12,5 +12,6 @@ if TYPE_CHECKING:
         TimingEntry,
         read_motion,
     )
+    from rgss.studies.motion.step_control import step_control_findings
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -12,7 +12,7 @@ from rgss.quantities import parse_quantity
 from rgss.regression import SUCCESS, WHOLE_TRIAL, Guard
 from rgss.studies.regression.document import RegressionEntry, RegressionMetricEntry, RegressionRunEntry
 from rgss.studies.regression.guard import GuardedMetric, RegressionGuard, WatchedRun
-from rgss.trials import FOR_EACH_MOVE, METRICS, PHASE_METRICS
+from rgss.trials import FOR_EACH_JOINT, FOR_EACH_MOVE, METRICS, PHASE_METRICS
 
 
 def read_regression(
@@ -118,7 +118,11 @@ class _Reader:
             return None
         length = metric.length_in_phase if in_phases else metric.length
         if length is not None:
-            known = {0: "numbers, one per finger", FOR_EACH_MOVE: "numbers, one per planned move"}
+            known = {
+                0: "numbers, one per finger",
+                FOR_EACH_MOVE: "numbers, one per planned move",
+                FOR_EACH_JOINT: "numbers, one per joint of the arm",
+            }
             count = known.get(length, f"{length} numbers")
             is_number_of_phase = name in PHASE_METRICS and PHASE_METRICS[name].length_in_phase is None
             hint = "write 'phases: all'" if is_number_of_phase else "guard one that is a single number"

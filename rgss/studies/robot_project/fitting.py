@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from rgss.errors import DefinitionError
 from rgss.kinematics import Arm, ArmDynamics, Load, inverse_kinematics
 from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
+from rgss.studies.robot_project.overhead_layout import overhead_layouts
 from rgss.tasks import default_task
 from rgss.trials import Workcell, waypoint_configurations
 
@@ -21,6 +23,7 @@ Array = NDArray[np.float64]
 
 _SAMPLES = 2048
 _LEAST_REACH_M = 0.2
+_POSE_FREEDOMS = 6
 _ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
 _CLEARANCE_M = 0.008
 _LEAST_PAYLOAD_KG, _MOST_PAYLOAD_KG = 0.1, 100.0
@@ -60,6 +63,15 @@ def payload_at_reach_kg(robot: Robot) -> float:
     return min(max(held, _LEAST_PAYLOAD_KG), _MOST_PAYLOAD_KG)
 
 
+def is_yaw_free(robot: Robot) -> bool:
+    """True for an arm that cannot turn its tool to every pose, whose task asks for the tool's axis alone.
+
+    Args:
+        robot: The arm.
+    """
+    return len(robot.joints) < _POSE_FREEDOMS
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FittedCell:
     """A cell that suits an arm.
@@ -91,8 +103,9 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
     """
     path = folder / "scenes" / "kitchen.yaml"
     reach_m = horizontal_reach_m(robot)
-    for layout in layouts(reach_m) if reach_m >= _LEAST_REACH_M else ():
-        path.write_text(scene_text(layout, robot=robot_file), encoding="utf-8")
+    standing = layouts(reach_m) if reach_m >= _LEAST_REACH_M else ()
+    for layout in itertools.chain(standing, _overhead(robot, geometries)):
+        path.write_text(scene_text(layout, robot=robot_file, is_yaw_free=is_yaw_free(robot)), encoding="utf-8")
         scene = load_scene(path, project=folder)
         if not all(_reaches_ends(scene, geometry) for geometry in geometries):
             continue
@@ -105,6 +118,14 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
         f"no layout was found in which {robot.id} grasps a cup on a table with its tool pointing down",
         hint="is --flange the link whose z axis points out of the arm? Does the arm turn its tool down at all?",
     )
+
+
+def _overhead(robot: Robot, geometries: Sequence[GripperGeometry]) -> Iterator[Layout]:
+    """Layouts under an arm that hangs; they are made only when they are asked for."""
+    samples = sampled_configurations(robot)
+    tools = np.array([Arm(replace(robot, base=Pose()), Pose()).tool_matrix(q) for q in samples])
+    tool_m = max(geometry.grasp_centre.position_m[2] for geometry in geometries)
+    yield from overhead_layouts(tools[:, :3, 3], tools[:, :3, 2], tool_m=tool_m)
 
 
 def _stops(scene: Scene, geometry: GripperGeometry) -> Mapping[str, Array]:
@@ -122,7 +143,10 @@ def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tup
 
 
 def _reaches_ends(scene: Scene, geometry: GripperGeometry) -> bool:
-    inverse, poses = inverse_kinematics(Arm(scene.robot, geometry.grasp_centre)), waypoint_poses(scene)
+    inverse, poses = (
+        inverse_kinematics(Arm(scene.robot, geometry.grasp_centre), is_turn_free=scene.task.is_yaw_free),
+        waypoint_poses(scene),
+    )
     ends = (Waypoint.GRASP, Waypoint.GRASP_DEPARTURE, Waypoint.PLACE)
     return all(inverse.nearest(poses[waypoint], scene.robot.home_rad) is not None for waypoint in ends)
 

@@ -14,22 +14,17 @@ _AZIMUTH_RAD = math.radians(35.0)
 
 _SCENE = """\
 # Where the arm works: it carries a cup from one table to another, past a post between them. Everything is scaled by the
-# arm's reach. World frame: origin on the floor under the arm, z up. `foot` is the centre of a body's bottom face.
+# arm's reach. World frame: origin on the floor under the {origin}, z up. `foot` is the centre of a body's bottom face.
 scene: kitchen
 gravity: 9.81 m/s^2
 
 robot:
   description: robots/{robot}
-  base: [0 m, 0 m, {pedestal:g} m]
-
+  base: [{base_x:g} m, {base_y:g} m, {base_z:g} m]
+{base_yaw}
 bodies: # a box has its size along x, y and z
   - {{id: floor, box: [5 m, 5 m, 0.02 m], foot: [0 m, 0 m, -0.02 m], friction: 0.6, colour: "#6b625b"}}
-  - id: pedestal
-    cylinder: {{radius: {foot:.3f} m, height: {pedestal:g} m}}
-    foot: [0 m, 0 m, 0 m]
-    friction: 0.6
-    colour: "#4a4f57"
-  - id: counter
+{pedestal}  - id: counter
     box: [{deep:.3f} m, {long:.3f} m, {table:g} m]
     foot: [{x:.3f} m, {left:.3f} m, 0 m]
     friction: 0.5
@@ -71,11 +66,23 @@ task: # heights of the gripper over its waypoints, and how it is turned there
   largest_carry_tilt: 45 deg
   grasp_yaw: 0 deg
   place_yaw: 0 deg
-
+{free_yaw}
 assumptions:
   - about: workpiece.force_limit
     rationale: No source gives the force that breaks the cup; this is well above the closing impact of one finger.
+{carried}"""
+_PEDESTAL = """\
+  - id: pedestal
+    cylinder: {{radius: {foot:.3f} m, height: {height:g} m}}
+    foot: [0 m, 0 m, 0 m]
+    friction: 0.6
+    colour: "#4a4f57"
 """
+_CARRIED = """\
+  - about: robot.base
+    rationale: What carries the arm above the tables is not modelled; it stands outside of where the tool goes.
+"""
+_FREE_YAW = "  free_yaw: true # the cup is round: an arm of few joints turns the gripper as it can\n"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,13 +91,21 @@ class Layout:
 
     Attributes:
         reach_m: The arm's reach, by which everything is scaled.
-        distance_m: Horizontal distance of the object and its place from the base.
+        x_m: x of the object and of its place in the world.
+        y_m: y of the place; the object is on the other side.
         table_m: Height of the tables' tops over the floor.
+        base_m: Position of the arm's base in the world.
+        base_yaw_rad: Its turn about the vertical.
+        is_overhead: Whether the arm hangs above the tables, instead of standing on a pedestal before them.
     """
 
     reach_m: float
-    distance_m: float
+    x_m: float
+    y_m: float
     table_m: float
+    base_m: tuple[float, float, float] = (0.0, 0.0, _PEDESTAL_HEIGHT_M)
+    base_yaw_rad: float = 0.0
+    is_overhead: bool = False
 
 
 def layouts(reach_m: float) -> Iterator[Layout]:
@@ -102,18 +117,25 @@ def layouts(reach_m: float) -> Iterator[Layout]:
     for height in _HEIGHT_SHARES:
         for share in _SHARES_OF_REACH:
             table_m = max(0.1, _PEDESTAL_HEIGHT_M + height * reach_m)
-            yield Layout(reach_m=reach_m, distance_m=share * reach_m, table_m=round(table_m, 3))
+            distance_m = share * reach_m
+            yield Layout(
+                reach_m=reach_m,
+                x_m=distance_m * math.cos(_AZIMUTH_RAD),
+                y_m=distance_m * math.sin(_AZIMUTH_RAD),
+                table_m=round(table_m, 3),
+            )
 
 
-def scene_text(layout: Layout, *, robot: str) -> str:
+def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
     """The text of a scene file.
 
     Args:
         layout: Where the tables are.
         robot: Name of the robot file.
+        is_yaw_free: Whether the gripper may be turned about the vertical as suits the arm.
     """
     reach = layout.reach_m
-    x, y = layout.distance_m * math.cos(_AZIMUTH_RAD), layout.distance_m * math.sin(_AZIMUTH_RAD)
+    x, y = layout.x_m, layout.y_m
     long, deep = 0.45 * reach, max(0.2, 0.3 * reach)
     near = x - deep / 2
     post = 0.05 * reach
@@ -122,8 +144,14 @@ def scene_text(layout: Layout, *, robot: str) -> str:
     lift = min(0.06, 0.05 * reach)
     return _SCENE.format(
         robot=robot,
-        pedestal=_PEDESTAL_HEIGHT_M,
-        foot=min(0.14, near * 0.5),
+        origin="middle of where its tool goes" if layout.is_overhead else "arm",
+        free_yaw=_FREE_YAW if is_yaw_free else "",
+        base_x=layout.base_m[0],
+        base_y=layout.base_m[1],
+        base_z=layout.base_m[2],
+        base_yaw=f"  yaw: {math.degrees(layout.base_yaw_rad):g} deg\n" if layout.base_yaw_rad else "",
+        pedestal="" if layout.is_overhead else _PEDESTAL.format(foot=min(0.14, near * 0.5), height=_PEDESTAL_HEIGHT_M),
+        carried=_CARRIED if layout.is_overhead else "",
         deep=deep,
         long=long,
         table=layout.table_m,

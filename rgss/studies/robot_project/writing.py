@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 from rgss.errors import DefinitionError
 from rgss.scenes import load_gripper
 from rgss.studies.robot_project.draft import drafted_robot
-from rgss.studies.robot_project.fitting import fitted, payload_at_reach_kg
+from rgss.studies.robot_project.fitting import fitted, is_yaw_free, payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
 from rgss.studies.robot_project.robot_text import robot_text
 from rgss.studies.scaffolding import scaffold_texts
@@ -72,7 +72,9 @@ def _write_files(project: Path, urdf: Path, flange: str | None) -> None:
     payload_kg = payload_at_reach_kg(robot)
     text = robot_text(narrowed, id_=id_, urdf=f"{id_}.urdf", home=cell.home, payload_kg=payload_kg)
     drafted.file.write_text(text, encoding="utf-8")
-    (project / "scenes" / "kitchen.yaml").write_text(scene_text(cell.layout, robot=drafted.file.name), encoding="utf-8")
+    (project / "scenes" / "kitchen.yaml").write_text(
+        scene_text(cell.layout, robot=drafted.file.name, is_yaw_free=is_yaw_free(robot)), encoding="utf-8"
+    )
 
 
 def _renamed(text: str, old: str, id_: str, name: str) -> str:

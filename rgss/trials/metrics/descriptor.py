@@ -60,6 +60,8 @@ _SUFFIXES = {
 
 FOR_EACH_MOVE = -1
 """Length of a row that has an entry for each planned move of the task."""
+FOR_EACH_JOINT = -2
+"""Length of a row that has an entry for each joint of the arm."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,7 +77,8 @@ class MetricDescriptor:
         phase: Origin of the values of phases; None if only the trial has one.
         fidelities: Fidelities in which it is observed. A trial may lack it nevertheless, such as after a failure.
         length: Number of entries of a row; 0 for one per finger, `FOR_EACH_MOVE` for one per planned move of the task,
-            None for a single number. A recorded value of a phase is always a single number.
+            `FOR_EACH_JOINT` for one per joint of the arm, None for a single number. A recorded value of a phase is
+            always a single number.
         phase_meaning: Definition for one phase, where it differs.
         source: The metric that is taken at the grasp, for `Aggregation.AT_GRASP`; the one that decides between the
             phases, for `Aggregation.OF_GREATEST`.
@@ -102,13 +105,16 @@ class MetricDescriptor:
         """Definition of the value of a phase."""
         return self.phase_meaning or self.meaning
 
-    def length_in_trial(self, planned: int) -> int | None:
+    def length_in_trial(self, *, planned: int, joints: int) -> int | None:
         """Number of entries of the value of a trial; None for a single number.
 
         Args:
             planned: Number of planned moves of the task.
+            joints: Number of joints of the arm.
         """
-        return planned if self.length == FOR_EACH_MOVE else self.length
+        if self.length == FOR_EACH_MOVE:
+            return planned
+        return joints if self.length == FOR_EACH_JOINT else self.length
 
     @property
     def length_in_phase(self) -> int | None:

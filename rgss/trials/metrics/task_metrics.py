@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rgss.trials.metrics.descriptor import (
+    FOR_EACH_JOINT,
     FOR_EACH_MOVE,
     WITH_CONTACT,
     WITH_TORQUES,
@@ -11,8 +12,6 @@ from rgss.trials.metrics.descriptor import (
     MetricDescriptor,
     PhaseValue,
 )
-
-_JOINTS = 6
 
 TASK_METRICS: tuple[MetricDescriptor, ...] = (
     MetricDescriptor(
@@ -184,7 +183,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.LOWER,
         trial=Aggregation.GREATEST_OF_EACH,
         fidelities=WITH_TORQUES,
-        length=_JOINTS,
+        length=FOR_EACH_JOINT,
     ),
     MetricDescriptor(
         name="peak_joint_torque_ratio",
@@ -209,7 +208,7 @@ TASK_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.LOWER,
         trial=Aggregation.SUM_OF_EACH,
         fidelities=WITH_TORQUES,
-        length=_JOINTS,
+        length=FOR_EACH_JOINT,
     ),
     MetricDescriptor(
         name="peak_joint_speed_ratio",

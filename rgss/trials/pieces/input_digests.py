@@ -30,6 +30,8 @@ from rgss.trials.trial_spec import TrialSpec
 _KEPT = 512
 _RATES = ("speed_rad_s", "acceleration_rad_s2")
 _JOINED_KEPT = 8192
+# What a step states of its own execution.
+_EXECUTED = ("reached_rad", "control", "firm_above_n", "firm_s", "opened_m", "near")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +96,7 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         _digest_of(spec.settings.physics),
         _digest_of(spec.settings.control),
         *(_stated(spec.settings.controller) if spec.fidelity is Fidelity.DYNAMIC else ()),
+        *_execution_of_steps(spec),
         spec.fidelity.value,
         used["execution"],
     )
@@ -178,8 +181,30 @@ def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:
 
 @lru_cache(maxsize=_KEPT)
 def _task_digest(task: TaskProgram) -> str:
-    """Digest of the steps of a task; its name is no input."""
-    return digest([to_plain(task.start), [[type(step).__name__, to_plain(step)] for step in task.steps]])
+    """Digest of the steps of a task without what only its execution depends on; its name is no input."""
+    steps = [[type(step).__name__, _without(to_plain(step), _EXECUTED)] for step in task.steps]
+    return digest([to_plain(task.start), steps])
+
+
+def _execution_of_steps(spec: TrialSpec) -> tuple[str, ...]:
+    """Digest of the thresholds and the control of the steps; nothing where no step states any."""
+    stated = _stated_in_steps(spec.task)
+    if not stated:
+        return ()
+    # How long the end of a move is awaited counts in contact only where a step states when it is reached.
+    return (digest([stated, spec.settings.controller.settling_limit_s]),)
+
+
+@lru_cache(maxsize=_KEPT)
+def _stated_in_steps(task: TaskProgram) -> tuple[tuple[str, str], ...]:
+    """Name of each step that states thresholds or control, and the digest of these."""
+    plain = {step.name: to_plain(step) for step in task.steps}
+    stated = {name: {key: one[key] for key in _EXECUTED if one.get(key) is not None} for name, one in plain.items()}
+    return tuple((name, digest(values)) for name, values in stated.items() if values)
+
+
+def _without(values: dict[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if name not in names}
 
 
 @lru_cache(maxsize=_KEPT)
@@ -251,11 +276,16 @@ def _geometry_digest(scene: Scene) -> str:
         },
         "supports": [scene.support, scene.place_support],
         "place": to_plain(scene.place.centre_m),
-        "task": to_plain(scene.task),
+        "task": _waypoints(scene),
         **({"others": [_object_inputs(one) for one in scene.others]} if scene.others else {}),
         **({"places": [to_plain(place) for place in scene.places]} if scene.places else {}),
     }
     return digest(geometry)
+
+
+def _waypoints(scene: Scene) -> dict[str, Any]:
+    task: dict[str, Any] = to_plain(scene.task)
+    return task if scene.task.is_yaw_free else _without(task, ("is_yaw_free",))
 
 
 def _shape(shape: ObjectShape) -> dict[str, Any]:

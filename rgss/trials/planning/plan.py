@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 
 from rgss.evidence import PlanOutcome
-from rgss.kinematics import inverse_kinematics
 from rgss.motion import (
     PlannerSettings,
     PlanningProblem,
@@ -23,7 +22,7 @@ from rgss.tasks import MoveKind, MoveStep
 from rgss.trials.planning.direct_moves import direct_move
 from rgss.trials.planning.planned_moves import PlannedMove, TaskPlan
 from rgss.trials.planning.planning_costs import state_cost
-from rgss.trials.planning.task_stops import goal_pose_of, stops_of
+from rgss.trials.planning.task_stops import goal_pose_of, inverse_at, stops_of
 from rgss.trials.reference import Array
 from rgss.trials.route import Leg
 from rgss.trials.settings import PlanningSettings
@@ -151,12 +150,14 @@ def _direct(
     leg: Leg, kind: MoveKind, start: Array, goal: Array, cell: Workcell, settings: PlanningSettings
 ) -> PlannedMove:
     """A move without a search, in the place of a planned one."""
+    stop = cell.route.stops[leg.goal]
     found = direct_move(
         kind,
         start,
         goal,
-        goal_pose_of(cell, cell.route.stops[leg.goal]),
-        inverse=inverse_kinematics(cell.arm),
+        # Where the turn of the tool is free, it is that of the configuration in which the next move begins.
+        cell.arm.tool_pose(goal) if stop.is_turn_free else goal_pose_of(cell, stop),
+        inverse=inverse_at(cell, stop),
         model=cell.planning[leg.step.name],
         clock=settings.clock,
         resolution_rad=_settings_of(leg.step, settings).resolution_rad,

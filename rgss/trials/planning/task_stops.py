@@ -9,7 +9,14 @@ from functools import lru_cache
 
 import numpy as np
 
-from rgss.kinematics import CollisionModel, InverseKinematics, choose_branches, inverse_kinematics, straight_line
+from rgss.kinematics import (
+    CollisionModel,
+    InverseKinematics,
+    choose_branches,
+    follow_line,
+    inverse_kinematics,
+    straight_line,
+)
 from rgss.motion import segment_states
 from rgss.scenes import Pose
 from rgss.tasks import MoveKind
@@ -44,10 +51,10 @@ def stops_of(cell: Workcell) -> TaskStops:
     Args:
         cell: Scene, arm and collision models.
     """
-    inverse, stops, pairs = inverse_kinematics(cell.arm), cell.route.stops, cell.route.pairs
+    stops, pairs = cell.route.stops, cell.route.pairs
     none: dict[str, Array | None] = dict.fromkeys(cell.task.direct)
     candidates = [
-        [q for q in _solutions(inverse, stop) if all(model.is_valid(q) for model in _meeting(cell, index))]
+        [q for q in _solutions(cell, stop) if all(model.is_valid(q) for model in _meeting(cell, index))]
         for index, stop in enumerate(stops)
     ]
     reasons = _reasons(cell, (index for index, found in enumerate(candidates) if not found))
@@ -60,7 +67,7 @@ def stops_of(cell: Workcell) -> TaskStops:
     if chosen is None:
         return TaskStops(configurations={}, direct=none, reasons=reasons)
     found = dict(zip(order, chosen, strict=True))
-    direct = {**none, **_direct_moves(cell, inverse, found)}
+    direct = {**none, **_direct_moves(cell, found)}
     return TaskStops(configurations=found, direct=direct, reasons=reasons)
 
 
@@ -94,8 +101,20 @@ def goal_pose_of(cell: Workcell, stop: Stop) -> Pose:
     return cell.arm.tool_pose(np.array(stop.configuration_rad)) if stop.pose is None else stop.pose
 
 
-def _solutions(inverse: InverseKinematics, stop: Stop) -> list[Array]:
-    return list(inverse.solve(stop.pose)) if stop.pose is not None else [np.array(stop.configuration_rad)]
+def inverse_at(cell: Workcell, stop: Stop) -> InverseKinematics:
+    """Inverse kinematics of what a stop asks of the tool.
+
+    Args:
+        cell: Scene, arm and collision models.
+        stop: The stop.
+    """
+    return inverse_kinematics(cell.arm, is_turn_free=stop.is_turn_free)
+
+
+def _solutions(cell: Workcell, stop: Stop) -> list[Array]:
+    if stop.pose is None:
+        return [np.array(stop.configuration_rad)]
+    return list(inverse_at(cell, stop).solve(stop.pose))
 
 
 def _meeting(cell: Workcell, index: int) -> list[CollisionModel]:
@@ -103,22 +122,22 @@ def _meeting(cell: Workcell, index: int) -> list[CollisionModel]:
 
 
 def _reasons(cell: Workcell, among: Iterable[int]) -> dict[int, GoalReason]:
-    inverse, found = inverse_kinematics(cell.arm), {}
+    found = {}
     for index in among:
         stop, meeting = cell.route.stops[index], _meeting(cell, index)
-        reached = _solutions(inverse, stop)
+        reached = _solutions(cell, stop)
         if not any(all(model.is_valid(q) for model in meeting) for q in reached):
-            found[index] = reason_against(inverse, meeting, goal_pose_of(cell, stop), reached)
+            found[index] = reason_against(inverse_at(cell, stop), meeting, goal_pose_of(cell, stop), reached)
     return found
 
 
-def _direct_moves(cell: Workcell, inverse: InverseKinematics, found: dict[int, Array]) -> dict[str, Array | None]:
+def _direct_moves(cell: Workcell, found: dict[int, Array]) -> dict[str, Array | None]:
     """The straight moves in order; one that is the first to reach its goal decides the configuration there."""
     direct: dict[str, Array | None] = {}
     reached = {cell.route.legs[0].start}
     for leg in cell.route.legs:
         if leg.step.mode is not MoveKind.PLANNED and leg.start in found and leg.goal in found:
-            line = _line(cell, leg, inverse, found, is_new=leg.goal not in reached)
+            line = _line(cell, leg, found, is_new=leg.goal not in reached)
             direct[leg.step.name] = line
             if line is None:
                 del found[leg.goal]
@@ -129,9 +148,7 @@ def _direct_moves(cell: Workcell, inverse: InverseKinematics, found: dict[int, A
     return direct
 
 
-def _line(
-    cell: Workcell, leg: Leg, inverse: InverseKinematics, found: Mapping[int, Array], *, is_new: bool
-) -> Array | None:
+def _line(cell: Workcell, leg: Leg, found: Mapping[int, Array], *, is_new: bool) -> Array | None:
     """A straight move, if it is valid and ends in the configuration in which the next begins."""
     stop, model = cell.route.stops[leg.goal], cell.planning[leg.step.name]
     start, goal = found[leg.start], found[leg.goal]
@@ -140,9 +157,18 @@ def _line(
         return np.array([start, goal]) if all(model.is_valid(q) for q in states) else None
     if stop.pose is None:
         raise AssertionError("checked before: a straight line ends at a pose")
-    line = straight_line(inverse, start, stop.pose)
+    if stop.is_turn_free:
+        line = _line_to(cell, stop, start, goal)
+    else:
+        line = straight_line(inverse_at(cell, stop), start, stop.pose)
     if line is None or not all(model.is_valid(q) for q in line):
         return None
     if not is_new and np.max(np.abs(line[-1] - goal)) > _SAME_CONFIGURATION_RAD:
         return None
     return line
+
+
+def _line_to(cell: Workcell, stop: Stop, start: Array, goal: Array) -> Array | None:
+    """A straight line of the tool that is led to a configuration, whose turn about the tool's axis it ends with."""
+    line = follow_line(inverse_at(cell, stop), start, cell.arm.tool_pose(goal), goal_configuration=goal)
+    return line.configurations_rad if line.broken is None else None

@@ -1,4 +1,4 @@
-"""Plants that a task runs on: kinematic and dynamic."""
+"""Plants that a task runs on: kinematic and dynamic, and what they share with that of contact."""
 
 from typing import TYPE_CHECKING
 
@@ -15,8 +15,10 @@ if TYPE_CHECKING:
         JointController,
         JointGains,
         least_stable_rate_hz,
+        stated_in_step,
     )
     from rgss.trials.plants.kinematic_plant import KinematicPlant
+    from rgss.trials.plants.move_targets import MoveTargets
     from rgss.trials.plants.plant import Plant
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -16,13 +16,13 @@ from rgss.evidence import Failure, Metric
 from rgss.kinematics import Arm, ArmDynamics, gripper_loads, workpiece_load
 from rgss.physics import PhysicsSettings, TorqueArm
 from rgss.scenes import Gripper, Pose, Scene, Workpiece, grasp_opening_m
-from rgss.tasks import CheckStep, TaskProgram
+from rgss.tasks import CheckStep, StepControl, TaskProgram
 from rgss.trials.hands import hand_of
 from rgss.trials.phase_result import PhaseResult
 from rgss.trials.plants.arm_observations import ArmObservations, tool_metrics_by_differences
 from rgss.trials.plants.control import ControlSettings
 from rgss.trials.plants.grip_sequence import GripSequence
-from rgss.trials.plants.joint_controller import JointController, control_law
+from rgss.trials.plants.joint_controller import ControlLaw, JointController, control_law, stated_in_step
 from rgss.trials.reference import Array, Reference
 
 
@@ -65,7 +65,8 @@ class DynamicPlant:
         self._step_s = settings.step_s
         self._control = control
         self._controller = controller or JointController()
-        self._law = control_law(self._controller, scene.robot.joints, step_s=self._step_s, tool=arm)
+        self._law = self._law_of(self._controller)
+        self._own_control: StepControl | None = None
         self._checkpoint = checkpoint
         self._limits = np.array([joint.torque_n_m for joint in scene.robot.joints])
         opening_m = gripper.geometry.largest_opening_m
@@ -85,6 +86,7 @@ class DynamicPlant:
     def move(self, phase: str, reference: Reference) -> PhaseResult:
         """Follow the targets until the end is reached."""
         log = self._log()
+        self._enter(phase)
         target = reference.positions_rad
         # The engine adds an acceleration to the speed of the step before, and that speed to the position.
         speeds = np.vstack([np.zeros((1, target.shape[1])), reference.velocities_rad_s])
@@ -97,8 +99,14 @@ class DynamicPlant:
         log.arm.note_tool(tool)
         self._at_rad = target[-1]
         failure, detail = None, ""
-        if not self._settle(log) or tool["tracking_error_m"] > self._control.largest_tracking_error_m:
+        if (
+            not self._settle(log, self._grips.reached_rad(phase))
+            or tool["tracking_error_m"] > self._control.largest_tracking_error_m
+        ):
             failure, detail = Failure.TRACKING_ERROR, log.arm.tracking_failure(tool["tracking_error_m"])
+            stated_rad = self._grips.reached_rad(phase)
+            if stated_rad is not None and tool["tracking_error_m"] <= self._control.largest_tracking_error_m:
+                detail = f"a joint is {self._error_rad():.2g} from its target, at most {stated_rad:.2g} are allowed"
         return self._result(phase, log, failure, detail, {})
 
     def grasp(self, phase: str | None = None) -> PhaseResult:
@@ -109,7 +117,7 @@ class DynamicPlant:
         if misfit:
             waited = self._wait(name, self._hand.longest_travel_s + self._control.grasp_timeout_s, {})
             return replace(waited, failure=Failure.NO_FIRM_GRASP, detail=misfit)
-        result = self._wait(name, self._hand.closing_s(view, self._control.firm_grasp_s), {})
+        result = self._wait(name, self._hand.closing_s(view, self._grips.firm_s(name, self._control.firm_grasp_s)), {})
         self._machine.hold_fingers(self._grips.travel_m(name))
         self._machine.attach(view.workpiece, _held_at(view))
         self._model = self._loaded_with(view)
@@ -132,6 +140,16 @@ class DynamicPlant:
         """Take the conditions for granted: nothing is known of objects that are not held."""
         return self._result(step.name, self._log(), None, "", {})
 
+    def _law_of(self, controller: JointController) -> ControlLaw:
+        return control_law(controller, self._scene.robot.joints, step_s=self._step_s, tool=self._arm)
+
+    def _enter(self, phase: str) -> None:
+        """Begin a step: under its own control, or under that of the study; a law that changes begins at rest."""
+        own = self._grips.control_in(phase)
+        if own != self._own_control:
+            self._own_control = own
+            self._law = self._law_of(self._controller if own is None else stated_in_step(self._controller, own))
+
     def _loaded_with(self, view: Scene) -> ArmDynamics:
         """Dynamics of the arm as the controller knows them with the object of a scene in the hand."""
         workpiece = view.workpiece
@@ -146,6 +164,7 @@ class DynamicPlant:
 
     def _wait(self, phase: str, duration_s: float, metrics: dict[str, Metric]) -> PhaseResult:
         log = self._log()
+        self._enter(phase)
         still = np.zeros(len(self._at_rad))
         for _ in range(math.ceil(duration_s / self._step_s)):
             self._drive(self._at_rad, still, still, log)
@@ -178,11 +197,15 @@ class DynamicPlant:
         log.arm.note_steps(torques[None], speeds_rad_s[None])
         return reached_rad
 
-    def _settle(self, log: _Log) -> bool:
+    def _error_rad(self) -> float:
+        """Greatest error of a joint."""
+        return float(np.max(np.abs(np.array(self._machine.state()[0]) - self._at_rad)))
+
+    def _settle(self, log: _Log, reached_rad: float | None) -> bool:
+        largest_rad = self._controller.reached_rad if reached_rad is None else reached_rad
         still = np.zeros(len(self._at_rad))
         for _ in range(math.ceil(self._controller.settling_limit_s / self._step_s)):
-            q = np.array(self._machine.state()[0])
-            if np.max(np.abs(q - self._at_rad)) <= self._controller.reached_rad:
+            if self._error_rad() <= largest_rad:
                 return True
             self._drive(self._at_rad, still, still, log)
         return False

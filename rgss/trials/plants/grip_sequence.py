@@ -1,13 +1,13 @@
-"""Objects that the hand grips and releases in each step of a task, and how far it opens round them."""
+"""What each step of a task states: the object that it concerns, how far the hand opens, thresholds and control."""
 
 from __future__ import annotations
 
 from rgss.scenes import GripperGeometry, Scene, Workpiece, grasp_opening_m, initial_standings, scene_about
-from rgss.tasks import TaskProgram, stages_of
+from rgss.tasks import CheckStep, GripStep, MoveStep, Step, StepControl, TaskProgram, stages_of
 
 
 class GripSequence:
-    """The object that is concerned in each step of a task.
+    """What each step of a task concerns and states.
 
     Attributes:
         first_grip: Name of the first step that closes the hand; empty if there is none.
@@ -28,9 +28,38 @@ class GripSequence:
             for name in standings
         }
         self._views = {stage.step.name: views[stage.object] for stage in stages_of(task, scene.workpiece.id)}
+        self._steps: dict[str, Step] = {step.name: step for step in task.steps}
         self._geometry = geometry
         self.first_grip = next(iter(task.grips), "")
         self.first_release = next(iter(task.releases), "")
+
+    def control_in(self, phase: str) -> StepControl | None:
+        """The control of the joints that a step states; None if it states none.
+
+        Args:
+            phase: Name of the step.
+        """
+        step = self._steps[phase]
+        return None if isinstance(step, CheckStep) else step.control
+
+    def reached_rad(self, phase: str) -> float | None:
+        """Error of any joint up to which the end of a move counts as reached; None if the move does not state it.
+
+        Args:
+            phase: Name of the step.
+        """
+        step = self._steps[phase]
+        return step.reached_rad if isinstance(step, MoveStep) else None
+
+    def firm_s(self, phase: str, common_s: float) -> float:
+        """Time for which the fingers must hold an object for a firm grasp.
+
+        Args:
+            phase: Name of the step.
+            common_s: That of steps that state none.
+        """
+        step = self._steps[phase]
+        return step.firm_s if isinstance(step, GripStep) and step.firm_s is not None else common_s
 
     def object_of(self, phase: str) -> Workpiece:
         """The object that a step concerns.

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rgss.errors import DefinitionError
 from rgss.scenes import Calibration, Joint
+from rgss.tasks import StepControl
 from rgss.trials.plants.calibrated_law import CalibratedLaw
 from rgss.trials.plants.tool_tracking_law import ToolFrames, ToolTrackingLaw
 
@@ -90,6 +92,24 @@ class JointController:
         """The mode, and what it was calibrated on."""
         mode = self.mode.value.replace("_", " ")
         return mode if self.calibration is None else f"{mode} on {self.calibration.origin}"
+
+
+def stated_in_step(controller: JointController, stated: StepControl) -> JointController:
+    """The controller of a step that states some of its settings; gains that it states are those of all joints.
+
+    Args:
+        controller: The controller of the study.
+        stated: What the step states.
+    """
+    gains: dict[str, Any] = {
+        name: value
+        for name in ("natural_frequency_rad_s", "damping_ratio", "position_gain_1_s", "velocity_gain_1_s")
+        if (value := getattr(stated, name)) is not None
+    }
+    cleared: dict[str, Any] = dict.fromkeys(gains)
+    own = tuple(replace(one, **cleared) for one in controller.joints)
+    mode = controller.mode if stated.mode is None else ControlMode(stated.mode)
+    return replace(controller, mode=mode, joints=own, **gains)
 
 
 ControlLaw = Callable[[Array, Array, Array, Array, Array], Array]

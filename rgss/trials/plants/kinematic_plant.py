@@ -81,7 +81,7 @@ class KinematicPlant:
 
     def move(self, phase: str, reference: Reference) -> PhaseResult:
         """Follow the targets with the joints' response and wait until the end is reached."""
-        deviation = self._deviation(reference.positions_rad)
+        deviation = self._deviation(reference.positions_rad, self._grips.reached_rad(phase))
         held = np.vstack([reference.positions_rad, np.repeat(reference.positions_rad[-1:], len(deviation), axis=0)])
         actual = held[: len(deviation)] + deviation
         tool_m = np.asarray(self._tool.tool_position(actual))
@@ -106,7 +106,7 @@ class KinematicPlant:
         if misfit:
             waited_s = self._hand.longest_travel_s + self._control.grasp_timeout_s
             return replace(self._result(name, waited_s, {}), failure=Failure.NO_FIRM_GRASP, detail=misfit)
-        return self._result(name, self._hand.closing_s(view, self._control.firm_grasp_s), {})
+        return self._result(name, self._hand.closing_s(view, self._grips.firm_s(name, self._control.firm_grasp_s)), {})
 
     def place(self, phase: str | None = None) -> PhaseResult:
         """Open: the same travel back."""
@@ -122,10 +122,14 @@ class KinematicPlant:
         """Take the conditions for granted: nothing is known of objects."""
         return self._result(step.name, 0.0, {})
 
-    def _deviation(self, positions_rad: Array) -> Array:
+    def _deviation(self, positions_rad: Array, reached_rad: float | None) -> Array:
         """Deviation (m, n) of the joints from their targets at each step, until the end is reached.
 
         Exact for an acceleration that is constant over each step.
+
+        Args:
+            positions_rad: The targets, shape (k, n).
+            reached_rad: Deviation below which the end counts as reached; None for that of the response.
         """
         step, response = self._step_s, self._response
         omega, zeta = response.natural_frequency_rad_s, response.damping_ratio
@@ -138,7 +142,7 @@ class KinematicPlant:
         wanted = np.zeros((last + 1 + settling, positions_rad.shape[1]))
         wanted[: len(acceleration)] = acceleration
         rows = _response(transition, drive, wanted)
-        reached = np.max(np.abs(rows[last:]), axis=1) <= response.reached_rad
+        reached = np.max(np.abs(rows[last:]), axis=1) <= (response.reached_rad if reached_rad is None else reached_rad)
         end = int(np.argmax(reached)) if reached.any() else len(reached) - 1
         return rows[: last + end + 1]
 

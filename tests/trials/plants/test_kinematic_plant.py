@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rgss.evidence import Fidelity
-from rgss.scenes import Cylinder, Joint, load_gripper, load_scene
+from rgss.scenes import Joint, load_gripper, load_scene
 from rgss.scenes.gripper import Gripper
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants.control import ControlSettings
@@ -84,13 +84,19 @@ class Grips:
 
     first_grip, first_release = "grasp", "place"
 
-    def __init__(self, gripper, radius_m):
-        self.gripper, self.radius_m = gripper, radius_m
+    def __init__(self, gripper, radius_m, within_rad=None):
+        self.gripper, self.radius_m, self.within_rad = gripper, radius_m, within_rad
 
     def view_of(self, phase):
         scene = load_scene(ROOT / "scenes" / "restaurant.yaml")
-        shape = Cylinder(radius_m=self.radius_m, height_m=0.1)
+        shape = replace(scene.workpiece.shape, radius_m=self.radius_m)
         return replace(scene, workpiece=replace(scene.workpiece, shape=shape))
+
+    def reached_rad(self, phase):
+        return self.within_rad
+
+    def firm_s(self, phase, common_s):
+        return common_s
 
 
 def plant_with(tool=None, *, step_s=STEP_S, response=None, radius_m=0.035, control=None, **gripper):
