@@ -13,6 +13,7 @@ from rgss.motion import (
     TimingOutcome,
     Trajectory,
     time_move,
+    time_move_by_joint_waypoints,
     time_move_by_trapezoids,
 )
 from rgss.scenes import too_wide
@@ -135,6 +136,8 @@ def _timed(
     if profile is TimingProfile.TIME_OPTIMAL:
         return time_move(path, validity, cell.arm, limits, resolution_rad=resolution_rad)
     is_curve = settings.kinds(cell.task.planned).get(step.name, step.mode) is MoveKind.STRAIGHT
+    if profile is TimingProfile.JOINT_WAYPOINTS and not is_curve:
+        return time_move_by_joint_waypoints(path, validity, cell.arm, limits, resolution_rad=resolution_rad)
     return time_move_by_trapezoids(path, validity, cell.arm, limits, resolution_rad=resolution_rad, is_curve=is_curve)
 
 

@@ -15,6 +15,7 @@ class TimingProfile(str, Enum):
 
     TIME_OPTIMAL = "time_optimal"
     TRAPEZOID = "trapezoid"
+    JOINT_WAYPOINTS = "joint_waypoints"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -182,7 +182,11 @@ def test_a_design_sets_profile_mode_and_gains(folder, edit):
 @pytest.mark.parametrize(
     ("parameter", "value", "expected"),
     [
-        ("kind: name, sets: timing.profile", "trapezium", "x must be time_optimal or trapezoid, got 'trapezium'"),
+        (
+            "kind: name, sets: timing.profile",
+            "trapezium",
+            "x must be time_optimal or trapezoid or joint_waypoints, got",
+        ),
         (
             "kind: name, sets: control.mode",
             "torque",

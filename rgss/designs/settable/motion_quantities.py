@@ -12,11 +12,11 @@ MOTION_QUANTITIES = (
         name="timing.profile",
         kind=ParameterKind.NAME,
         unit="",
-        meaning="Velocity profile of the moves: time_optimal or trapezoid.",
+        meaning="Velocity profile of the moves: time_optimal, trapezoid or joint_waypoints.",
         field="settings.timing.profile",
         default="timing.profile in the study",
         required=False,
-        choices=("time_optimal", "trapezoid"),
+        choices=("time_optimal", "trapezoid", "joint_waypoints"),
     ),
     SettableQuantity(
         name="timing.peak_speed",

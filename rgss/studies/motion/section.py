@@ -38,7 +38,7 @@ _ANY_JOINT = ""
 class TimingEntry(DocumentModel):
     """How moves are timed."""
 
-    profile: Literal["time_optimal", "trapezoid"] = "time_optimal"
+    profile: Literal["time_optimal", "trapezoid", "joint_waypoints"] = "time_optimal"
     peak_speed: Dimensionless = 1.0
     peak_acceleration: Dimensionless = 1.0
     joint_speeds: dict[Text, RadiansPerSecond] = Field(default_factory=dict)

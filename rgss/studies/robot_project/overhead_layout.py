@@ -51,7 +51,7 @@ def overhead_layouts(positions_m: Array, axes: Array, *, tool_m: float) -> Itera
                 x_m=0.0,
                 y_m=share * length_m / 2,
                 table_m=_TABLE_M,
-                base_m=(round(float(x), 3), round(float(y), 3), round(base_m, 3)),
+                base_m=(round(float(x), 3) + 0.0, round(float(y), 3) + 0.0, round(base_m, 3)),
                 base_yaw_rad=yaw_rad,
                 is_overhead=True,
             )

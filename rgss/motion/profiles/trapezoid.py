@@ -94,7 +94,10 @@ def _run(path: SmoothPath, first: int, last: int, tool: ToolKinematics, limits: 
     # At its end itself the path has the direction in which it goes on.
     grid[-1] = np.nextafter(end, start)
     at = path_derivatives(path, grid, tool)
-    steepest, tool_steepest_m = _peaks(np.abs(at.first)), float(_peaks(np.linalg.norm(at.tool_first, axis=1)))
+    steepest, tool_steepest_m = (
+        sampled_peaks(np.abs(at.first)),
+        float(sampled_peaks(np.linalg.norm(at.tool_first, axis=1))),
+    )
     joint_share = float(np.max(steepest / np.array(limits.speed_rad_s)))
     acceleration = 1.0 / float(np.max(steepest / np.array(limits.acceleration_rad_s2)))
     rate = min(1.0 / max(joint_share, tool_steepest_m / limits.tool_speed_m_s), math.sqrt((end - start) * acceleration))
@@ -128,10 +131,10 @@ def _accelerations(
     acceleration = float((rates[1] ** 2 - rates[0] ** 2) / (2.0 * (ends[1] - ends[0])))
     joints = np.abs(at.first * acceleration + at.second * squares)
     of_tool = np.linalg.norm(at.tool_first * acceleration + at.tool_second * squares, axis=1)
-    return float(np.max(_peaks(joints) / np.array(limits.acceleration_rad_s2))), float(_peaks(of_tool))
+    return float(np.max(sampled_peaks(joints) / np.array(limits.acceleration_rad_s2))), float(sampled_peaks(of_tool))
 
 
-def _peaks(samples: Vector) -> Vector:
+def sampled_peaks(samples: Vector) -> Vector:
     """Greatest value of a smooth function of which samples are given, along the first axis.
 
     A parabola through three samples has its vertex at most an eighth of their second difference above the middle one.
