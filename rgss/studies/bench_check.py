@@ -16,7 +16,8 @@ _BENCH_PAYLOAD = "trial.bench_payload_kg"
 def bench_findings(project: Project) -> Iterator[Finding]:
     """Tell of every quantity of the study's designs for which the payload bench gives no answer.
 
-    A suction cup has no bench. It is a warning where a measure takes the payload from the bench, and only noted where none does.
+    A suction cup has no bench. It is a warning where a measure takes the payload from the bench, and only noted where
+    none does.
 
     Args:
         project: The project with its study.
