@@ -44,7 +44,7 @@ def main() -> int:
     for number in range(1, int(MOST_MM / options.step)):
         tried_mm = number * options.step
         cell = Workcell(project.scene, geometry, clearance_m=tried_mm / 1e3, task=default_task())
-        found = waypoint_configurations(cell)[0]
+        found = waypoint_configurations(cell)
         if len(found) < len(Waypoint):
             break
         kept, clearance_mm, arm = found, tried_mm, cell.arm
@@ -53,11 +53,11 @@ def main() -> int:
         return 1
     moved_mm = 0.0
     lines = []
-    for waypoint, q in kept.items():
+    for name, q in kept.items():
         rounded = np.round(np.degrees(q), options.decimals) + 0.0
         moved = arm.tool_matrix(np.radians(rounded)) - arm.tool_matrix(q)
         moved_mm = max(moved_mm, 1e3 * float(np.linalg.norm(moved[:3, 3])))
-        lines.append(f"  {waypoint.value}: [{', '.join(f'{each:.{options.decimals}f} deg' for each in rounded)}]")
+        lines.append(f"  {name}: [{', '.join(f'{each:.{options.decimals}f} deg' for each in rounded)}]")
     said = f"clearance {clearance_mm:g} mm, the tool moved by at most {moved_mm:.3f} mm by the rounding"
     sys.stdout.write(f"# {project.study.label} with {geometry.id}: {said}\nconfigurations:\n")
     sys.stdout.writelines(f"{line}\n" for line in lines)

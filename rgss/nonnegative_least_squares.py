@@ -15,6 +15,9 @@ Matrix = NDArray[np.float64]
 TOLERANCE = 1e-9
 """Largest gradient that counts as zero, as a share of the greatest column times the target."""
 
+_ROUNDING = 16 * float(np.finfo(np.float64).eps)
+"""Where columns are nearly opposite and the target is nearly none, the point is large and its gradient is rounded."""
+
 
 def nonnegative_least_squares(matrix: Matrix, target: Matrix, *, most_steps: int | None = None) -> tuple[Matrix, float]:
     """Minimise ``|matrix @ x - target|`` over ``x >= 0``.
@@ -38,22 +41,27 @@ def nonnegative_least_squares(matrix: Matrix, target: Matrix, *, most_steps: int
         solution = None
     if solution is None or not is_minimum(matrix, target, solution):
         solution = lawson_hanson(matrix, target, most_steps=most_steps or 30 * matrix.shape[1])
-        if not is_minimum(matrix, target, solution):
+        if not is_minimum(matrix, target, solution, rounding=_ROUNDING):
             raise RuntimeError(f"no minimum of the {matrix.shape[0]} x {matrix.shape[1]} least squares was found")
     return solution, float(np.linalg.norm(matrix @ solution - target))
 
 
-def is_minimum(matrix: Matrix, target: Matrix, point: Matrix) -> bool:
+def is_minimum(matrix: Matrix, target: Matrix, point: Matrix, *, rounding: float = 0.0) -> bool:
     """Whether a point satisfies the conditions of Karush, Kuhn and Tucker, which suffice for a convex program.
 
     Args:
         matrix: Shape (m, n).
         target: Shape (m,).
         point: Shape (n,).
+        rounding: Share of the greatest column times the matrix times the point by which a gradient may differ from
+            zero besides: no gradient is known better than that.
     """
     descent = matrix.T @ (target - matrix @ point)
     scale = float(np.sqrt((matrix**2).sum(axis=0)).max(initial=0.0) * np.linalg.norm(target))
     allowed = TOLERANCE * scale
+    if rounding > 0.0:
+        longest = float(np.sqrt((matrix**2).sum(axis=0)).max(initial=0.0))
+        allowed += rounding * longest * float(np.linalg.norm(matrix) * np.linalg.norm(point))
     inside = np.abs(descent[point > 0.0]).max(initial=0.0)
     return bool((point >= 0.0).all() and descent.max(initial=0.0) <= allowed and inside <= allowed)
 

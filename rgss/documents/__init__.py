@@ -19,6 +19,8 @@ from rgss.documents.fields import (
     MetresPerSecondSquared,
     NewtonMetres,
     Newtons,
+    NewtonSecondsPerMetre,
+    NewtonsPerMetre,
     QuantityText,
     Radians,
     RadiansPerSecond,

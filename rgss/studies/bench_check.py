@@ -16,7 +16,8 @@ _BENCH_PAYLOAD = "trial.bench_payload_kg"
 def bench_findings(project: Project) -> Iterator[Finding]:
     """Tell of every quantity of the study's designs for which the payload bench gives no answer.
 
-    It is a warning where a measure takes the payload from the bench, and only noted where none does.
+    A suction cup has no bench. It is a warning where a measure takes the payload from the bench, and only noted where
+    none does.
 
     Args:
         project: The project with its study.
@@ -28,6 +29,8 @@ def bench_findings(project: Project) -> Iterator[Finding]:
     strange: dict[str, list[int]] = {}
     known: dict[object, tuple[str, ...]] = {}
     for spec in trial_specs(project, seeds=(project.study.seed,)):
+        if spec.gripper.suction is not None:
+            continue
         if spec.gripper not in known:
             known[spec.gripper] = outside(payload_bench(spec))
         for sentence in known[spec.gripper]:

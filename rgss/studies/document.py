@@ -10,14 +10,13 @@ from pydantic_core import PydanticCustomError
 from rgss.documents import (
     Dimensionless,
     DocumentModel,
-    Hertz,
     Identifier,
     Text,
 )
 from rgss.findings import shown
 from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEntry, QuantityName
 from rgss.studies.assumptions_section import StudyAssumptionEntry
-from rgss.studies.motion import ControlEntry, TimingEntry
+from rgss.studies.motion import ControlEntry, PhysicsEntry, TimingEntry
 from rgss.studies.planning import PlanningEntry
 from rgss.studies.regression import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
@@ -60,13 +59,6 @@ FidelityField = Annotated[
 
 
 MoveName = Literal["planned", "straight", "joint"]
-
-
-class PhysicsEntry(DocumentModel):
-    """Steps of the physics."""
-
-    rate: Hertz
-    solver_iterations: Annotated[int, Field(ge=1, le=10_000)]
 
 
 class PromotionEntry(DocumentModel):

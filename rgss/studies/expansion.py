@@ -59,7 +59,13 @@ def trial_settings(project: Project) -> TrialSettings:
             clearance_m=planning.clearance_m,
             moves=planning.moves,
         ),
-        physics=study.physics or PhysicsSettings(rate_hz=study.rate_hz, solver_iterations=study.solver_iterations),
+        physics=study.physics
+        or PhysicsSettings(
+            rate_hz=study.rate_hz,
+            solver_iterations=study.solver_iterations,
+            pad_stiffness_n_m=study.pads.stiffness_n_m,
+            pad_retardation_s=study.pads.retardation_s,
+        ),
         timing=study.motion.timing,
         controller=study.motion.controller,
         control=study.motion.thresholds,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePath
@@ -12,7 +11,7 @@ from rgss.errors import DocumentError
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, shown
 from rgss.measures import MeasureSet
-from rgss.physics import LEAST_ITERATIONS_HZ, LEAST_RATE_HZ, PhysicsSettings
+from rgss.physics import PhysicsSettings
 from rgss.requirements import RequirementSet, load_requirements
 from rgss.scenes.uncertainty import (
     NOTHING_UNCERTAIN,
@@ -24,7 +23,14 @@ from rgss.scenes.uncertainty import (
 )
 from rgss.studies.assumptions_section import StudyAssumption, read_assumptions
 from rgss.studies.document import StudyDocument
-from rgss.studies.motion import MotionChoice, read_motion, step_control_findings
+from rgss.studies.motion import (
+    MotionChoice,
+    PadCompliance,
+    pads_of,
+    physics_findings,
+    read_motion,
+    step_control_findings,
+)
 from rgss.studies.planning import PlanningChoice, read_moves, read_planning
 from rgss.studies.project_folders import folder_problem, normal_folder
 from rgss.studies.promotion import Screening, read_screening
@@ -71,6 +77,7 @@ class StudyDefinition:
         planning: How moves are planned.
         rate_hz: Physics steps a second.
         solver_iterations: Iterations of the constraint solver in a step.
+        pads: Compliance of the fingers' pads.
         values: What each measure is worth, with requirements' thresholds put in.
         trade_off: How designs are compared.
         screening: The trials that come first, and which designs go on from them; None if all do.
@@ -107,6 +114,7 @@ class StudyDefinition:
     workload: Workload = ONE_WORKLOAD
     is_nominal: bool = False
     physics: PhysicsSettings | None = None
+    pads: PadCompliance = field(default_factory=PadCompliance)
     assumptions: tuple[StudyAssumption, ...] = ()
     motion: MotionChoice = field(default_factory=MotionChoice)
     task: TaskProgram = field(default_factory=default_task)
@@ -149,10 +157,7 @@ def read_study(
     loaded = load_document(path, StudyDocument, label=label)
     entry, document = loaded.value, loaded.document
     findings = _file_findings(document, entry, project)
-    if entry.physics.rate <= 0:
-        findings.append(_not_positive(document, ("physics", "rate")))
-    elif "contact" in entry.fidelity:
-        findings.extend(_coarse_contact(entry, document))
+    findings.extend(physics_findings(entry.physics, document, fidelities=entry.fidelity))
     planning = read_planning(entry.planning, document, findings)
     motion = read_motion(entry.timing, entry.control, document, findings, rate_hz=entry.physics.rate)
     screening = read_screening(entry, document, findings)
@@ -190,6 +195,7 @@ def read_study(
         motion=motion,
         rate_hz=entry.physics.rate,
         solver_iterations=entry.physics.solver_iterations,
+        pads=pads_of(entry.physics),
         values=value_anchors(trade_off, places.quantity_of),
         trade_off=trade_off,
         screening=screening,
@@ -279,21 +285,3 @@ def value_anchors(trade_off: TradeOff, quantity_of: Callable[[Anchor, str], floa
         )
         for valued in trade_off.valued
     )
-
-
-def _coarse_contact(entry: StudyDocument, document: Document) -> list[Finding]:
-    """Findings on steps too coarse for a grasp; docs/validation.md shows from where results converge."""
-    rate_hz, iterations = entry.physics.rate, entry.physics.solver_iterations
-    if rate_hz < LEAST_RATE_HZ:
-        message = f"contact physics needs at least {LEAST_RATE_HZ:g} Hz, got {rate_hz:g} Hz"
-        return [document.finding("study.coarse-physics", message, ("physics", "rate"), hint="240 Hz is validated")]
-    if rate_hz * iterations < LEAST_ITERATIONS_HZ:
-        least = math.ceil(LEAST_ITERATIONS_HZ / rate_hz)
-        message = f"contact physics at {rate_hz:g} Hz needs at least {least} solver iterations, got {iterations}"
-        hint = "20 are validated" if least <= 20 else f"give {least} or more"
-        return [document.finding("study.coarse-physics", message, ("physics", "solver_iterations"), hint=hint)]
-    return []
-
-
-def _not_positive(document: Document, location: tuple[str, str]) -> Finding:
-    return document.finding("study.not-positive", f"{location[1]} must be greater than zero", location)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from rgss.evidence import Fidelity
 from rgss.physics import TorqueArm, open_world
 from rgss.trials.conditions import Conditions, conditions_of
+from rgss.trials.controlled_motion import controlled_motion
 from rgss.trials.execution import Execution
 from rgss.trials.grasp_choice import with_chosen_grasp
 from rgss.trials.monitors import ForceSensorErrors, GripEstimate, StepObserver
@@ -61,7 +62,8 @@ def execute(
             step_s=physics.step_s,
         )
         return _with_quality(run_program(model, references, task=spec.task, checkpoint=checkpoint), timing)
-    if spec.fidelity is Fidelity.DYNAMIC:
+    motion = None
+    if spec.fidelity is Fidelity.DYNAMIC or spec.settings.controller.in_contact:
         with TorqueArm(scene.robot, gripper, physics, gravity_m_s2=scene.gravity_m_s2) as machine:
             believed = conditions.scene.workpiece
             plant = DynamicPlant(
@@ -76,7 +78,16 @@ def execute(
                 checkpoint=checkpoint,
                 task=spec.task,
             )
-            return _with_quality(run_program(plant, references, task=spec.task), timing)
+            if spec.fidelity is Fidelity.DYNAMIC:
+                return _with_quality(run_program(plant, references, task=spec.task), timing)
+            motion = controlled_motion(
+                plant,
+                references,
+                task=spec.task,
+                tool=cell.arm,
+                step_s=physics.step_s,
+                gravity_m_s2=scene.gravity_m_s2,
+            )
     # A light object, and light fingers, take more iterations to pass the fingers' force: fewer let them creep.
     firm = physics.passing(
         force_n=gripper.finger_force_n,
@@ -86,7 +97,7 @@ def execute(
     with open_world(scene, gripper, firm, joint_offsets_rad=conditions.joint_offsets_rad) as world:
         execution = Execution(
             world,
-            references,
+            references if motion is None else motion.references,
             control,
             cell.arm,
             estimate=_grip_estimate(spec, conditions),
@@ -95,7 +106,8 @@ def execute(
             task=spec.task,
             settling_limit_s=spec.settings.controller.settling_limit_s,
         )
-        return _with_quality(execution.run(), timing)
+        results = execution.run()
+    return _with_quality(results if motion is None else motion.joined(results), timing)
 
 
 def _grip_estimate(spec: TrialSpec, conditions: Conditions) -> GripEstimate | None:

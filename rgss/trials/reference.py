@@ -72,7 +72,18 @@ def reference_of(
     """
     steps = max(1, math.ceil(trajectory.duration_s / step_s - 1e-9))
     times = np.minimum(np.arange(steps + 1) * step_s, trajectory.duration_s)
-    positions = trajectory.positions(times)
+    return reference_along(trajectory.positions(times), tool, step_s=step_s, gravity_m_s2=gravity_m_s2)
+
+
+def reference_along(positions: Array, tool: ToolPositions, *, step_s: float, gravity_m_s2: float) -> Reference:
+    """The targets of a move of which the positions at each step are given.
+
+    Args:
+        positions: Joint positions (k + 1, n), the first at the start.
+        tool: Kinematics of the tool.
+        step_s: Length of a physics step.
+        gravity_m_s2: Magnitude of gravity.
+    """
     velocities = np.diff(positions, axis=0) / step_s
     tool_m = np.asarray(tool.tool_position(positions))
     tool_velocity = np.diff(tool_m, axis=0) / step_s

@@ -16,6 +16,7 @@ from rgss.motion import (
     time_move_by_joint_waypoints,
     time_move_by_trapezoids,
 )
+from rgss.scenes import too_wide
 from rgss.tasks import MoveKind, MoveStep, TaskProgram
 from rgss.trials.conditions import conditions_of
 from rgss.trials.path_quality import PathQuality, path_quality
@@ -81,10 +82,7 @@ def time_task(
     for step, path in _paths(cell.task, plan):
         phase = step.name
         if path is None:
-            failures[phase] = (
-                Failure.UNREACHABLE_WAYPOINT,
-                f"the arm cannot follow the straight line of the {phase.replace('_', ' ')} without collision",
-            )
+            failures[phase] = (Failure.UNREACHABLE_WAYPOINT, _no_line(cell, phase))
             continue
         own = limits if step.speed_share == 1.0 else _limits(cell, timing, step.speed_share * tool_speed_m_s)
         result = _timed(cell, step, JointPath(path), own, settings, timing.profile)
@@ -98,6 +96,14 @@ def time_task(
         phase: path_quality(trajectory, cell.running[phase], cell.arm) for phase, trajectory in trajectories.items()
     }
     return TaskTiming(trajectories=trajectories, failures=failures, qualities=qualities)
+
+
+def _no_line(cell: Workcell, phase: str) -> str:
+    """Why a move that is a straight line by definition has no path."""
+    told = f"the arm cannot follow the straight line of the {phase.replace('_', ' ')} without collision"
+    (leg,) = (leg for leg in cell.route.legs if leg.step.name == phase)
+    why = too_wide(cell.geometry, leg.scene)
+    return f"{told}: {why}" if why else told
 
 
 def timing_of(spec: TrialSpec, plan: TaskPlan) -> TaskTiming:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from rgss.scenes import Waypoint, waypoint_poses
+from rgss.scenes import Waypoint, initial_standings, scene_about, waypoint_poses
 from rgss.studies.project import load_project
 from rgss.tasks import default_task
 from rgss.trials import Workcell
@@ -26,8 +26,9 @@ def test_they_reach_the_waypoints_with_clearance():
     }
     project = load_project(REPOSITORY, "studies/yumi_widget.yaml")
     (gripper,) = project.grippers.values()
-    cell = Workcell(project.scene, gripper.geometry, clearance_m=CLEARANCE_M, task=default_task())
-    poses = waypoint_poses(project.scene)
+    scene = scene_about(project.scene, "widget_2", place="", standings=initial_standings(project.scene))
+    cell = Workcell(scene, gripper.geometry, clearance_m=CLEARANCE_M, task=default_task())
+    poses = waypoint_poses(scene)
 
     assert set(configurations) == {waypoint.value for waypoint in Waypoint}
     for waypoint, pose in poses.items():

@@ -39,6 +39,7 @@ class VacuumGripperDocument(DocumentModel):
     kind: Literal["vacuum"]
     base: BaseEntry
     cup: CupEntry
+    mounting: Identifier | None = None
     assumptions: tuple[AssumptionEntry, ...] = ()
 
 
@@ -99,7 +100,11 @@ class VacuumGripper:
         }
         if entry.base.mass is not None:
             settings["gripper.base.mass"] = entry.base.mass
-        return GripperFile(mountings={"": geometry}, drive=GripperDrive(), suction=suction, settings=settings)
+        # A name lets a design space that sets mountings compare a cup with fingers.
+        name = entry.mounting or ""
+        return GripperFile(
+            mountings={name: geometry}, mounting=name, drive=GripperDrive(), suction=suction, settings=settings
+        )
 
 
 def at_top(geometry: GripperGeometry, shape: ObjectShape) -> GripperGeometry:

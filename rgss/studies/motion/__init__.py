@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.studies.motion.calibrated import calibrated_at, motion_findings
+    from rgss.studies.motion.physics import PadCompliance, PhysicsEntry, pads_of, physics_findings
     from rgss.studies.motion.section import (
         ControlEntry,
         MotionChoice,

@@ -65,6 +65,7 @@ class ControlEntry(DocumentModel):
     joints: dict[Text, GainsEntry] = Field(default_factory=dict)
     position_tolerance: Radians = _CONTROLLER.reached_rad
     settling_limit: Seconds = _CONTROLLER.settling_limit_s
+    in_contact: bool = False
     tracking_limit: Metres = ControlSettings().largest_tracking_error_m
 
 
@@ -114,6 +115,7 @@ def read_motion(
             joints=tuple(_gains_of(name, gains) for name, gains in sorted(control.joints.items())),
             reached_rad=control.position_tolerance,
             settling_limit_s=control.settling_limit,
+            in_contact=control.in_contact,
         ),
         thresholds=replace(ControlSettings(), largest_tracking_error_m=control.tracking_limit),
     )

@@ -95,7 +95,7 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
         _truth_digest(conditions),
         _digest_of(spec.settings.physics),
         _digest_of(spec.settings.control),
-        *(_stated(spec.settings.controller) if spec.fidelity is Fidelity.DYNAMIC else ()),
+        *_controller_digest(spec),
         *_execution_of_steps(spec),
         spec.fidelity.value,
         used["execution"],
@@ -172,6 +172,13 @@ def _potential_digest(spec: TrialSpec) -> float:
     """Gravity where the planner keeps the work against it low; nothing else of planning depends on it."""
     needs_gravity = spec.planned_by.objective is Objective.MECHANICAL_WORK
     return spec.scene.gravity_m_s2 if needs_gravity else 0.0
+
+
+def _controller_digest(spec: TrialSpec) -> tuple[str, ...]:
+    """Digest of the control of the joints where the trial simulates it."""
+    controller = spec.settings.controller
+    simulates_it = spec.fidelity is Fidelity.DYNAMIC or (spec.fidelity is Fidelity.CONTACT and controller.in_contact)
+    return _stated(controller) if simulates_it else ()
 
 
 def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:

@@ -7,8 +7,8 @@ The object is a load of the flange from the grasp to the release; no force on it
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -77,6 +77,12 @@ class DynamicPlant:
         self._loaded: dict[str, ArmDynamics] = {}
         self._model = self._empty
         self._at_rad: Array = np.zeros(len(scene.robot.joints))
+        self._followed: dict[str, list[Array]] = {}
+
+    @property
+    def followed(self) -> Mapping[str, Array]:
+        """Joint positions (k + 1, n) at each step of the moves that ran, settling included; the first at the start."""
+        return {phase: np.array(positions) for phase, positions in self._followed.items()}
 
     def start(self, configuration_rad: Sequence[float]) -> None:
         """Stand at rest at a configuration."""
@@ -87,6 +93,8 @@ class DynamicPlant:
         """Follow the targets until the end is reached."""
         log = self._log()
         self._enter(phase)
+        log.positions_rad.append(np.array(self._machine.state()[0]))
+        self._followed[phase] = log.positions_rad
         target = reference.positions_rad
         # The engine adds an acceleration to the speed of the step before, and that speed to the position.
         speeds = np.vstack([np.zeros((1, target.shape[1])), reference.velocities_rad_s])
@@ -195,6 +203,7 @@ class DynamicPlant:
         self._machine.step(np.clip(torques, -self._limits, self._limits).tolist())
         reached_rad, speeds_rad_s = (np.array(values) for values in self._machine.state())
         log.arm.note_steps(torques[None], speeds_rad_s[None])
+        log.positions_rad.append(reached_rad)
         return reached_rad
 
     def _error_rad(self) -> float:
@@ -222,3 +231,4 @@ class _Log:
 
     arm: ArmObservations
     steps: int = 0
+    positions_rad: list[Array] = field(default_factory=list)

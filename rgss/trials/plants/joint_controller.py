@@ -74,6 +74,8 @@ class JointController:
         joints: Gains of single joints, in place of those.
         reached_rad: Error of any joint up to which the end of a move counts as reached.
         settling_limit_s: Longest wait for that after a move.
+        in_contact: Whether contact physics drives the joints along the motion that they make under this control, and
+            not along their targets.
         calibration: The robot's servos, in the mode that needs them.
     """
 
@@ -85,6 +87,7 @@ class JointController:
     joints: tuple[JointGains, ...] = ()
     reached_rad: float = 1.0e-3
     settling_limit_s: float = 0.5
+    in_contact: bool = False
     calibration: Calibration | None = None
 
     @property

@@ -148,6 +148,7 @@ MOTION = [
     ("controller", {"joints": (JointGains(joint="elbow_joint", damping_ratio=0.7),)}, LAST),
     ("controller", {"reached_rad": 0.01}, LAST),
     ("controller", {"settling_limit_s": 1.0}, LAST),
+    ("controller", {"in_contact": True}, LAST),
     ("controller", {"calibration": Calibration(robot="r", control=ServoControl.VELOCITY, servos=())}, LAST),
 ]
 
@@ -156,7 +157,8 @@ MOTION = [
 def test_timing_and_controller_are_inputs_where_they_are_used(spec_of, part, changes, expected):
     for fidelity in Fidelity:
         spec = replace(spec_of(), fidelity=fidelity)
-        is_used = part == "timing" or fidelity is Fidelity.DYNAMIC
+        acts_in_contact = "in_contact" in changes and fidelity is Fidelity.CONTACT
+        is_used = part == "timing" or fidelity is Fidelity.DYNAMIC or acts_in_contact
         assert changed(spec, with_settings(spec, part, **changes)) == (expected if is_used else set())
 
 

@@ -1,0 +1,103 @@
+"""Motion of the arm under its controller, which contact physics then carries out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.tasks import TaskProgram
+from rgss.trials.phase_result import PhaseResult
+from rgss.trials.plants import DynamicPlant
+from rgss.trials.program import run_program
+from rgss.trials.reference import Reference, ToolPositions, reference_along
+
+Array = NDArray[np.float64]
+
+_OF_THE_ARM = (
+    "peak_joint_torque_n_m",
+    "peak_joint_torque_ratio",
+    "peak_joint_speed_ratio",
+    "peak_joint_utilisation",
+    "most_loaded_joint",
+    "joint_saturated_s",
+    "tracking_error_m",
+)
+"""What the arm's dynamics show of a move, and contact physics, which drives the joints as it is told, does not."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ControlledMotion:
+    """Motion of the arm under its controller.
+
+    Attributes:
+        references: What the joints did in each move that was completed, as the targets of contact physics.
+        results: What the dynamics of the arm showed of each phase that ran, by name.
+    """
+
+    references: Mapping[str, Reference]
+    results: Mapping[str, PhaseResult]
+
+    def joined(self, contact: tuple[PhaseResult, ...]) -> tuple[PhaseResult, ...]:
+        """The phases as contact physics ran them, with what the arm's dynamics show of them.
+
+        A phase in which the arm fails under its controller has that failure, unless contact physics failed before.
+
+        Args:
+            contact: The phases in contact, in order.
+        """
+        found: list[PhaseResult] = []
+        for result in contact:
+            own = self.results[result.phase]
+            shown = {name: own.metrics[name] for name in _OF_THE_ARM if name in own.metrics}
+            joined = replace(result, metrics={**result.metrics, **shown})
+            if result.failure is None and own.failure is not None:
+                return (*found, replace(joined, failure=own.failure, detail=own.detail))
+            found.append(joined)
+            if result.failure is not None:
+                return tuple(found)
+        after = list(self.results.values())[len(found) :]
+        return (*found, *after[:1]) if after and after[0].failure is not None else tuple(found)
+
+
+def controlled_motion(
+    plant: DynamicPlant,
+    references: Mapping[str, Reference],
+    *,
+    task: TaskProgram,
+    tool: ToolPositions,
+    step_s: float,
+    gravity_m_s2: float,
+) -> ControlledMotion:
+    """The motion that the arm makes under its controller, with the object as a load that it carries.
+
+    What the object and the fingers meet does not act back on the arm: its joints are driven along this motion.
+
+    Args:
+        plant: The arm with its controller, not yet started.
+        references: Targets of the moves.
+        task: The task.
+        tool: Kinematics of the tool.
+        step_s: Length of a physics step.
+        gravity_m_s2: Magnitude of gravity.
+    """
+    results = {result.phase: result for result in run_program(plant, references, task=task)}
+    followed: dict[str, Reference] = {}
+    at: Array | None = None
+    for phase, positions in plant.followed.items():
+        if results[phase].failure is not None:
+            break
+        # While the hand closes or opens the joints settle further; the move begins where contact physics has them.
+        joined = positions if at is None else positions + _fading(at - positions[0], len(positions))
+        followed[phase] = reference_along(joined, tool, step_s=step_s, gravity_m_s2=gravity_m_s2)
+        at = joined[-1]
+    return ControlledMotion(references=followed, results=results)
+
+
+def _fading(offset: Array, count: int) -> Array:
+    """Offset (n,) that fades to zero over (count, n) positions, without a jump of the speed at either end."""
+    share = np.linspace(0.0, 1.0, count)
+    fade: Array = (1.0 - share**2 * (3.0 - 2.0 * share))[:, None] * offset
+    return fade
