@@ -5,6 +5,17 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.reports.replay.gltf_scene import replay_to_glb
+    from rgss.reports.replay.gltf_scene import ANIMATION, replay_to_glb
+    from rgss.reports.replay.replay_page import (
+        MOST_TRIALS,
+        SCRIPTS,
+        STYLE,
+        PackedReplay,
+        as_context,
+        packed_replay,
+        rendering_library,
+        replay_to_html,
+    )
+    from rgss.reports.replay.timeline import timeline_of
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)
