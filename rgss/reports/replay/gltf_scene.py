@@ -153,9 +153,7 @@ class _Writer:
             )
             animation.samplers.append(sampler)
             target = pygltflib.AnimationChannelTarget(node=node, path=path)
-            animation.channels.append(
-                pygltflib.AnimationChannel(sampler=len(animation.samplers) - 1, target=target)
-            )
+            animation.channels.append(pygltflib.AnimationChannel(sampler=len(animation.samplers) - 1, target=target))
 
     def _append(self, node: Any) -> int:
         self._document.nodes.append(node)

@@ -40,9 +40,7 @@ def timeline_of(
         "time_s": _numbers(scene.time_s),
         "phases": _phases(record, trace),
         "plots": _plots(trace, scene, joints),
-        "contacts": [
-            {"points_m": _rows(one.points_m), "forces_n": _rows(one.forces_n)} for one in scene.contacts
-        ],
+        "contacts": [{"points_m": _rows(one.points_m), "forces_n": _rows(one.forces_n)} for one in scene.contacts],
         "greatest_force_n": _greatest([one.forces_n for one in scene.contacts]),
         "perceived": {
             "distance_mm": round(1e3 * scene.perceived.distance_m, 2),

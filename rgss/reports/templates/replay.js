@@ -26,7 +26,7 @@ const replays = (() => {
       this.build();
       this.view = new replayScene.View(this.stage, trials, { onDraw: () => { place.dataset.drawn = String(Number(place.dataset.drawn || 0) + 1); } });
       this.arrange();
-      this.plots = this.timelines[0].plots.map((_, index) => new replayPlots.Plot(this.plotPlace, this.timelines, index, this.end, (time) => this.seek(time)));
+      this.drawPlots();
       matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.view.redraw());
       this.seek(0);
     }
@@ -58,7 +58,7 @@ const replays = (() => {
       for (const one of this.timelines) side.append(made("p", {}, made("strong", {}, one.title), made("br"), one.outcome));
       const { distance_mm: distance, angle_deg: angle } = lead.perceived;
       side.append(made("h3", { textContent: "Phases" }), this.chapters);
-      side.append(made("p", { className: "replay-note" }, `The object is perceived ${distance} mm and ${angle}° from where it is (violet). The longest arrow is ${lead.greatest_force_n} N.`));
+      side.append(made("p", { className: "replay-note" }, `The object is perceived ${distance} mm and ${angle}° from where it is (violet). The longest arrow is ${lead.greatest_force_n.toFixed(1)} N.`));
       this.plotPlace = made("div", { className: "replay-plots" });
       this.place.append(made("div", { className: "replay-stage" }, this.stage, this.scrub, bar, shows), side, this.plotPlace);
       this.stage.addEventListener("keydown", (event) => this.key(event));
@@ -90,6 +90,20 @@ const replays = (() => {
         made("span", { className: phase.failed ? "failed" : "", textContent: phase.start_s === null || phase.failed ? phase.outcome : `${(phase.end_s - phase.start_s).toFixed(2)} s` }));
       button.addEventListener("click", () => this.seek(phase.start_s));
       return made("li", {}, button);
+    }
+
+    drawPlots() {
+      this.plotPlace.replaceChildren();
+      this.plots = this.timelines[0].plots.map((_, index) => new replayPlots.Plot(this.plotPlace, this.timelines, index, this.end, (time) => this.seek(time)));
+      let width = this.plotPlace.clientWidth;
+      if (this.watch) return;
+      this.watch = new ResizeObserver(() => {
+        if (this.plotPlace.clientWidth === width) return;
+        width = this.plotPlace.clientWidth;
+        this.drawPlots();
+        for (const plot of this.plots) plot.point(this.time);
+      });
+      this.watch.observe(this.plotPlace);
     }
 
     arrange() {

@@ -1,7 +1,7 @@
 "use strict";
 // The plots of a replay: lines over time with a cursor, drawn as SVG; a click or a drag moves the cursor.
 const replayPlots = (() => {
-  const WIDTH = 640, HEIGHT = 170, LEFT = 46, RIGHT = 8, TOP = 8, BOTTOM = 24;
+  const HEIGHT = 170, LEFT = 46, RIGHT = 8, TOP = 8, BOTTOM = 24;
   const drawn = (name, attributes = {}, text = "") => {
     const one = document.createElementNS("http://www.w3.org/2000/svg", name);
     for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
@@ -33,9 +33,12 @@ const replayPlots = (() => {
       caption.textContent = `${plot.title} [${plot.unit}]`;
       this.legend = document.createElement("ul");
       this.legend.className = "replay-legend";
-      this.svg = drawn("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": `${plot.title} over time` });
+      this.svg = drawn("svg", { role: "img", "aria-label": `${plot.title} over time` });
       figure.append(caption, this.svg, this.legend);
       place.append(figure);
+      // Drawn for the width that there is, so that letters keep their size.
+      this.width = Math.max(280, Math.round(this.svg.getBoundingClientRect().width) || 640);
+      this.svg.setAttribute("viewBox", `0 0 ${this.width} ${HEIGHT}`);
       this.scale();
       this.drawAxes();
       timelines.forEach((timeline, trial) => this.drawSeries(timeline, trial));
@@ -45,7 +48,7 @@ const replayPlots = (() => {
       this.readouts = this.entries();
       const at = (event) => {
         const box = this.svg.getBoundingClientRect();
-        const share = ((event.clientX - box.left) / box.width * WIDTH - LEFT) / (WIDTH - LEFT - RIGHT);
+        const share = ((event.clientX - box.left) / box.width * this.width - LEFT) / (this.width - LEFT - RIGHT);
         seek(Math.min(1, Math.max(0, share)) * end);
       };
       this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); at(event); });
@@ -62,7 +65,7 @@ const replayPlots = (() => {
       this.high = step * Math.ceil(this.high / step - 1e-9);
     }
 
-    x(time) { return LEFT + time / this.end * (WIDTH - LEFT - RIGHT); }
+    x(time) { return LEFT + time / this.end * (this.width - LEFT - RIGHT); }
     y(value) { return TOP + (this.high - value) / (this.high - this.low) * (HEIGHT - TOP - BOTTOM); }
 
     drawAxes() {
@@ -72,12 +75,12 @@ const replayPlots = (() => {
         this.svg.append(drawn("rect", { class: "band", x: left, y: TOP, width: Math.max(0, this.x(phase.end_s) - left), height: HEIGHT - TOP - BOTTOM }));
       });
       for (const value of ticks(this.low, this.high, 4)) {
-        this.svg.append(drawn("line", { class: "grid", x1: LEFT, x2: WIDTH - RIGHT, y1: this.y(value), y2: this.y(value) }));
+        this.svg.append(drawn("line", { class: "grid", x1: LEFT, x2: this.width - RIGHT, y1: this.y(value), y2: this.y(value) }));
         this.svg.append(drawn("text", { x: LEFT - 6, y: this.y(value) + 4, "text-anchor": "end" }, String(value)));
       }
       for (const time of ticks(0, this.end, 8)) {
-        const last = this.x(time) > WIDTH - 30;
-        this.svg.append(drawn("text", { x: last ? WIDTH - RIGHT : this.x(time), y: HEIGHT - 6, "text-anchor": last ? "end" : "middle" }, `${time} s`));
+        const last = this.x(time) > this.width - 30;
+        this.svg.append(drawn("text", { x: last ? this.width - RIGHT : this.x(time), y: HEIGHT - 6, "text-anchor": last ? "end" : "middle" }, `${time} s`));
       }
     }
 
@@ -98,7 +101,7 @@ const replayPlots = (() => {
     }
 
     drawLimit(limit) {
-      if (limit) this.svg.append(drawn("line", { class: "series limit", x1: LEFT, x2: WIDTH - RIGHT, y1: this.y(limit.value), y2: this.y(limit.value) }));
+      if (limit) this.svg.append(drawn("line", { class: "series limit", x1: LEFT, x2: this.width - RIGHT, y1: this.y(limit.value), y2: this.y(limit.value) }));
     }
 
     entries() {
@@ -116,7 +119,7 @@ const replayPlots = (() => {
         const item = document.createElement("li"), key = document.createElement("i");
         key.style.borderTopColor = "var(--not-met)";
         key.style.borderTopStyle = "dashed";
-        item.append(key, `${limit.name} ${limit.value}`);
+        item.append(key, `${limit.name} ${shown(limit.value)}`);
         this.legend.append(item);
       }
       return found;

@@ -134,9 +134,7 @@ def _machine_nodes(
     # The mat that marks the place comes after the bodies of the scene.
     names = [*(body.id for body in scene.bodies), "place"]
     fixed = [solid for solid in solids if not solid.link]
-    nodes = [
-        _node(name, NodeKind.BODY, (solid,), [Pose()]) for name, solid in zip(names, fixed, strict=True)
-    ]
+    nodes = [_node(name, NodeKind.BODY, (solid,), [Pose()]) for name, solid in zip(names, fixed, strict=True)]
     for link, track in poses.items():
         carried = tuple(solid for solid in solids if solid.link == link)
         nodes.append(_node(link, NodeKind.LINK, carried, track))
