@@ -239,6 +239,9 @@ class Reader:
         return [str(one) for one in found if one[0] in ("serious", "critical")]
 
 
+WEBGL = "--enable-unsafe-swiftshader"
+"""Draws in three dimensions by software; the pages are ours, so that it is safe."""
+
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 WITHOUT_BROWSER = (
     "needs Chromium and its driver, on Debian: apt-get install chromium chromium-driver, "
@@ -265,7 +268,7 @@ def browser() -> Iterator[webdriver.Chrome]:
     """Headless Chromium."""
     options = webdriver.ChromeOptions()
     options.binary_location = str(_found(*CHROMIUM))
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking"):
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", WEBGL):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     service = webdriver.ChromeService(_found("chromedriver"))

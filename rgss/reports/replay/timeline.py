@@ -37,7 +37,7 @@ def timeline_of(
         "success": record.success,
         "start_s": float(scene.time_s[0]),
         "end_s": float(scene.time_s[-1]),
-        "time_s": _numbers(scene.time_s),
+        "time_s": [round(time, 6) for time in scene.time_s.tolist()],
         "phases": _phases(record, trace),
         "plots": _plots(trace, scene, joints),
         "contacts": [{"points_m": _rows(one.points_m), "forces_n": _rows(one.forces_n)} for one in scene.contacts],

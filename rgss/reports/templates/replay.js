@@ -95,6 +95,8 @@ const replays = (() => {
     drawPlots() {
       this.plotPlace.replaceChildren();
       this.plots = this.timelines[0].plots.map((_, index) => new replayPlots.Plot(this.plotPlace, this.timelines, index, this.end, (time) => this.seek(time)));
+      // Their width is known when all have their places.
+      for (const plot of this.plots) plot.draw();
       let width = this.plotPlace.clientWidth;
       if (this.watch) return;
       this.watch = new ResizeObserver(() => {
@@ -117,9 +119,7 @@ const replays = (() => {
       this.time = Math.min(this.end, Math.max(0, time));
       this.view.pose(this.time);
       const { phases } = this.timelines[0];
-      const current = phases.findIndex((one) => one.start_s !== null && this.time >= one.start_s - 1e-9 && this.time < one.end_s - 1e-9);
-      const last = phases.reduce((found, one, place) => one.start_s === null ? found : place, -1);
-      this.current = current >= 0 ? current : last;
+      this.current = replayScene.phaseAt(phases, this.time);
       this.scrub.value = this.time;
       const name = this.current >= 0 ? phases[this.current].name : "";
       this.scrub.setAttribute("aria-valuetext", `${this.time.toFixed(2)} seconds, ${name}`);

@@ -36,20 +36,25 @@ const replayPlots = (() => {
       this.svg = drawn("svg", { role: "img", "aria-label": `${plot.title} over time` });
       figure.append(caption, this.svg, this.legend);
       place.append(figure);
+      this.seek = seek;
+    }
+
+    draw() {
+      const { timelines, end } = this;
       // Drawn for the width that there is, so that letters keep their size.
       this.width = Math.max(280, Math.round(this.svg.getBoundingClientRect().width) || 640);
       this.svg.setAttribute("viewBox", `0 0 ${this.width} ${HEIGHT}`);
       this.scale();
       this.drawAxes();
       timelines.forEach((timeline, trial) => this.drawSeries(timeline, trial));
-      this.drawLimit(plot.limit);
+      this.drawLimit(timelines[0].plots[this.index].limit);
       this.cursor = drawn("line", { class: "cursor", y1: TOP, y2: HEIGHT - BOTTOM });
       this.svg.append(this.cursor);
       this.readouts = this.entries();
       const at = (event) => {
         const box = this.svg.getBoundingClientRect();
         const share = ((event.clientX - box.left) / box.width * this.width - LEFT) / (this.width - LEFT - RIGHT);
-        seek(Math.min(1, Math.max(0, share)) * end);
+        this.seek(Math.min(1, Math.max(0, share)) * end);
       };
       this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); at(event); });
       this.svg.addEventListener("pointermove", (event) => { if (event.buttons & 1) at(event); });

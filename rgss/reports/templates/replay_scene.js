@@ -32,10 +32,13 @@ const replayScene = (() => {
     let low = 0, high = times.length - 1;
     while (low < high) {
       const middle = (low + high + 1) >> 1;
-      if (times[middle] <= time + 1e-9) low = middle; else high = middle - 1;
+      if (times[middle] <= time + 2e-6) low = middle; else high = middle - 1;
     }
     return low;
   };
+
+  // The index of the phase that runs at a time, of the last one after the end; -1 without motion.
+  const phaseAt = (phases, time) => phases.reduce((found, one, place) => one.start_s !== null && time >= one.start_s - 1e-9 ? place : found, -1);
 
   class Trial {
     constructor(gltf, glb, timeline) {
@@ -72,7 +75,7 @@ const replayScene = (() => {
       this.mixer.setTime(at);
       const sample = sampleAt(timeline.time_s, at);
       this.pointArrows(sample);
-      const phase = timeline.phases.find((one) => one.start_s !== null && at <= one.end_s + 1e-9);
+      const phase = timeline.phases[phaseAt(timeline.phases, at)];
       for (const line of [...this.kinds.path, ...this.kinds.graph]) {
         line.userData.current = phase !== undefined && line.userData.phase === phase.key;
       }
@@ -280,5 +283,5 @@ const replayScene = (() => {
     return new Trial(gltf, glb, timeline);
   };
 
-  return { View, load, sampleAt, views: Object.keys(VIEWS) };
+  return { View, load, phaseAt, sampleAt, views: Object.keys(VIEWS) };
 })();

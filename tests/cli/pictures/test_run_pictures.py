@@ -133,7 +133,7 @@ class Still:
     ],
 )
 def test_the_last_frame_says_how_the_trial_ended(failure, failed_phase, end):
-    phases = [SimpleNamespace(phase=phase) for phase in Phase]
+    phases = [SimpleNamespace(phase=phase.value) for phase in Phase]
     record = SimpleNamespace(failure=failure, failed_phase=failed_phase, phases=phases)
     said = [captioned(Still(Phase.LIFT), index, record).caption for index in range(3)]
     assert said == ["0.00 s   3 lift", "0.50 s   3 lift", end]
