@@ -11,7 +11,9 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
-from rgss.reports.replay.replay_page import packed_replay, replay_to_html
+from rgss.reports.replay.gltf_scene import replay_to_glb
+from rgss.reports.replay.packing import packed_replay
+from rgss.reports.replay.replay_page import replay_to_html
 from tests.fixtures.made_replay import JOINTS, made_record, made_scene, made_trace
 
 pytestmark = pytest.mark.browser
@@ -34,6 +36,11 @@ def page(tmp_path_factory) -> Path:
 @pytest.fixture(scope="module")
 def pair(tmp_path_factory) -> Path:
     return page_of(tmp_path_factory.mktemp("pair"), made_record(), made_record(variant=6, fails=False))
+
+
+def errors(reader):
+    """What the console has to say, but for remarks of a driver without a graphics processor on its own speed."""
+    return [one for one in reader.complaints() if "GL Driver Message (OpenGL, Performance" not in one]
 
 
 def time_of(reader) -> float:
@@ -76,7 +83,7 @@ def test_it_draws_and_asks_for_nothing(reader, page):
     reader.open(page)
 
     assert reader.script("return document.querySelectorAll('.replay-plots svg').length") == 4
-    assert reader.complaints() == []
+    assert errors(reader) == []
     assert reader.requests() == []
     assert colours(reader) > 50
 
@@ -160,11 +167,11 @@ def test_plots_have_a_cursor_that_follows_and_leads(reader, page):
         "return Array.from(document.querySelectorAll('.replay-legend')[2].querySelectorAll('b'))"
         ".map((one) => Number(one.textContent))"
     )
-    near = np_window(trace, middle)
+    near = forces_near(trace, middle)
     assert near[0] - 0.02 <= shown[0] <= near[1] + 0.02
 
 
-def np_window(trace, time_s):
+def forces_near(trace, time_s):
     """Least and greatest force of the first finger around a time."""
     forces = trace.finger_forces_n[abs(trace.time_s - time_s) < 0.1, 0]
     return forces.min(), forces.max()
@@ -227,7 +234,7 @@ def test_a_second_trial_is_a_ghost_or_beside(reader, pair):
     assert reader.script(
         "return Array.from(document.querySelectorAll('.replay-names span')).map((one) => one.textContent)"
     ) == ["Variant 5, seed 1", "Variant 6, seed 1"]
-    assert reader.complaints() == []
+    assert errors(reader) == []
     assert colours(reader) > 50
 
 
@@ -250,6 +257,4 @@ def test_it_is_saved_as_the_glb_that_it_carries(reader, page):
             "return JSON.stringify([blob.type, blob.size])"
         )
     )
-    from rgss.reports.replay.gltf_scene import replay_to_glb
-
     assert saved == ["model/gltf-binary", len(replay_to_glb(made_scene(), title="Variant 5, seed 1"))]

@@ -6,13 +6,13 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.reports.replay.gltf_scene import ANIMATION, replay_to_glb
+    from rgss.reports.replay.packing import packed_replay
     from rgss.reports.replay.replay_page import (
         MOST_TRIALS,
-        SCRIPTS,
-        STYLE,
+        REPLAY_SCRIPTS,
+        REPLAY_STYLE,
         PackedReplay,
         as_context,
-        packed_replay,
         rendering_library,
         replay_to_html,
     )

@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
-import base64
-import gzip
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any
 
-from rgss.evidence import TrialRecord
-from rgss.evidence.records import TrialTrace
 from rgss.reports.page import render_page, template_text
-from rgss.reports.replay.gltf_scene import replay_to_glb
-from rgss.reports.replay.timeline import timeline_of
-from rgss.scenes import Joint
-from rgss.trials.replay import ReplayScene
 
-SCRIPTS = ("replay_scene.js", "replay_plots.js", "replay.js")
+REPLAY_SCRIPTS = ("replay_scene.js", "replay_plots.js", "replay.js")
 """Scripts of a page with replays, in their order."""
 
-STYLE = "replay.css"
+REPLAY_STYLE = "replay.css"
 """Style sheet of a page with replays."""
 
 MOST_TRIALS = 2
@@ -43,26 +34,6 @@ class PackedReplay:
     timeline: str
 
 
-def packed_replay(
-    record: TrialRecord, trace: TrialTrace, scene: ReplayScene, *, joints: Sequence[Joint]
-) -> PackedReplay:
-    """Pack a replay for a page; the same trial gives the same bytes.
-
-    Args:
-        record: The trial.
-        trace: Its course.
-        scene: What is seen of it.
-        joints: The joints of the arm.
-    """
-    title = f"Variant {record.variant}, seed {record.seed}"
-    timeline = timeline_of(record, trace, scene, joints=joints, title=title)
-    return PackedReplay(
-        title=title,
-        model=_packed(replay_to_glb(scene, title=title)),
-        timeline=_packed(json.dumps(timeline, allow_nan=False, separators=(",", ":")).encode("utf-8")),
-    )
-
-
 def replay_to_html(replays: Sequence[PackedReplay]) -> str:
     """A page that plays one trial, or two as a ghost or side by side.
 
@@ -76,8 +47,8 @@ def replay_to_html(replays: Sequence[PackedReplay]) -> str:
         raise AssertionError(f"checked before: a replay shows 1 to {MOST_TRIALS} trials, not {len(replays)}")
     return render_page(
         "replay.html.j2",
-        styles=[template_text(STYLE)],
-        scripts=[template_text(script) for script in SCRIPTS],
+        styles=[template_text(REPLAY_STYLE)],
+        scripts=[template_text(script) for script in REPLAY_SCRIPTS],
         held_scripts=[rendering_library()],
         title=f"Replay: {' and '.join(replay.title for replay in replays)}",
         replays=[as_context(replay) for replay in replays],
@@ -92,7 +63,3 @@ def as_context(replay: PackedReplay) -> dict[str, Any]:
 def rendering_library() -> str:
     """The part of three.js that replays use; its licence is beside it in this package."""
     return resources.files("rgss.reports.replay").joinpath("three/three.min.js").read_text(encoding="utf-8")
-
-
-def _packed(content: bytes) -> str:
-    return base64.b64encode(gzip.compress(content, compresslevel=9, mtime=0)).decode("ascii")

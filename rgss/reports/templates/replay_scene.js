@@ -196,20 +196,21 @@ const replayScene = (() => {
       this.controls.maxDistance = 10;
       this.controls.addEventListener("change", () => this.redraw());
       this.follows = false;
-      this.choose("overview");
+      this.name = "overview";
       this.arrange(this.mode);
       new ResizeObserver(() => this.resize()).observe(place);
-      this.resize();
     }
 
     arrange(mode) {
       this.mode = this.trials.length > 1 ? mode : "one";
       const [first, second] = this.trials;
-      if (second === undefined) return;
-      const ghost = this.mode === "ghost";
-      (ghost ? first : second).scene.add(second.group);
-      second.beGhost(ghost);
+      if (second !== undefined) {
+        const ghost = this.mode === "ghost";
+        (ghost ? first : second).scene.add(second.group);
+        second.beGhost(ghost);
+      }
       this.resize();
+      this.choose(this.name);
     }
 
     choose(name) {
@@ -220,9 +221,11 @@ const replayScene = (() => {
       const target = follows ? first.placeOf(first.hand) : first.world.localToWorld(new three.Vector3(...first.timeline.middle_m));
       const towards = new three.Vector3(Math.cos(rise) * Math.cos(turn), Math.cos(rise) * Math.sin(turn), Math.sin(rise));
       const turned = towards.applyQuaternion(first.world.getWorldQuaternion(new three.Quaternion()));
-      const narrow = Math.max(1, 0.9 / Math.max(0.3, this.camera.aspect));
+      // A narrow picture is taken from farther away, so that it shows as much from left to right.
+      const narrow = Math.max(1, (follows ? 1 : 1.5) / this.camera.aspect);
       this.camera.position.copy(target).addScaledVector(turned, distance * narrow);
       this.controls.target.copy(target);
+      this.name = name;
       this.follows = follows;
       this.followed = target;
       this.controls.update();

@@ -8,7 +8,8 @@ from importlib import resources
 
 import pytest
 
-from rgss.reports.replay.replay_page import packed_replay, rendering_library, replay_to_html
+from rgss.reports.replay.packing import packed_replay
+from rgss.reports.replay.replay_page import rendering_library, replay_to_html
 from tests.fixtures.made_replay import JOINTS, made_record, made_scene, made_trace
 
 THREE = resources.files("rgss.reports.replay") / "three"
