@@ -72,7 +72,7 @@ class _Writer:
     def _add_node(self, track: NodeTrack) -> int:
         import pygltflib
 
-        parts = []
+        parts: list[int] = []
         for solid in track.solids:
             parts.append(
                 self._append(
