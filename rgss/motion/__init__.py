@@ -9,7 +9,7 @@ from rgss.motion.planner_table import OmplPlanner, ParameterType, PlannerParamet
 from rgss.motion.planners import SOURCE_PLANNERS, available_planners, refusal_of, takes_objective
 from rgss.motion.planning import plan
 from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
-from rgss.motion.search_graph import SearchGraph
+from rgss.motion.roadmap import SearchGraph
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory
 from rgss.motion.trapezoid import time_move_by_trapezoids, trapezoidal_trajectory

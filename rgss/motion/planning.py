@@ -17,8 +17,8 @@ from rgss.motion.paths import JointPath
 from rgss.motion.planner_settings import OnUnverified, PlannerSettings
 from rgss.motion.planners import available_planners, refusal_of
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
+from rgss.motion.roadmap import SearchGraph
 from rgss.motion.search import search
-from rgss.motion.search_graph import SearchGraph
 from rgss.motion.simplification import ShortenedPath, shorten
 from rgss.motion.validity import StateCost, StateValidity
 from rgss.motion.verification import verified
@@ -30,6 +30,7 @@ _SIMPLIFICATION_STREAM = 2
 _REPAIR_STREAM = 3
 
 
+# long function: the stages of one plan in order, each with what the clock makes of it.
 def plan(
     problem: PlanningProblem,
     validity: StateValidity,

@@ -18,8 +18,7 @@ from rgss.motion.planner_settings import Objective, PlannerSettings
 from rgss.motion.planner_table import ParameterType
 from rgss.motion.planners import ROADMAP_PLANNERS, available_planners
 from rgss.motion.problem import PlanningProblem
-from rgss.motion.roadmap import solve_by_roadmap
-from rgss.motion.search_graph import SearchGraph, graph_of
+from rgss.motion.roadmap import SearchGraph, graph_of, solve_by_roadmap
 from rgss.motion.validity import StateCost, StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
@@ -39,6 +38,7 @@ class SearchResult:
     checks: int
 
 
+# long function: the engine's objects must live as long as the search that uses them.
 def search(
     problem: PlanningProblem,
     validity: StateValidity,

@@ -1,5 +1,7 @@
 """A study's report as one self-contained HTML page with linked plots."""
 
+# long file: one function gathers what the template shows, and the helpers are of its parts.
+
 from __future__ import annotations
 
 import base64
