@@ -21,11 +21,12 @@ DISTRIBUTIONS: Mapping[str, str] = MappingProxyType(
         "toppra": "toppra",
         "PIL": "pillow",
         "matplotlib": "matplotlib",
+        "pygltflib": "pygltflib",
     }
 )
 """The distribution that brings each module of the extra ``sim``; pin brings coal."""
 
-_PICTURES = ("PIL", "matplotlib")
+_PICTURES = ("PIL", "matplotlib", "pygltflib")
 
 
 def missing_engines(*, pictures: bool = False) -> tuple[str, ...]:

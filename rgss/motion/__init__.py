@@ -10,6 +10,7 @@ from rgss.motion.planners import SOURCE_PLANNERS, available_planners, refusal_of
 from rgss.motion.planning import plan
 from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
 from rgss.motion.profiles import time_move_by_joint_waypoints, time_move_by_trapezoids, trapezoidal_trajectory
+from rgss.motion.roadmap import SearchGraph
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move
 from rgss.motion.trajectory import Trajectory
 from rgss.motion.validity import StateCost, StateValidity, ToolKinematics

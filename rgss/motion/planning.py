@@ -17,6 +17,7 @@ from rgss.motion.paths import JointPath
 from rgss.motion.planner_settings import OnUnverified, PlannerSettings
 from rgss.motion.planners import available_planners, refusal_of
 from rgss.motion.problem import PlanningProblem, PlanResult, spent
+from rgss.motion.roadmap import SearchGraph
 from rgss.motion.search import search
 from rgss.motion.simplification import ShortenedPath, shorten
 from rgss.motion.validity import StateCost, StateValidity
@@ -29,6 +30,7 @@ _SIMPLIFICATION_STREAM = 2
 _REPAIR_STREAM = 3
 
 
+# long function: the stages of one plan in order, each with what the clock makes of it.
 def plan(
     problem: PlanningProblem,
     validity: StateValidity,
@@ -42,6 +44,7 @@ def plan(
     simplification_limit_s: float = math.inf,
     on_unverified: OnUnverified = OnUnverified.FAIL,
     cost: StateCost | None = None,
+    on_graph: Callable[[SearchGraph], None] | None = None,
 ) -> PlanResult:
     """Plan one move, verify the path that is found, and shorten it.
 
@@ -61,6 +64,7 @@ def plan(
             clock. A path that cannot be checked by then is left as it was found.
         on_unverified: What is done with a path that is not valid at the resolution of its verification.
         cost: Cost of a state, for an objective that needs it; each evaluation is charged like a check.
+        on_graph: Callback with the graph of the first search, before anything of its path is repaired.
 
     Raises:
         MotionError: The planner is unknown or refused, or the seed or a budget is negative.
@@ -81,6 +85,7 @@ def plan(
         is_over=lambda checks: checks > budget_checks or (not counted and elapsed_s(checks) > limit_s),
         on_unverified=on_unverified,
         cost=cost,
+        on_graph=on_graph,
     )
     time_s = elapsed_s(found.checks)
     if found.corners is None or found.checks > budget_checks or (not counted and time_s > limit_s):
@@ -154,8 +159,17 @@ def _verified_search(
     is_over: Callable[[int], bool],
     on_unverified: OnUnverified,
     cost: StateCost | None,
+    on_graph: Callable[[SearchGraph], None] | None,
 ) -> _Found:
-    first = search(problem, validity, planner, seed=_derived_seed(seed, _SEARCH_STREAM), is_over=is_over, cost=cost)
+    first = search(
+        problem,
+        validity,
+        planner,
+        seed=_derived_seed(seed, _SEARCH_STREAM),
+        is_over=is_over,
+        cost=cost,
+        on_graph=on_graph,
+    )
     if first.corners is None or problem.verified_every_rad >= problem.resolution_rad:
         return _Found(corners=first.corners, checks=first.checks)
 

@@ -18,7 +18,7 @@ from rgss.motion.planner_settings import Objective, PlannerSettings
 from rgss.motion.planner_table import ParameterType
 from rgss.motion.planners import ROADMAP_PLANNERS, available_planners
 from rgss.motion.problem import PlanningProblem
-from rgss.motion.roadmap import solve_by_roadmap
+from rgss.motion.roadmap import SearchGraph, graph_of, solve_by_roadmap
 from rgss.motion.validity import StateCost, StateValidity, first_invalid_between
 
 Vector = NDArray[np.float64]
@@ -38,6 +38,7 @@ class SearchResult:
     checks: int
 
 
+# long function: the engine's objects must live as long as the search that uses them.
 def search(
     problem: PlanningProblem,
     validity: StateValidity,
@@ -46,6 +47,7 @@ def search(
     seed: int,
     is_over: Callable[[int], bool],
     cost: StateCost | None = None,
+    on_graph: Callable[[SearchGraph], None] | None = None,
 ) -> SearchResult:
     """Run a planner until it finds a path or its termination predicate holds.
 
@@ -56,6 +58,7 @@ def search(
         seed: Seed of the engine's random numbers, at least 1.
         is_over: Termination predicate, called with the check count before every step of the planner.
         cost: Cost of a state, for the planner's objective; each evaluation counts as a check.
+        on_graph: Callback with the planner's graph after the search.
 
     Raises:
         MotionError: OMPL refuses a parameter, or the objective needs a cost that is not given.
@@ -110,6 +113,8 @@ def search(
         corners = solve_by_roadmap(engine, algorithm, information, angles_of, lambda: is_over(checks))
     else:
         corners = _solved(engine, algorithm, definition, angles_of, lambda: is_over(checks))
+    if on_graph is not None:
+        on_graph(graph_of(engine, algorithm, information, angles_of, joints=len(problem.start)))
     return SearchResult(corners=corners, checks=checks)
 
 

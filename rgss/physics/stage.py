@@ -36,6 +36,24 @@ from rgss.scenes import (
 
 Colour = Sequence[float]
 
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeenSolid:
+    """A solid of a picture.
+
+    Attributes:
+        link: The link that carries it; empty for a fixed body.
+        surface: Its surface in its own frame.
+        pose: Transform of its frame to the link, or to the world.
+        colour: Red, green, blue and opacity, each from 0 to 1.
+    """
+
+    link: str
+    surface: Surface
+    pose: Pose
+    colour: Colour
+
+
 ARM_COLOUR = (0.78, 0.79, 0.81, 1.0)
 GRIPPER_BASE_COLOUR = (0.22, 0.23, 0.26, 1.0)
 FINGER_COLOUR = (0.96, 0.74, 0.15, 1.0)
@@ -81,6 +99,8 @@ class Stage:
         self._engine = pybullet()
         self._scene, self._gripper = scene, gripper
         self._clients: list[int] = []
+        self._looks: dict[tuple[int, int], tuple[Surface, Colour]] = {}
+        self._fixed: list[SeenSolid] = []
         try:
             self.still, self.moving, self._machine = self._open(), self._open(), self._open()
             for body in scene.bodies:
@@ -92,7 +112,7 @@ class Stage:
             self._half_sizes: dict[int, tuple[float, float, float]] = {}
             self._poses: dict[int, Pose] = {}
             self._workpiece = []
-            for surface, at, half in _object_surfaces(workpiece.shape):
+            for surface, at, half in object_surfaces(workpiece.shape):
                 part = self._add(self.moving, surface, workpiece.pose @ at, workpiece.colour)
                 self._workpiece.append((part, at))
                 self._half_sizes[part] = half
@@ -116,6 +136,18 @@ class Stage:
             self._place(part, posture.workpiece @ at)
         for part, link, pose in self._parts:
             self._place(part, self._link_pose(link) @ pose)
+
+    def solids(self) -> tuple[SeenSolid, ...]:
+        """The fixed bodies, and the solids of the links of arm and gripper; objects are not among them."""
+        moving = []
+        for part, link, pose in self._parts:
+            surface, colour = self._looks[self.moving, part]
+            moving.append(SeenSolid(link=self._link_names[link], surface=surface, pose=pose, colour=colour))
+        return (*self._fixed, *moving)
+
+    def link_poses(self) -> dict[str, Pose]:
+        """Transforms to the world of the links that carry solids, as `take` set them."""
+        return {self._link_names[link]: self._link_pose(link) for link in sorted({link for _, link, _ in self._parts})}
 
     def tool_position(self) -> tuple[float, float, float]:
         """Position of the grasp centre in the world."""
@@ -149,6 +181,9 @@ class Stage:
         )
         if visual < 0 or body < 0:
             raise SimulationError("the physics engine refused a body of a picture", hint="check its sizes")
+        self._looks[client, body] = surface, colour
+        if client == self.still:
+            self._fixed.append(SeenSolid(link="", surface=surface, pose=pose, colour=colour))
         return body
 
     def _place(self, body: int, pose: Pose) -> None:
@@ -199,6 +234,7 @@ class Stage:
             part = self._add(self.moving, hull_surface(convex.vertices_m), Pose(), ARM_COLOUR)
             self._half_sizes[part] = _half_extent(convex.vertices_m)
             self._parts.append((part, links[convex.link], convex.pose))
+        self._link_names = {index: name for name, index in links.items()}
         self._add_rails(links[GRIPPER_BASE_LINK])
 
     def _add_rails(self, base_link: int) -> None:
@@ -224,7 +260,7 @@ class Stage:
         return Pose(position_m=tuple(state[4]), quaternion_xyzw=tuple(state[5]))
 
 
-def _object_surfaces(shape: ObjectShape) -> list[tuple[Surface, Pose, tuple[float, float, float]]]:
+def object_surfaces(shape: ObjectShape) -> list[tuple[Surface, Pose, tuple[float, float, float]]]:
     """Surfaces of the object, each with its place in the object's frame and its half sizes; a cylinder is a cup."""
     if isinstance(shape, MeshShape):
         return [(hull_surface(part), Pose(), _half_extent(part)) for part in shape.parts_m]

@@ -1,5 +1,7 @@
 """A study's report as one self-contained HTML page with linked plots."""
 
+# long file: one function gathers what the template shows, and the helpers are of its parts.
+
 from __future__ import annotations
 
 import base64
@@ -14,6 +16,7 @@ from urllib.parse import quote
 from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible_throughout
 from rgss.reports.page import render_page, template_text
+from rgss.reports.replay import REPLAY_SCRIPTS, REPLAY_STYLE, PackedReplay, as_context, rendering_library
 from rgss.reports.trace import TraceReport, trace_context
 from rgss.trace.views import share_in_words, value_in_words
 
@@ -65,6 +68,7 @@ class TrialPictures:
         replay: The command that runs it again.
         filmstrip: A PNG of the ends of its states; empty if nothing moved.
         film: A GIF; empty if nothing moved.
+        player: Its replay in three dimensions; None if nothing moved.
     """
 
     title: str
@@ -72,6 +76,7 @@ class TrialPictures:
     replay: str
     filmstrip: bytes
     film: bytes
+    player: PackedReplay | None = None
 
 
 def study_report_to_html(
@@ -106,12 +111,16 @@ def study_report_to_html(
     plain = embedded_json(document)
     packed = len(plain) > LARGEST_PLAIN
     first, later = parted(document) if packed else (document, {})
+    has_replays = any(one.player is not None for one in pictures)
     return render_page(
         "report.html.j2",
-        styles=[template_text("report.css")],
-        scripts=[script + template_text("report_data.js")],
+        styles=[template_text("report.css"), *([template_text(REPLAY_STYLE)] if has_replays else [])],
+        scripts=[
+            script + template_text("report_data.js"),
+            *(map(template_text, REPLAY_SCRIPTS) if has_replays else ()),
+        ],
         # It takes a browser longer than all the rest, and is not needed until a plot comes into sight.
-        held_scripts=[plotting_library()],
+        held_scripts=[plotting_library(), *([rendering_library()] if has_replays else [])],
         images=True,
         title=f"Report of the study {document['study']}",
         report=document,
@@ -287,6 +296,7 @@ def _picture(one: TrialPictures) -> dict[str, Any]:
         "replay": one.replay,
         "filmstrip": _data_address("image/png", one.filmstrip),
         "film": _data_address("image/gif", one.film),
+        "replays": [] if one.player is None else [as_context(one.player)],
     }
 
 

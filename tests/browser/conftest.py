@@ -29,6 +29,7 @@ from rgss.evidence import (
     Provenance,
     TrialRecord,
 )
+from rgss.reports.replay.packing import packed_replay
 from rgss.reports.study.document import report_document
 from rgss.reports.study_page import TrialPictures, study_report_to_html
 from rgss.reports.trace.report import trace_report
@@ -37,6 +38,7 @@ from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
 from rgss.trace.model.model import build_trace_model
 from rgss.trials.metrics import METRICS
+from tests.fixtures import made_replay
 from tests.fixtures.eight_states import PLANNED_PHASES, Phase
 from tests.fixtures.shipped_project import copy_project
 
@@ -137,9 +139,19 @@ def study(tmp_path_factory) -> Study:
 
 @pytest.fixture(scope="session")
 def pictures() -> tuple[TrialPictures, ...]:
-    """Pictures of one pixel."""
+    """Pictures of one pixel, and a replay."""
+    player = packed_replay(
+        made_replay.made_record(), made_replay.made_trace(), made_replay.made_scene(), joints=made_replay.JOINTS
+    )
     return (
-        TrialPictures(title="Variant 28", note="It succeeded.", replay="rgss replay 0", filmstrip=PIXEL, film=PIXEL),
+        TrialPictures(
+            title="Variant 28",
+            note="It succeeded.",
+            replay="rgss replay 0",
+            filmstrip=PIXEL,
+            film=PIXEL,
+            player=player,
+        ),
     )
 
 
@@ -239,6 +251,9 @@ class Reader:
         return [str(one) for one in found if one[0] in ("serious", "critical")]
 
 
+WEBGL = "--enable-unsafe-swiftshader"
+"""Draws in three dimensions by software; the pages are ours, so that it is safe."""
+
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 WITHOUT_BROWSER = (
     "needs Chromium and its driver, on Debian: apt-get install chromium chromium-driver, "
@@ -265,7 +280,7 @@ def browser() -> Iterator[webdriver.Chrome]:
     """Headless Chromium."""
     options = webdriver.ChromeOptions()
     options.binary_location = str(_found(*CHROMIUM))
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking"):
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-background-networking", WEBGL):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     service = webdriver.ChromeService(_found("chromedriver"))

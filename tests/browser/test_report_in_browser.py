@@ -30,6 +30,20 @@ def test_it_opens_draws_everything_and_asks_for_nothing(reader, page):
     assert sum(map(int, drawn)) == 72
 
 
+def test_a_trial_is_replayed_in_the_report(reader, page):
+    reader.open(page)
+    place = "document.querySelector('#pictures [data-replay]')"
+    assert reader.script(f"return typeof THREE + {place}.querySelectorAll('canvas').length") == "undefined0"
+    reader.driver.find_element(By.XPATH, "//summary[. = 'Replay in three dimensions']").click()
+    reader.until(f"return {place}.dataset.state === 'ready'")
+    reader.script("Array.from(document.querySelectorAll('.replay-chapters button'))[2].click()")
+
+    assert float(reader.script(f"return {place}.dataset.time")) == 2.0
+    reader.until(f"return Number({place}.dataset.drawn) > 0")
+    assert [one for one in reader.complaints() if "GL Driver Message" not in one] == []
+    assert reader.requests() == []
+
+
 def test_a_brush_on_an_axis_filters_every_other_view(reader, page, study):
     reader.open(page)
     reader.see_all_plots()

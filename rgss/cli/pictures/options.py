@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.cli.output import shown_path
+from rgss.cli.pictures.replays import add_replay, check_replay, write_replay
 from rgss.cli.safe_output import own_stream
 from rgss.engines import require_engines
 from rgss.errors import DefinitionError
@@ -24,8 +25,9 @@ if TYPE_CHECKING:
     from rgss.reports.trials import CaptionedPicture
     from rgss.trials import Film
     from rgss.trials.pieces import TrialSpec
+    from rgss.trials.replay import ReplayedTrial
 
-SUFFIXES = {"gif": ".gif", "filmstrip": ".png", "plots": ".png"}
+SUFFIXES = {"gif": ".gif", "filmstrip": ".png", "plots": ".png", "replay": ".html"}
 _CAMERA, _SIZE, _RATE_HZ = "overview+hand", "640x480", 12.0
 _SMALLEST, _LARGEST = 200, 2000
 _NEAREST_M, _FARTHEST_M = 0.3, 10.0
@@ -36,7 +38,7 @@ class PictureOrder:
     """The pictures that are wanted.
 
     Attributes:
-        files: The file of each kind: ``gif``, ``filmstrip``, ``plots``.
+        files: The file of each kind: ``gif``, ``filmstrip``, ``plots``, ``replay``.
         view: Where the camera stands.
         inset: Where the camera of a smaller picture within each picture stands; None without one.
         width: Width of each picture in pixels.
@@ -58,6 +60,7 @@ def add_pictures(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--gif", type=Path, metavar="FILE", help="write a film")
     group.add_argument("--filmstrip", type=Path, metavar="FILE", help="write a PNG of the ends of the eight states")
     group.add_argument("--plots", type=Path, metavar="FILE", help="write a PNG of joints, speed and forces over time")
+    add_replay(group)
     group.add_argument(
         "--camera",
         metavar="VIEW",
@@ -80,6 +83,7 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
         if getattr(options, option) is not None and not any(kind in files for kind in needed):
             named = " or ".join(f"--{kind}" for kind in needed)
             raise DefinitionError(f"--{option} is given, but no picture that it is for", hint=f"add {named}")
+    check_replay(options)
     if not files:
         return None
     require_engines("a picture of a trial", pictures=True)
@@ -96,8 +100,10 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
     )
 
 
-def traced_trial(spec: TrialSpec) -> tuple[TrialRecord, TrialTrace | None]:
-    """Run a trial so that pictures of it can be made; there is no trace if nothing moved.
+def seen_trial(order: PictureOrder, spec: TrialSpec) -> ReplayedTrial:
+    """Run a trial so that the pictures ordered can be made; there is no trace if nothing moved.
+
+    Without a replay in the order there is no scene either.
 
     Raises:
         DefinitionError: The trial's fidelity has nothing to show.
@@ -106,18 +112,28 @@ def traced_trial(spec: TrialSpec) -> tuple[TrialRecord, TrialTrace | None]:
     from rgss.evidence import Fidelity
     from rgss.sweep import compute
     from rgss.trials import run_traced_trial
+    from rgss.trials.replay import ReplayedTrial, run_replayed_trial
 
     if spec.fidelity is not Fidelity.CONTACT:
         raise DefinitionError(
             f"there are no pictures of a trial of {spec.fidelity.value} fidelity", hint="add --fidelity contact"
         )
-    return compute(run_traced_trial, spec)
+    if "replay" in order.files:
+        return compute(run_replayed_trial, spec)
+    record, trace = compute(run_traced_trial, spec)
+    return ReplayedTrial(record=record, trace=trace, scene=None)
 
 
 def made_pictures(
-    order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: TrialTrace | None
+    order: PictureOrder, spec: TrialSpec, seen: ReplayedTrial, *, beside: TrialSpec | None = None
 ) -> tuple[str, ...]:
     """Draw what was ordered and write the files.
+
+    Args:
+        order: What was ordered.
+        spec: The inputs of the trial.
+        seen: The trial.
+        beside: The inputs of a trial that is replayed beside it; None without one.
 
     Returns:
         What was made, a line for each.
@@ -126,10 +142,12 @@ def made_pictures(
         DefinitionError: A file cannot be written after all.
         SimulationError: The engine cannot draw the scene.
     """
-    if trace is None:
+    if seen.trace is None:
         return ("No pictures: the trial ended before anything moved.",)
     try:
-        _make(order, spec, record, trace)
+        _make(order, spec, seen.record, seen.trace)
+        if "replay" in order.files:
+            write_replay(order.files["replay"], seen, spec, beside)
     except OSError as error:
         reason = error.strerror or str(error)
         raise DefinitionError(f"cannot write the pictures: {reason}", hint="choose another place") from error

@@ -104,16 +104,17 @@ def trial_pictures(
 
 
 def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLook) -> TrialPictures:
+    from rgss.cli.pictures.replays import packed_trial
     from rgss.evidence import record_digest
     from rgss.reports import TrialPictures
     from rgss.studies import DEFAULT_STUDY
     from rgss.sweep import compute
     from rgss.trace.evidence import KEY_DIGITS
-    from rgss.trials import run_traced_trial
+    from rgss.trials.replay import run_replayed_trial
 
-    record, trace = compute(run_traced_trial, spec)
-    same = record_digest(record) == record_digest(one.record)
-    strip, film = (b"", b"") if trace is None else _drawn(spec, one, trace, look)
+    seen = compute(run_replayed_trial, spec)
+    same = record_digest(seen.record) == record_digest(one.record)
+    strip, film = (b"", b"") if seen.trace is None else _drawn(spec, one, seen.trace, look)
     label = project.study.label
     named = "" if label == DEFAULT_STUDY else f" --study {shlex.quote(label)}"
     detail = one.record.failure_detail
@@ -124,6 +125,7 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
         replay=f"rgss replay {one.key[:KEY_DIGITS]}{named}",
         filmstrip=strip,
         film=film,
+        player=packed_trial(seen, spec),
     )
 
 

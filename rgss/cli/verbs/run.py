@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rgss.cli.driven import add_driver
 from rgss.cli.options import add_fidelity, add_nominal, chosen_project
-from rgss.cli.pictures import add_pictures, made_pictures, ordered_pictures, traced_trial
+from rgss.cli.pictures import add_pictures, made_pictures, ordered_pictures, other_trial, seen_trial
 
 if TYPE_CHECKING:
     from rgss.trials import DrawnValue
@@ -17,6 +17,7 @@ HELP = "run one trial and show it phase by phase"
 EXAMPLE = "rgss run 2 --seed 3"
 MORE_EXAMPLES = (
     ("rgss run 2 --gif trial.gif", "and film it"),
+    ("rgss run 2 --replay trial.html --beside 28", "and replay it in a page, with another variant as a ghost"),
     ("rgss run 2 --fidelity kinematic", "motion alone, quickly"),
     ("rgss run 2 --nominal", "with everything as the files say"),
     ("rgss run 2 --nominal --driver ur --address 192.168.0.10", "what would be sent to a robot; --go sends it"),
@@ -59,7 +60,9 @@ def run(options: argparse.Namespace) -> int:
     (spec,) = trial_specs(project, variants=[variant], seeds=[seed])
     if options.driver is not None:
         return run_driven(options, spec)
-    record, trace = (compute(run_trial, spec), None) if order is None else traced_trial(spec)
+    beside = other_trial(options, project, seed=seed)
+    seen = None if order is None else seen_trial(order, spec)
+    record = compute(run_trial, spec) if seen is None else seen.record
     digest = record_digest(record)
     drawn = drawn_values(spec)
     control = spec.settings.controller.origin if spec.fidelity is Fidelity.DYNAMIC else ""
@@ -68,8 +71,8 @@ def run(options: argparse.Namespace) -> int:
         print_json({**shown, "control": control} if control else shown)
     else:
         _show(record, digest, drawn, control)
-    if order is not None:
-        lines = made_pictures(order, spec, record, trace)
+    if order is not None and seen is not None:
+        lines = made_pictures(order, spec, seen, beside=beside)
         if not options.json:
             print(*lines, sep="\n")
     return CLEAN if record.success else FINDINGS

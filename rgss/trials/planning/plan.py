@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -13,6 +15,7 @@ from rgss.motion import (
     PlannerSettings,
     PlanningProblem,
     PlanResult,
+    SearchGraph,
     path_length,
     plan,
     segment_states,
@@ -37,6 +40,7 @@ def plan_task(
     seed: int,
     settings: PlanningSettings,
     past_failures: bool = False,
+    on_graph: Callable[[str, SearchGraph], None] | None = None,
 ) -> TaskPlan:
     """Plan every move of the task.
 
@@ -49,6 +53,7 @@ def plan_task(
         seed: The trial's seed.
         settings: Clock, limit, resolutions.
         past_failures: Whether the moves after one that finds no path are planned too, as planners are compared.
+        on_graph: Callback with each move that is searched for and the graph of its search.
     """
     stops = stops_of(cell)
     chosen = PlannerSettings(algorithm=planner) if isinstance(planner, str) else planner
@@ -83,6 +88,7 @@ def plan_task(
             simplification_limit_s=settings.simplification_limit_s,
             on_unverified=settings.on_unverified,
             cost=state_cost(cell, phase, chosen.objective),
+            on_graph=None if on_graph is None else partial(on_graph, phase),
         )
         moves[phase] = _planned(phase, result, cell, settings)
         if result.outcome is not PlanOutcome.SOLVED and not past_failures:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
 import json
+import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -12,6 +15,7 @@ from PIL import Image
 from rgss.cli.main import main
 from rgss.cli.pictures.options import captioned, made_pictures
 from rgss.evidence import Failure
+from rgss.trials.replay import ReplayedTrial
 from tests.fixtures.eight_states import Phase
 
 REPOSITORY = Path(__file__).parents[3]
@@ -38,6 +42,7 @@ def no_trial(monkeypatch):
 
     monkeypatch.setattr("rgss.trials.pieces.run_trial", run)
     monkeypatch.setattr("rgss.trials.run_traced_trial", run)
+    monkeypatch.setattr("rgss.trials.replay.run_replayed_trial", run)
 
 
 @pytest.mark.engine
@@ -69,6 +74,21 @@ def test_what_was_made_is_told_after_the_trial(capsys, tmp_path, monkeypatch):
 
 
 @pytest.mark.engine
+def test_a_replay_of_two_trials(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main([*RUN, "--replay", "trial.html", "--beside", "1"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    page = Path("trial.html").read_text(encoding="utf-8")
+    blocks = re.findall(r'<script type="text/plain" class="replay-(model|timeline)">([^<]+)</script>', page)
+    timelines = [json.loads(gzip.decompress(base64.b64decode(text))) for kind, text in blocks if kind == "timeline"]
+
+    assert lines[-1] == "replay: trial.html"
+    assert [kind for kind, _ in blocks] == ["model", "timeline"] * 2
+    assert [one["title"] for one in timelines] == ["Variant 65, seed 1", "Variant 1, seed 1"]
+    assert len(page) < 3_000_000
+
+
+@pytest.mark.engine
 def test_a_file_that_cannot_be_written_after_all(capsys, tmp_path, monkeypatch):
     folder = tmp_path / "folder"
     folder.mkdir()
@@ -82,7 +102,9 @@ def test_a_file_that_cannot_be_written_after_all(capsys, tmp_path, monkeypatch):
 
 
 def test_nothing_is_drawn_where_nothing_moved():
-    assert made_pictures(None, None, None, None) == ("No pictures: the trial ended before anything moved.",)
+    assert made_pictures(None, None, ReplayedTrial(record=None, trace=None, scene=None)) == (
+        "No pictures: the trial ended before anything moved.",
+    )
 
 
 class Still:
@@ -123,13 +145,31 @@ class TestRefusals:
 
     @pytest.mark.parametrize(
         ("option", "name", "suffix"),
-        [("gif", "film.mp4", ".gif"), ("filmstrip", "strip.jpg", ".png"), ("plots", "plots", ".png")],
+        [
+            ("gif", "film.mp4", ".gif"),
+            ("filmstrip", "strip.jpg", ".png"),
+            ("plots", "plots", ".png"),
+            ("replay", "trial.glb", ".html"),
+        ],
     )
     def test_another_kind_of_file(self, capsys, tmp_path, option, name, suffix):
         path = tmp_path / name
         line = refused(capsys, f"--{option}", str(path))
 
         assert line == f"--{option}: {path} must be a {suffix} file (give a name that ends in {suffix})"
+
+    @pytest.mark.parametrize(
+        ("options", "said"),
+        [
+            (["--beside", "28"], "--beside is given, but no replay that it is for (add --replay FILE.html)"),
+            (["--beside", "65", "--replay", "x.html"], "--beside must be another variant than 65 (give its id)"),
+        ],
+    )
+    def test_nothing_to_be_beside(self, capsys, options, said):
+        assert refused(capsys, *options) == said
+
+    def test_a_variant_that_is_not_there_beside_it(self, capsys, tmp_path):
+        assert "999" in refused(capsys, "--beside", "999", "--replay", str(tmp_path / "x.html"))
 
     def test_a_folder_that_is_not_there(self, capsys, tmp_path):
         path = tmp_path / "none" / "film.gif"

@@ -1,0 +1,21 @@
+"""Replay of a trial in three dimensions: a glTF file, and a page that plays it without a network."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.reports.replay.gltf_scene import ANIMATION, replay_to_glb
+    from rgss.reports.replay.packing import packed_replay
+    from rgss.reports.replay.replay_page import (
+        MOST_TRIALS,
+        REPLAY_SCRIPTS,
+        REPLAY_STYLE,
+        PackedReplay,
+        as_context,
+        rendering_library,
+        replay_to_html,
+    )
+    from rgss.reports.replay.timeline import timeline_of
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -1,0 +1,290 @@
+"use strict";
+// The scenes of a replay: one for each trial, drawn by three.js, posed at any time by the animation of the GLB file.
+const replayScene = (() => {
+  const FINGERS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
+  const LONGEST_ARROW_M = 0.22;
+  const PATH_RADIUS_M = 0.003;
+  const VIEWS = {
+    overview: { azimuth: 215, elevation: 22, distance: 2.6 },
+    hand: { azimuth: 235, elevation: 12, distance: 0.75, follows: true },
+    side: { azimuth: 270, elevation: 6, distance: 2.6 },
+    top: { azimuth: 270, elevation: 89, distance: 2.8 },
+  };
+
+  const library = () => {
+    if (typeof THREE === "undefined") {
+      const held = Array.from(document.querySelectorAll("script.held")).find((one) => one.textContent.startsWith("/* three.js"));
+      const script = document.createElement("script");
+      script.textContent = held.textContent;
+      document.head.append(script);
+    }
+    return THREE;
+  };
+
+  const bytesOf = (text) => Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
+  const unpacked = async (text) => {
+    const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Response(stream).arrayBuffer();
+  };
+
+  // The index of the last sample that is not after a time.
+  const sampleAt = (times, time) => {
+    let low = 0, high = times.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (times[middle] <= time + 2e-6) low = middle; else high = middle - 1;
+    }
+    return low;
+  };
+
+  // The index of the phase that runs at a time, of the last one after the end; -1 without motion.
+  const phaseAt = (phases, time) => phases.reduce((found, one, place) => one.start_s !== null && time >= one.start_s - 1e-9 ? place : found, -1);
+
+  class Trial {
+    constructor(gltf, glb, timeline) {
+      const three = library();
+      this.glb = glb;
+      this.timeline = timeline;
+      this.scene = new three.Scene();
+      this.group = gltf.scene;
+      this.world = gltf.scene.getObjectByName("world");
+      this.scene.add(this.group, ...lights());
+      this.mixer = new three.AnimationMixer(this.group);
+      for (const clip of gltf.animations) {
+        const action = this.mixer.clipAction(clip);
+        action.setLoop(three.LoopOnce);
+        action.clampWhenFinished = true;
+        action.play();
+      }
+      this.kinds = { body: [], link: [], object: [], perceived: [], path: [], graph: [] };
+      this.group.traverse((node) => {
+        if (node.userData.kind in this.kinds) this.kinds[node.userData.kind].push(node);
+        if (node.isMesh) { node.castShadow = node.receiveShadow = !node.material.transparent; }
+      });
+      for (const line of this.kinds.path) thicken(line);
+      for (const line of this.kinds.graph) line.material = Object.assign(line.material.clone(), { transparent: true, opacity: 0.55 });
+      this.hand = this.kinds.link.find((node) => node.name.startsWith("gripper_base")) || this.kinds.link[this.kinds.link.length - 1];
+      this.arrows = timeline.contacts.map((_, finger) => arrow(FINGERS[finger % FINGERS.length]));
+      for (const one of this.arrows) this.world.add(one);
+      this.pose(timeline.start_s);
+    }
+
+    pose(time) {
+      const { timeline } = this;
+      const at = Math.min(Math.max(time, timeline.start_s), timeline.end_s);
+      this.mixer.setTime(at);
+      const sample = sampleAt(timeline.time_s, at);
+      this.pointArrows(sample);
+      const phase = timeline.phases[phaseAt(timeline.phases, at)];
+      for (const line of [...this.kinds.path, ...this.kinds.graph]) {
+        line.userData.current = phase !== undefined && line.userData.phase === phase.key;
+      }
+      this.showLines();
+    }
+
+    pointArrows(sample) {
+      const three = library();
+      this.arrows.forEach((one, finger) => {
+        const { points_m: points, forces_n: forces } = this.timeline.contacts[finger];
+        const point = points[sample], force = forces[sample];
+        one.visible = this.showsForces !== false && point !== null;
+        if (!one.visible) return;
+        const size = Math.hypot(...force);
+        const length = LONGEST_ARROW_M * size / this.timeline.greatest_force_n;
+        // The arrow's tip is where the finger presses.
+        const along = new three.Vector3(...force).normalize();
+        one.position.set(...point).addScaledVector(along, -length);
+        one.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), along);
+        const head = Math.min(0.03, 0.4 * length);
+        one.userData.shaft.scale.set(1, Math.max(1e-4, length - head), 1);
+        one.userData.head.position.y = Math.max(0, length - head);
+        one.userData.head.scale.set(1, Math.max(1e-4, head), 1);
+      });
+    }
+
+    showLines() {
+      // Of the graphs that of the current phase alone: all at once hide the robot.
+      for (const line of this.kinds.path) { line.visible = this.showsPath !== false; line.userData.tube.opacity = line.userData.current ? 1 : 0.3; }
+      for (const line of this.kinds.graph) line.visible = this.showsGraph !== false && line.userData.current;
+    }
+
+    show(what, on) {
+      if (what === "forces") this.showsForces = on;
+      if (what === "path") this.showsPath = on;
+      if (what === "graph") this.showsGraph = on;
+      if (what === "perceived") for (const node of this.kinds.perceived) node.visible = on;
+    }
+
+    // Transparent, and without the fixed bodies: what another trial is compared with.
+    beGhost(on) {
+      for (const node of this.kinds.body) node.visible = !on;
+      for (const kind of ["link", "object"]) for (const top of this.kinds[kind]) top.traverse((node) => {
+        if (!node.isMesh) return;
+        node.userData.solid = node.userData.solid || node.material;
+        node.material = on ? Object.assign(node.userData.solid.clone(), { transparent: true, opacity: 0.32, depthWrite: false }) : node.userData.solid;
+        node.castShadow = !on;
+      });
+    }
+
+    placeOf(node) { return node.getWorldPosition(new (library()).Vector3()); }
+  }
+
+  const lights = () => {
+    const three = library();
+    const sun = new three.DirectionalLight(0xffffff, 2.1);
+    sun.position.set(-2, 4, 1.2);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(2048, 2048);
+    Object.assign(sun.shadow.camera, { left: -2.5, right: 2.5, top: 2.5, bottom: -2.5, near: 0.5, far: 9 });
+    sun.shadow.normalBias = 0.02;
+    return [sun, new three.HemisphereLight(0xffffff, 0x8d8a84, 1.5)];
+  };
+
+  // A line of one pixel is hard to see; a path becomes a thin tube.
+  const thicken = (line) => {
+    const three = library();
+    const positions = line.geometry.getAttribute("position");
+    const points = Array.from({ length: positions.count }, (_, at) => new three.Vector3().fromBufferAttribute(positions, at));
+    const lengths = points.map(() => 0);
+    points.forEach((point, at) => { if (at > 0) lengths[at] = lengths[at - 1] + point.distanceTo(points[at - 1]); });
+    const total = lengths[lengths.length - 1];
+    if (!(total > 0)) { line.userData.tube = line.material; return; }
+    class Course extends three.Curve {
+      getPoint(share, target = new three.Vector3()) {
+        const at = Math.max(1, lengths.findIndex((length) => length >= share * total - 1e-12));
+        const span = lengths[at] - lengths[at - 1];
+        return target.lerpVectors(points[at - 1], points[at], span > 0 ? (share * total - lengths[at - 1]) / span : 0);
+      }
+      getPointAt(share, target) { return this.getPoint(share, target); }
+    }
+    const material = new three.MeshBasicMaterial({ color: line.material.color, transparent: true });
+    const tube = new three.Mesh(new three.TubeGeometry(new Course(), Math.min(400, 3 * points.length), PATH_RADIUS_M, 6), material);
+    line.userData.tube = material;
+    line.geometry = new three.BufferGeometry();
+    line.add(tube);
+  };
+
+  const arrow = (colour) => {
+    const three = library();
+    const group = new three.Group();
+    const material = new three.MeshBasicMaterial({ color: colour });
+    const shaft = new three.Mesh(new three.CylinderGeometry(0.0045, 0.0045, 1, 12).translate(0, 0.5, 0), material);
+    const head = new three.Mesh(new three.ConeGeometry(0.012, 1, 16).translate(0, 0.5, 0), material);
+    group.add(shaft, head);
+    Object.assign(group.userData, { shaft, head });
+    return group;
+  };
+
+  class View {
+    // One renderer for all trials, which share a camera.
+    constructor(place, trials, { onDraw = () => {} } = {}) {
+      const three = library();
+      this.place = place;
+      this.trials = trials;
+      this.mode = "ghost";
+      this.onDraw = onDraw;
+      this.renderer = new three.WebGLRenderer({ antialias: true });
+      this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+      this.renderer.shadowMap.enabled = true;
+      this.renderer.shadowMap.type = three.PCFSoftShadowMap;
+      this.renderer.autoClear = false;
+      place.prepend(this.renderer.domElement);
+      this.renderer.domElement.setAttribute("aria-hidden", "true");
+      this.camera = new three.PerspectiveCamera(36, 1, 0.02, 40);
+      this.controls = new three.OrbitControls(this.camera, place);
+      this.controls.minDistance = 0.1;
+      this.controls.maxDistance = 10;
+      this.controls.addEventListener("change", () => this.redraw());
+      this.follows = false;
+      this.name = "overview";
+      this.arrange(this.mode);
+      new ResizeObserver(() => this.resize()).observe(place);
+    }
+
+    arrange(mode) {
+      this.mode = this.trials.length > 1 ? mode : "one";
+      const [first, second] = this.trials;
+      if (second !== undefined) {
+        const ghost = this.mode === "ghost";
+        (ghost ? first : second).scene.add(second.group);
+        second.beGhost(ghost);
+      }
+      this.resize();
+      this.choose(this.name);
+    }
+
+    choose(name) {
+      const three = library();
+      const { azimuth, elevation, distance, follows = false } = VIEWS[name];
+      const turn = azimuth * Math.PI / 180, rise = elevation * Math.PI / 180;
+      const [first] = this.trials;
+      const target = follows ? first.placeOf(first.hand) : first.world.localToWorld(new three.Vector3(...first.timeline.middle_m));
+      const towards = new three.Vector3(Math.cos(rise) * Math.cos(turn), Math.cos(rise) * Math.sin(turn), Math.sin(rise));
+      const turned = towards.applyQuaternion(first.world.getWorldQuaternion(new three.Quaternion()));
+      // A narrow picture is taken from farther away, so that it shows as much from left to right.
+      const narrow = Math.max(1, (follows ? 1 : 1.5) / this.camera.aspect);
+      this.camera.position.copy(target).addScaledVector(turned, distance * narrow);
+      this.controls.target.copy(target);
+      this.name = name;
+      this.follows = follows;
+      this.followed = target;
+      this.controls.update();
+      this.redraw();
+    }
+
+    pose(time) {
+      for (const trial of this.trials) trial.pose(time);
+      if (this.follows) {
+        this.trials[0].group.updateMatrixWorld(true);
+        const now = this.trials[0].placeOf(this.trials[0].hand);
+        this.camera.position.add(now).sub(this.followed);
+        this.controls.target.add(now).sub(this.followed);
+        this.followed = now;
+        this.controls.update();
+      }
+      this.redraw();
+    }
+
+    resize() {
+      const { clientWidth: width, clientHeight: height } = this.place;
+      if (width === 0 || height === 0) return;
+      this.renderer.setSize(width, height);
+      this.camera.aspect = (this.mode === "beside" ? width / 2 : width) / height;
+      this.camera.updateProjectionMatrix();
+      this.redraw();
+    }
+
+    redraw() {
+      if (this.waiting) return;
+      this.waiting = true;
+      requestAnimationFrame(() => { this.waiting = false; this.draw(); });
+    }
+
+    draw() {
+      const three = library();
+      const { clientWidth: width, clientHeight: height } = this.place;
+      const sky = new three.Color(getComputedStyle(document.documentElement).getPropertyValue("--sky").trim());
+      const beside = this.mode === "beside";
+      this.renderer.setScissorTest(true);
+      (beside ? this.trials : this.trials.slice(0, 1)).forEach((trial, place) => {
+        const share = beside ? Math.floor(width / 2) : width;
+        trial.scene.background = sky;
+        this.renderer.setViewport(place * share, 0, share, height);
+        this.renderer.setScissor(place * share, 0, share, height);
+        this.renderer.clear();
+        this.renderer.render(trial.scene, this.camera);
+      });
+      this.onDraw();
+    }
+  }
+
+  const load = async (data) => {
+    const three = library();
+    const [glb, text] = await Promise.all([".replay-model", ".replay-timeline"].map((one) => unpacked(data.querySelector(one).textContent)));
+    const timeline = JSON.parse(new TextDecoder().decode(text));
+    const gltf = await new three.GLTFLoader().parseAsync(glb, "");
+    return new Trial(gltf, glb, timeline);
+  };
+
+  return { View, load, phaseAt, sampleAt, views: Object.keys(VIEWS) };
+})();

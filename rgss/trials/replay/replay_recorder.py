@@ -1,0 +1,110 @@
+"""Samples of a trial for its replay: the postures of arm and fingers, every object, and the force of each finger."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.physics import Contacts, ContactWorld, FingerContact
+from rgss.scenes import Pose
+
+Row = tuple[float, ...]
+_NO_CONTACT: Row = (math.nan,) * 6
+
+
+class ReplayRecorder:
+    """Observer that samples the world at a fixed rate; it changes nothing."""
+
+    def __init__(self, objects: tuple[str, ...], *, fingers: int, step_s: float, rate_hz: float) -> None:
+        """Start without samples.
+
+        Args:
+            objects: Ids of the scene's objects, the first one first.
+            fingers: Number of fingers.
+            step_s: Length of a physics step.
+            rate_hz: Samples a second, at most one for each step.
+        """
+        self._objects = objects
+        self._fingers = fingers
+        self._step_s = step_s
+        self._stride = max(1, round(1.0 / (rate_hz * step_s)))
+        self._steps = 0
+        self._times_s: list[float] = []
+        self._joints_rad: list[Row] = []
+        self._travel_m: list[Row] = []
+        self._poses: list[tuple[Pose, ...]] = []
+        self._contacts: list[tuple[Row, ...]] = []
+
+    def after_step(
+        self,
+        world: ContactWorld,
+        phase: str,
+        contacts: Contacts,
+        grip_margin: float | None,
+        commanded_force_n: float | None,
+    ) -> None:
+        """Take a sample, if one is due."""
+        del phase, grip_margin, commanded_force_n
+        due = self._steps % self._stride == 0
+        self._steps += 1
+        if not due:
+            return
+        self._times_s.append(self._steps * self._step_s)
+        self._joints_rad.append(world.arm_state()[0])
+        self._travel_m.append(world.finger_travel_m())
+        self._poses.append(tuple(self._pose(world, name) for name in self._objects))
+        pressed = world.finger_contacts() if contacts.fingers_touching else ()
+        pose = world.workpiece_pose()
+        self._contacts.append(tuple(_resultant(pressed, finger, pose) for finger in range(self._fingers)))
+
+    def count_until(self, end_s: float) -> int:
+        """Number of samples up to a time.
+
+        Args:
+            end_s: The time.
+        """
+        return int(np.searchsorted(np.array(self._times_s), end_s + 1e-9, side="right"))
+
+    def times_s(self, count: int) -> NDArray[np.float64]:
+        """Times of the first samples, shape (count,)."""
+        return np.array(self._times_s[:count])
+
+    def joints_rad(self, count: int) -> NDArray[np.float64]:
+        """Reported joint positions of the first samples, shape (count, joints)."""
+        return np.array(self._joints_rad[:count])
+
+    def travel_m(self, count: int) -> NDArray[np.float64]:
+        """Travel of each finger in the first samples, shape (count, fingers)."""
+        return np.array(self._travel_m[:count]).reshape(count, -1)
+
+    def poses_of(self, name: str, count: int) -> list[Pose]:
+        """Poses of an object in the first samples.
+
+        Args:
+            name: The object.
+            count: How many samples.
+        """
+        place = self._objects.index(name)
+        return [poses[place] for poses in self._poses[:count]]
+
+    def contacts_of(self, finger: int, count: int) -> NDArray[np.float64]:
+        """Centre of contact (m) and force (N) of a finger in the first samples, in the world, shape (count, 6)."""
+        return np.array([rows[finger] for rows in self._contacts[:count]]).reshape(count, 6)
+
+    def _pose(self, world: ContactWorld, name: str) -> Pose:
+        return world.workpiece_pose() if len(self._objects) == 1 else world.object_pose(name)
+
+
+def _resultant(pressed: tuple[FingerContact, ...], finger: int, workpiece: Pose) -> Row:
+    """Centre of a finger's contact points and the sum of their forces, in the world; NaN without contact."""
+    points = [point for point in pressed if point.finger == finger and point.normal_force_n > 0.0]
+    if not points:
+        return _NO_CONTACT
+    normal_n = np.array([point.normal_force_n for point in points])
+    centre = normal_n @ np.array([point.position_m for point in points]) / normal_n.sum()
+    force = normal_n @ np.array([point.normal for point in points]) + np.sum([one.friction_n for one in points], axis=0)
+    x, y, z = centre.tolist()
+    fx, fy, fz = force.tolist()
+    return (*(workpiece @ Pose(position_m=(x, y, z))).position_m, *workpiece.rotate((fx, fy, fz)))

@@ -1,0 +1,113 @@
+"""Scene of a trial over time, as a viewer in three dimensions shows it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rgss.physics import SeenSolid
+
+Series = NDArray[np.float64]
+
+
+class NodeKind(str, Enum):
+    """Kind of what a node carries."""
+
+    BODY = "body"
+    LINK = "link"
+    OBJECT = "object"
+    PERCEIVED = "perceived"
+
+
+class LineKind(str, Enum):
+    """Kind of a line."""
+
+    PATH = "path"
+    GRAPH = "graph"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class NodeTrack:
+    """Rigid body over time.
+
+    Attributes:
+        name: Name of the link, the object or the body.
+        kind: What it is.
+        solids: Its solids; their poses are transforms to this node.
+        positions_m: Positions of its frame in the world, shape (n, 3), or (1, 3) if it never moves.
+        quaternions_xyzw: Its orientations, shape (n, 4) or (1, 4), scalar last; neighbours lie on one half sphere.
+    """
+
+    name: str
+    kind: NodeKind
+    solids: tuple[SeenSolid, ...]
+    positions_m: Series
+    quaternions_xyzw: Series
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ContactForce:
+    """Force of one finger on the object over time.
+
+    Attributes:
+        finger: Index of the finger.
+        points_m: Centre of its contact points weighted by their normal forces, in the world, shape (n, 3); NaN without
+            contact.
+        forces_n: Sum of their normal and friction forces, in the world, shape (n, 3); NaN without contact.
+    """
+
+    finger: int
+    points_m: Series
+    forces_n: Series
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Line:
+    """Line of tool positions that belongs to a move.
+
+    Attributes:
+        phase: The move.
+        kind: A path, through all its points; or a graph, of which each pair of points is an edge.
+        points_m: The points in the world, shape (k, 3).
+    """
+
+    phase: str
+    kind: LineKind
+    points_m: Series
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PerceivedOffset:
+    """Error of the perceived pose of the object.
+
+    Attributes:
+        distance_m: Distance of its perceived from its true position.
+        angle_rad: Angle between its perceived and its true orientation.
+    """
+
+    distance_m: float
+    angle_rad: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ReplayScene:
+    """What a viewer shows of a trial; n samples in simulated time without planning.
+
+    Attributes:
+        time_s: Times of the samples, shape (n,).
+        nodes: Everything that is seen.
+        contacts: The force of each finger.
+        lines: Planned paths and graphs of the planner.
+        perceived: Error of the perceived pose of the first object.
+        middle_m: A point between grasp and place in the world, at which a viewer looks first.
+    """
+
+    time_s: Series
+    nodes: tuple[NodeTrack, ...]
+    contacts: tuple[ContactForce, ...]
+    lines: tuple[Line, ...]
+    perceived: PerceivedOffset
+    middle_m: tuple[float, float, float]
