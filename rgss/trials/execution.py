@@ -13,7 +13,6 @@ from rgss.grasping import GraspGeometryCache
 from rgss.physics import Contacts, ContactWorld
 from rgss.scenes import Pose
 from rgss.tasks import CheckStep, GripStep, MoveStep, ReleaseStep, Stage, TaskProgram
-from rgss.trials.conditions_checked import violated_condition
 from rgss.trials.grip_control import GripControl
 from rgss.trials.hands import hand_of
 from rgss.trials.monitors import (
@@ -27,6 +26,7 @@ from rgss.trials.monitors import (
     StepObserver,
     ToolKinematics,
     grasp_metrics,
+    violated_condition,
 )
 from rgss.trials.object_checks import check_displacement, check_place, has_moved
 from rgss.trials.phase_result import PhaseResult

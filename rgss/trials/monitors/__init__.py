@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.trials.monitors.arm_monitor import ToolKinematics
+    from rgss.trials.monitors.check_conditions import violated_condition
     from rgss.trials.monitors.drag_monitor import DragMonitor
     from rgss.trials.monitors.force_sensor import ForceSensor
     from rgss.trials.monitors.grasp_record import grasp_metrics

@@ -10,7 +10,7 @@ import pytest
 from rgss.evidence import Failure, PhaseOutcome
 from rgss.scenes import NamedPlace, Pose
 from rgss.tasks import CheckStep
-from rgss.trials.conditions_checked import violated_condition
+from rgss.trials.monitors import violated_condition
 from rgss.trials.pieces.run import run_trial
 from rgss.trials.plants import ControlSettings
 
