@@ -92,9 +92,10 @@ def with_section(text: str, section: str) -> str:
 def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
     decision = made.decision
     ties = f" ({variants_text(decision.ties[1:])} are as good)" if len(decision.ties) > 1 else ""
+    within = f", within the tolerance of {share_text(made.tolerance)}" if made.tolerance else ""
     yield (
         f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {made.trials} trials; "
-        f"{decision.counts.feasible} of them meet every requirement by their estimates."
+        f"{decision.counts.feasible} of them meet every requirement by their estimates{within}."
     )
     yield ""
     standing = (headline(made), standing_sentence(made), rule_sentence(made))

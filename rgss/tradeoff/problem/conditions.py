@@ -90,12 +90,19 @@ class BoundedMeasure(ABC):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Threshold(BoundedMeasure):
-    """Threshold of a requirement on one measure; a requirement may have several."""
+    """Threshold of a requirement on one measure; a requirement may have several.
+
+    Attributes:
+        required: The threshold as it is required, where the choice may miss it by a tolerance; None where it may not.
+    """
+
+    required: float | None = None
 
     @property
     def demand(self) -> str:
-        """Text of the condition, such as ``P_max >= 0.8 kg``."""
-        return f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
+        """Text of the condition, such as ``P_max >= 0.8 kg``; with a tolerance, what is required follows."""
+        text = f"{self.measure} {self.comparison.value} {self.value:g}{unit_text(self.unit)}"
+        return text if self.required is None else f"{text} (required: {self.required:g})"
 
     def statistic(self, alternative: Alternative) -> float | None:
         """Compared statistic: the quantity itself."""
@@ -112,7 +119,7 @@ class Threshold(BoundedMeasure):
     def tolerated(self, share: float) -> Threshold:
         """The threshold that may be missed by a share of its magnitude."""
         better = math.copysign(share * abs(self.value), self.comparison.margin(1.0, 0.0))
-        return replace(self, value=self.value - better)
+        return self if share == 0.0 else replace(self, value=self.value - better, required=self.value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
