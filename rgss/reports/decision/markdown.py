@@ -15,6 +15,7 @@ from rgss.reports.decision.conclusion import (
     headline,
     rule_sentence,
     seeds_sentences,
+    share_text,
     standing_sentence,
     uncertainty_sentences,
 )
