@@ -118,7 +118,8 @@ def uncertainty_sentences(made: StudyDecision) -> Iterator[str]:
     if made.tolerance:
         yield (
             "Feasible is here what misses no threshold on what trials observe by more than "
-            f"{share_text(made.tolerance)} of it, the tolerance of the choice; verdicts have none."
+            f"{share_text(made.tolerance)} of it, the tolerance of the choice; verdicts have none. Probability that "
+            f"variant {made.decision.chosen} meets every requirement without it: {share_in_words(one.as_required)}."
         )
     yield from _ties(found, one)
     gains = "; ".join(f"{count} more: {gain:.4f}" for count, gain in one.gains)

@@ -94,6 +94,19 @@ class PosteriorOutcomes:
         weights = np.array([weighting.weights[measure] for measure in weighting.deciding_measures])
         return np.asarray(self.outcomes.values @ weights, dtype=np.float64)
 
+    def as_required(self, row: int) -> Array:
+        """Whether an alternative is feasible in each draw without the tolerances of thresholds, shape (b,).
+
+        Args:
+            row: Its row.
+        """
+        holds = np.array(self.outcomes.feasible[:, row], dtype=bool)
+        for one in self.preferences.conditions:
+            if isinstance(one, Threshold) and one.required is not None and one.measure in self.drawn:
+                quantities = self.drawn[one.measure][:, row]
+                holds &= quantities >= one.required if one.comparison.is_lower_bound else quantities <= one.required
+        return holds
+
     def first_errors(self, weights: WeightSet, generator: np.random.Generator) -> Array:
         """The standard error of each first-rank acceptability, over repetitions of the study, shape (n,).
 

@@ -54,6 +54,7 @@ class ChoiceUncertainty:
         best: Probability that each alternative is feasible and none feasible is better, shape (n,).
         feasible: Probability that each is feasible, shape (n,).
         good: Probability that the choice is feasible and within the practical margin of the best.
+        as_required: Probability that the choice is feasible without the tolerances of thresholds.
         none_feasible: Probability that nothing is feasible.
         rivals: What is tied with the choice, by falling probability.
         gains: Expected gain of value by so many more replicates of every alternative.
@@ -64,6 +65,7 @@ class ChoiceUncertainty:
     best: Array
     feasible: Array
     good: float
+    as_required: float
     none_feasible: float
     rivals: tuple[Rival, ...]
     gains: tuple[tuple[int, float], ...]
@@ -103,6 +105,7 @@ def choice_uncertainty(
         best=best.mean(axis=0),
         feasible=feasible.mean(axis=0),
         good=float((own & (totals[:, chosen] >= highest[:, 0] - margin - TIE_TOLERANCE)).mean()),
+        as_required=float(found.as_required(chosen).mean()),
         none_feasible=float((~feasible.any(axis=1)).mean()),
         rivals=_rivals(found, chosen, margin, replicates, estimated, single),
         gains=tuple((count, _expected_gain(worth, count / (replicates + count))) for count in more),

@@ -7,6 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from rgss.requirements import Comparison
+from rgss.tradeoff.problem import Threshold
+from rgss.tradeoff.robustness.posterior_outcomes import PosteriorOutcomes
 from rgss.tradeoff.robustness.uncertainty import choice_uncertainty
 
 
@@ -18,6 +21,7 @@ def found_of(totals, feasible):
         outcomes=SimpleNamespace(feasible=feasible),
         preferences=SimpleNamespace(weighting=weighting),
         table=range(totals.shape[1]),
+        as_required=lambda row: feasible[:, row],
     )
 
 
@@ -60,3 +64,23 @@ def test_more_replicates_are_worth_less_where_there_are_many(drawn):
     _, many = rivals(drawn, np.array([4, 400, 400]))
     assert dict(many.gains)[10] <= dict(few.gains)[10]
     assert many.perfect == few.perfect
+
+
+def test_what_is_feasible_as_required_is_counted_without_the_tolerance():
+    shares = np.linspace(0.80, 0.999, 200)
+    threshold = Threshold(requirement="SYS-1", measure="S", unit="1", comparison=Comparison.AT_LEAST, value=0.9)
+    costs = np.where(np.arange(200) % 2 == 0, 9.0, 12.0)
+    limit = Threshold(requirement="SYS-2", measure="C", unit="1", comparison=Comparison.AT_MOST, value=10.0)
+    found = PosteriorOutcomes(
+        preferences=SimpleNamespace(conditions=(threshold.tolerated(0.1), limit)),
+        table=range(1),
+        drawn={"S": shares[:, None], "C": costs[:, None]},
+        outcomes=SimpleNamespace(feasible=((shares >= 0.81) & (costs <= 10.0))[:, None]),
+    )
+
+    assert (threshold.tolerated(0.1).value, threshold.tolerated(0.1).demand) == (
+        pytest.approx(0.81),
+        "S >= 0.81 (required: 0.9)",
+    )
+    assert threshold.tolerated(0.0) is threshold
+    assert found.as_required(0).tolist() == ((shares >= 0.9) & (costs <= 10.0)).tolist()

@@ -52,6 +52,7 @@ def _uncertainty(made: StudyDecision) -> Plain | None:
     return {
         "best_and_feasible": float(one.best[one.chosen]),
         "feasible": float(one.feasible[one.chosen]),
+        "feasible_as_required": one.as_required,
         "within_margin": one.good,
         "none_feasible": one.none_feasible,
         "variants": [
