@@ -18,6 +18,8 @@ QUANTITIES = {
     "Seconds": ("2 min", 120.0),
     "Newtons": ("1.5 kN", 1500.0),
     "NewtonMetres": ("330 N*m", 330.0),
+    "NewtonsPerMetre": ("10 kN/m", 1.0e4),
+    "NewtonSecondsPerMetre": ("30 N*s/m", 30.0),
     "Radians": ("180 deg", math.pi),
     "RadiansPerSecond": ("90 deg/s", math.pi / 2),
     "RadiansPerSecondSquared": ("90 deg/s^2", math.pi / 2),

@@ -28,6 +28,7 @@ from rgss.trials.plants.control import ControlSettings
 from rgss.trials.program import run_program
 from rgss.trials.record import assemble_record
 from rgss.trials.reference import Reference
+from rgss.trials.route import route_of
 from rgss.trials.timing import time_task
 from tests.fixtures.eight_states import CARRYING, PLANNED_PHASES, Phase
 
@@ -181,13 +182,22 @@ def planning_failures(spec):
 
 def timing_failures(spec, monkeypatch):
     found = set()
-    cell = SimpleNamespace(scene=spec.scene, running=dict.fromkeys(Phase), arm=None, task=default_task())
+    task = default_task()
+    route = route_of(spec.scene, spec.gripper.geometry, task)
+    cell = SimpleNamespace(
+        scene=spec.scene,
+        geometry=spec.gripper.geometry,
+        running=dict.fromkeys(Phase),
+        arm=None,
+        task=task,
+        route=route,
+    )
     for outcome in set(TimingOutcome) - {TimingOutcome.TIMED}:
         untimed = SimpleNamespace(outcome=outcome, trajectory=None)
         monkeypatch.setattr(timing, "time_move", lambda *_, result=untimed, **__: result)
         for lift in ((0.0,), None):
-            task = time_task(cell, plan(lift_rad=lift), tool_speed_m_s=1.0, settings=spec.settings.planning)
-            found |= {(phase, failure) for phase, (failure, _) in task.failures.items()}
+            timed = time_task(cell, plan(lift_rad=lift), tool_speed_m_s=1.0, settings=spec.settings.planning)
+            found |= {(phase, failure) for phase, (failure, _) in timed.failures.items()}
     return found
 
 

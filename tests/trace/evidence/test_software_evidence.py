@@ -198,6 +198,9 @@ def test_marked_tests_of_this_project_verify_what_is_there():
 
     assert [name for name, evidence in found.items() if not evidence.tests] == []
     known = {requirement.id for requirement in requirements.system}
+    for folder in named_sets(ROOT):
+        qualifier = qualifier_of(folder)
+        known |= {f"{qualifier}{one.id}" for one in load_requirements(ROOT / folder).system}
     assert {name for test in marked for name in test.requirements} <= known
 
 
