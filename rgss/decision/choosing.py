@@ -24,13 +24,21 @@ from rgss.tradeoff import (
 )
 
 
-def trade_problem(project: Project, measured: Sequence[VariantMeasures], *, tolerant: bool = True) -> TradeProblem:
+def trade_problem(
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    *,
+    tolerant: bool = True,
+    known: dict[int, tuple[VariantMeasures, Alternative]] | None = None,
+) -> TradeProblem:
     """The choice among a study's variants under its requirements.
 
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
         tolerant: Whether thresholds on what trials observe have the study's tolerance; they are as required otherwise.
+        known: Alternatives of an earlier call for the same project, by variant, with the estimates that they are of:
+            those of the same estimates are taken, and the others put in.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -63,7 +71,7 @@ def trade_problem(project: Project, measured: Sequence[VariantMeasures], *, tole
     columns = {measure: (measure, Statistic.VALUE) for measure in wanted}
     columns.update({_column(criterion): (criterion.measure, criterion.statistic) for criterion in criteria.values()})
     return TradeProblem(
-        alternatives=tuple(_alternative(project, variant, columns) for variant in measured),
+        alternatives=tuple(_known_alternative(project, variant, columns, known) for variant in measured),
         thresholds=thresholds,
         value_functions=functions,
         weighting=trade_off.weighting,
@@ -144,6 +152,21 @@ def _demanded(project: Project, criterion: Criterion) -> Criterion:
     if not project.study.trade_off.shown_feasible or criterion.statistic is not Statistic.VALUE or not from_trials:
         return criterion
     return replace(criterion, statistic=Statistic.LOW if criterion.comparison.is_lower_bound else Statistic.HIGH)
+
+
+def _known_alternative(
+    project: Project,
+    variant: VariantMeasures,
+    columns: Mapping[str, tuple[str, Statistic]],
+    known: dict[int, tuple[VariantMeasures, Alternative]] | None,
+) -> Alternative:
+    if known is None:
+        return _alternative(project, variant, columns)
+    of, alternative = known.get(variant.variant.id, (None, None))
+    if of is not variant or alternative is None:
+        alternative = _alternative(project, variant, columns)
+        known[variant.variant.id] = (variant, alternative)
+    return alternative
 
 
 def _alternative(

@@ -14,6 +14,7 @@ from rgss.evidence import EvidenceStore, TrialRecord
 from rgss.measures import Verdict, evaluate
 from rgss.studies import Project, trial_specs
 from rgss.sweep import key_of
+from rgss.tradeoff import Alternative
 from rgss.tradeoff.sequential import (
     Decided,
     Forecast,
@@ -103,12 +104,13 @@ def replicate_until_decided(
     proportions = proportion_measures(project)
     twins = trial_twins(project, variants)
     levels = level_numbers(project.designs, sorted(variant.id for variant in variants))
+    known: dict[int, tuple[VariantMeasures, Alternative]] = {}
     while True:
         specs = read.missing(wanted)
         run(specs)
         read.read(specs)
         evidence = SequentialEvidence.of(
-            trade_problem(project, read.measured(), tolerant=False),
+            trade_problem(project, read.measured(), tolerant=False, known=known),
             proportions,
             twins=twins,
             levels=levels,

@@ -92,7 +92,8 @@ def with_section(text: str, section: str) -> str:
 
 def _choice(made: StudyDecision, compared: SideBySide) -> Iterator[str]:
     decision = made.decision
-    ties = f" ({variants_text(decision.ties[1:])} are as good)" if len(decision.ties) > 1 else ""
+    others = decision.ties[1:]
+    ties = f" ({variants_text(others)} {'is' if len(others) == 1 else 'are'} as good)" if others else ""
     within = f", within the tolerance of {share_text(made.tolerance)}" if made.tolerance else ""
     yield (
         f"**Variant {decision.chosen}** is chosen{ties} from {made.variants} variants with {made.trials} trials; "
