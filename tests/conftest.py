@@ -58,6 +58,14 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out files that are known to take long where slow tests are not wanted: reading them takes long, too."""
+    if "not slow" in config.option.markexpr and collection_path.suffix == ".py":
+        name = collection_path.relative_to(config.rootpath).as_posix()
+        return name in slow_tests() or None
+    return None
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Note on each marked test which requirements it verifies, and mark those that are known to take long."""
     slow = slow_tests()

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 from collections import defaultdict
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -20,9 +21,10 @@ _HEAD = f"""\
 # Tests whose mean processor time exceeds {LONGEST_S} s, and files whose other tests take more than {LONGEST_FILE_S} s
 # together, what they share included; `make fast` leaves them out. Written by: pytest --measure-slow
 """
-_PROPERTY = "processor_s"
+_PROPERTY, _SETUP = "processor_s", "setup_processor_s"
 
 
+@cache
 def slow_tests() -> frozenset[str]:
     """The names of the tests that take long, without their parameters, and of the files."""
     lines = LIST.read_text(encoding="utf-8").splitlines() if LIST.exists() else []
@@ -46,6 +48,7 @@ class ProcessorTimes:
         """Begin with no measurement."""
         self._begun_s: dict[str, float] = {}
         self._spent_s: dict[str, list[float]] = defaultdict(list)
+        self._setup_s: dict[str, float] = defaultdict(float)
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
         """Note the processor time at which a test begins."""
@@ -55,8 +58,13 @@ class ProcessorTimes:
     def pytest_runtest_makereport(self, item: pytest.Item, call: pytest.CallInfo[None]) -> None:
         """Attach what the test took to the report of its end, which reaches the process that writes the list."""
         outcome = yield
-        if call.when == "teardown" and item.nodeid in self._begun_s:
-            spent = _processor_s() - self._begun_s.pop(item.nodeid)
+        if item.nodeid not in self._begun_s:
+            return
+        spent = _processor_s() - self._begun_s[item.nodeid]
+        if call.when == "setup":
+            outcome.get_result().user_properties.append((_SETUP, spent))
+        elif call.when == "teardown":
+            del self._begun_s[item.nodeid]
             outcome.get_result().user_properties.append((_PROPERTY, spent))
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
@@ -64,6 +72,11 @@ class ProcessorTimes:
         if report.when == "teardown":
             times = [spent for name, spent in report.user_properties if name == _PROPERTY]
             self._spent_s[name_of(report.nodeid)] += times
+        elif report.when == "setup":
+            # What several tests share is made by whichever comes first, and would only move to the next.
+            times = [spent for name, spent in report.user_properties if name == _SETUP]
+            file = file_of(report.nodeid)
+            self._setup_s[file] = max([self._setup_s[file], *times])
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
         """Write the list; tests that were not run keep their places."""
@@ -74,9 +87,10 @@ class ProcessorTimes:
         others: dict[str, float] = defaultdict(float)
         for name in self._spent_s.keys() - found:
             others[file_of(name)] += sum(self._spent_s[name])
-        files = {file for file, spent in others.items() if spent > LONGEST_FILE_S} | {
-            one for one in kept if "::" not in one
-        }
+        for file, spent in self._setup_s.items():
+            others[file] = max(others[file], spent)
+        files = {file for file, spent in others.items() if spent > LONGEST_FILE_S}
+        files |= {one for one in kept if "::" not in one}
         tests = {name for name in kept | found if file_of(name) not in files}
         LIST.write_text(_HEAD + "".join(f"{name}\n" for name in sorted(files | tests)), encoding="utf-8")
 
