@@ -5,12 +5,11 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.studies.bench_check import bench_findings
+    from rgss.studies.checks import bench_findings, impact_findings, task_time_findings
     from rgss.studies.document import MOST_REPLICATES, StudyDocument
     from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind
     from rgss.studies.expansion import trial_settings, trial_specs
     from rgss.studies.finding_suppression import without_consequences
-    from rgss.studies.impact_check import impact_findings
     from rgss.studies.input_names import CODE, named_inputs
     from rgss.studies.planning import PlanningChoice, planner_problem, read_parameter
     from rgss.studies.project import EVIDENCE, Project, load_project

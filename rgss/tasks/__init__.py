@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rgss.tasks.scene_findings import task_findings
     from rgss.tasks.stages import Stage, stages_of
     from rgss.tasks.step_settings import StepControl
+    from rgss.tasks.task_clock import TaskClock
     from rgss.tasks.task_file import LoadedTask, load_task
     from rgss.tasks.wait_step import WaitStep
 else:

@@ -150,6 +150,7 @@ class TaskDocument(DocumentModel):
 
     task: Identifier
     start: TargetEntry | None = None
+    time_limit: Seconds | None = None
     configurations: dict[Identifier, tuple[JointPosition, ...]] = Field(default_factory=dict)
     reached_within: ThresholdsEntry = ThresholdsEntry()
     steps: tuple[StepEntry, ...]

@@ -22,11 +22,13 @@ class TaskProgram:
         id: Its name.
         start: Where the arm is at rest at the start, the hand open; None for the robot's home.
         steps: The steps in order; their names are unique.
+        time_limit_s: Longest time of the whole task, planning and motion; None for no limit.
     """
 
     id: str
     start: Target | None
     steps: tuple[Step, ...]
+    time_limit_s: float | None = None
 
     @property
     def phases(self) -> tuple[str, ...]:

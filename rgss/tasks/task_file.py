@@ -77,7 +77,8 @@ def load_task(path: Path, *, label: str | None = None) -> LoadedTask:
         findings += hand_findings(document, placed)
     if findings:
         raise DocumentError(sorted(set(findings)))
-    program = TaskProgram(id=entry.task, start=start, steps=tuple(step for step, _ in placed))
+    steps = tuple(step for step, _ in placed)
+    program = TaskProgram(id=entry.task, start=start, steps=steps, time_limit_s=entry.time_limit)
     return LoadedTask(program=program, document=document, places=tuple(place for _, place in placed))
 
 
@@ -93,6 +94,7 @@ class _Compiler:
         self._thresholds = entry.reached_within
         for key in ("joints", "gripper"):
             self._refuse_not_positive(key, getattr(entry.reached_within, key), ("reached_within",))
+        self._refuse_not_positive("time_limit", entry.time_limit, ())
         self._count = 0
 
     def steps(

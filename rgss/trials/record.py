@@ -14,7 +14,7 @@ from rgss.evidence import (
     PlanOutcome,
     TrialRecord,
 )
-from rgss.tasks import TaskProgram
+from rgss.tasks import TaskClock, TaskProgram
 from rgss.trials.conditions import conditions_of
 from rgss.trials.metrics import METRICS, Aggregation, Direction, MetricDescriptor
 from rgss.trials.phase_result import PhaseResult
@@ -42,7 +42,8 @@ def assemble_record(
     """Assemble the record of a trial from pieces that it shares with others.
 
     Phases run in order until a move finds no path within the design's planning limit, cannot be
-    timed, or fails in the physics; what comes after is not run.
+    timed, or fails in the physics, or until planning and motion take longer than the task allows; what comes
+    after is not run.
 
     Args:
         spec: The trial.
@@ -51,44 +52,44 @@ def assemble_record(
         execution: The phases that physics ran, in order.
         bench_payload_kg: What the gripper holds on the payload bench; None where that is not known.
     """
-    conditions, planned_phases = conditions_of(spec), spec.task.planned
-    results = {result.phase: result for result in execution}
+    planned_phases, results = spec.task.planned, {result.phase: result for result in execution}
     phases: list[PhaseRecord] = []
     planning: list[PlanningRecord] = []
-    failure: Failure | None = None
+    ended: tuple[Failure, str] | None = None
     failed_phase: str | None = None
-    detail = ""
+    clock = TaskClock(spec.task.time_limit_s)
     for phase in spec.task.phases:
-        if failure is not None:
+        if ended is not None:
             phases.append(PhaseRecord(phase=phase, outcome=PhaseOutcome.NOT_RUN, duration_s=None, metrics={}))
             if phase in planned_phases:
                 planning.append(_not_planned(phase))
             continue
         if phase in planned_phases:
             limit_s = spec.task.move(phase).limit_s
-            limit_s = spec.planning_limit_s if limit_s is None else min(limit_s, spec.planning_limit_s)
+            limit_s = min(limit_s or spec.planning_limit_s, spec.planning_limit_s)
             planned = plan.move_within(phase, limit_s)
             planning.append(_planning_record(planned))
+            clock.spend(planned.time_s)
             if planned.outcome is not PlanOutcome.SOLVED:
-                failure, failed_phase = _PLANNING_FAILURES[planned.outcome], phase
-                detail = planned.detail or _limit_detail(planned, spec, limit_s)
-        if failure is None and phase in timing_failures:
-            failure, detail = timing_failures[phase]
+                ended = _PLANNING_FAILURES[planned.outcome], planned.detail or _limit_detail(planned, spec, limit_s)
+        ended = ended or timing_failures.get(phase) or _too_late(clock)
+        if ended is not None:
             failed_phase = phase
-        if failure is not None:
             phases.append(PhaseRecord(phase=phase, outcome=PhaseOutcome.FAILED, duration_s=None, metrics={}))
             continue
         result = results[phase]
-        if result.failure is not None:
-            failure, failed_phase, detail = result.failure, phase, result.detail
+        clock.spend(result.duration_s)
+        ended = _too_late(clock) if result.failure is None else (result.failure, result.detail)
+        failed_phase = None if ended is None else phase
         phases.append(
             PhaseRecord(
                 phase=phase,
-                outcome=PhaseOutcome.COMPLETED if result.failure is None else PhaseOutcome.FAILED,
+                outcome=PhaseOutcome.COMPLETED if ended is None else PhaseOutcome.FAILED,
                 duration_s=result.duration_s,
                 metrics=dict(result.metrics),
             )
         )
+    (failure, detail), conditions = ended or (None, ""), conditions_of(spec)
     return TrialRecord(
         variant=spec.variant,
         seed=spec.seed,
@@ -103,6 +104,10 @@ def assemble_record(
         workload=conditions.case,
         draws=dict(conditions.draws),
     )
+
+
+def _too_late(clock: TaskClock) -> tuple[Failure, str] | None:
+    return (Failure.TASK_TIME_LIMIT, clock.overrun) if clock.overrun else None
 
 
 def _planning_record(planned: PlannedMove) -> PlanningRecord:

@@ -10,7 +10,7 @@ import pytest
 
 from rgss.findings import Severity
 from rgss.scenes import Cylinder
-from rgss.studies.bench_check import bench_findings
+from rgss.studies.checks.bench_check import bench_findings
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.trials.code.piece_versions import versions

@@ -9,7 +9,7 @@ import pytest
 
 from rgss.cli.main import main
 from rgss.findings import Severity
-from rgss.studies.impact_check import impact_findings
+from rgss.studies.checks.impact_check import impact_findings
 from rgss.studies.project import load_project
 
 REPOSITORY = Path(__file__).parents[2]

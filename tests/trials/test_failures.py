@@ -303,8 +303,8 @@ def test_what_planning_did_not_know_ends_the_trial(planned, name):
 
 def test_every_failure_of_a_trial_is_produced_here():
     produced = {failure for _, (failure, _, _) in (*TRIALS.values(), *UNFORESEEN.values())}
-    # The next test; a task with checks (objects/test_checks.py); and nothing that a trial finds out: the run broke.
-    elsewhere = {Failure.TRAJECTORY_IN_COLLISION, Failure.CHECK_FAILED, Failure.RUN_CRASHED}
+    # The next test; tasks with checks (objects/test_checks.py) and a time limit (test_task_time.py); a run that broke.
+    elsewhere = {Failure.TRAJECTORY_IN_COLLISION, Failure.CHECK_FAILED, Failure.TASK_TIME_LIMIT, Failure.RUN_CRASHED}
 
     assert produced | elsewhere == set(Failure)
     assert not produced & elsewhere

@@ -157,6 +157,7 @@ def test_a_move_without_a_motion_is_the_last_state_of_record_and_model(machine, 
 
 def test_what_may_end_a_state_is_what_does(modelled_failures, spec_of, monkeypatch):
     happened = planning_failures(spec_of()) | timing_failures(spec_of(), monkeypatch) | physical_failures(spec_of())
+    happened |= late_failures(spec_of())
     assert named(happened - modelled_failures) == []
     assert named(modelled_failures - happened) == []
 
@@ -177,6 +178,16 @@ def planning_failures(spec):
         for outcome in set(PlanOutcome) - {PlanOutcome.SOLVED, PlanOutcome.NOT_RUN}:
             record = assemble_record(spec, plan(**{phase.value: outcome}), {}, results)
             found.add((record.failed_phase, record.failure))
+    return found
+
+
+def late_failures(spec):
+    """The states in which the time of a task passes its limit."""
+    found, results = set(), run_program(ScriptedPlant(), REFERENCES, task=default_task())
+    for states in range(len(PHASES)):
+        limited = replace(spec, task=replace(spec.task, time_limit_s=states + 0.5))
+        record = assemble_record(limited, plan(), {}, results)
+        found.add((record.failed_phase, record.failure))
     return found
 
 

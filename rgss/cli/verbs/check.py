@@ -116,6 +116,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
         check_scene,
         impact_findings,
         load_project,
+        task_time_findings,
         uncounted_mass_findings,
         unused_findings,
     )
@@ -130,6 +131,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
             *uncounted_mass_findings(project),
             *bench_findings(project),
             *impact_findings(project),
+            *task_time_findings(project),
             *assumption_findings(project),
             *scene.findings,
             *robot_findings(project),

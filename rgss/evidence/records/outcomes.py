@@ -47,6 +47,7 @@ class Failure(str, Enum):
     NOT_RELEASED = "not_released"
     NOT_IN_PLACE_REGION = "not_in_place_region"
     NOT_UPRIGHT = "not_upright"
+    TASK_TIME_LIMIT = "task_time_limit"
     CHECK_FAILED = "check_failed"
     RUN_CRASHED = "run_crashed"
 

@@ -103,7 +103,8 @@ def digests_of(spec: TrialSpec, versions: Mapping[str, str]) -> TrialDigests:
     bench = bench_of(spec)
     lifted = "" if bench is None else _bench_digest(bench, used["bench"])
     drawn = [conditions.case, dict(conditions.draws)]
-    trial = digest([execution, lifted, spec.planning_limit_s, used["record"], drawn])
+    limits_s = [spec.planning_limit_s, spec.task.time_limit_s]
+    trial = digest([execution, lifted, limits_s, used["record"], drawn])
     return TrialDigests(plan=plan, timing=timing, execution=execution, bench=lifted, trial=trial)
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from rgss.documents import read_document
 from rgss.evidence import Fidelity
 from rgss.findings import Finding, Severity
-from rgss.studies.bench_check import variants_text
+from rgss.studies.checks.bench_check import variants_text
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
 

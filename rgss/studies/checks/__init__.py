@@ -1,0 +1,12 @@
+"""Findings about a whole study: what its parts demand of each other before anything is simulated."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.studies.checks.bench_check import bench_findings
+    from rgss.studies.checks.impact_check import impact_findings
+    from rgss.studies.checks.task_time_check import task_time_findings
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)
