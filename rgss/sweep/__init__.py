@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rgss.sweep.inline_workers import InlineWorkers
     from rgss.sweep.input_changes import values_by_name
     from rgss.sweep.persistent_pool import PersistentWorkerPool
-    from rgss.sweep.planner_comparison import ComparedPlanner, compared_planners, limits_of
+    from rgss.sweep.planner_comparison import ComparedPlanner, compared_planners, has_searches, limits_of
     from rgss.sweep.planning_history import planning_runs
     from rgss.sweep.preview import Cause, DryRun, DueTrials, Reason, dry_run
     from rgss.sweep.reading_off import FoundTrials, StoredSearches

@@ -87,9 +87,14 @@ def compared_planners(
         on_plan: Callback after each task that was planned: their number so far, and how many there are.
 
     Raises:
-        DefinitionError: There is no planner of a name, or an engine is not installed.
+        DefinitionError: There is no planner of a name, no move is planned, or an engine is not installed.
     """
     chosen = _chosen(project, names)
+    if not has_searches(project):
+        raise DefinitionError(
+            f"{project.study.label}: no move of task {project.study.task.id!r} is planned",
+            hint="planners search for moves of mode 'planned'",
+        )
     total, done, found = len(seeds) * sum(len(specs) for _, _, _, specs in chosen), 0, []
     for name, is_reference, settings, specs in chosen:
         plans = []
@@ -101,6 +106,17 @@ def compared_planners(
                     on_plan(done, total)
         found.append(ComparedPlanner(name=name, is_reference=is_reference, settings=settings, plans=tuple(plans)))
     return tuple(found)
+
+
+def has_searches(project: Project) -> bool:
+    """True if a planner searches for some move of the task.
+
+    Args:
+        project: The project with its study.
+    """
+    return bool(project.study.task.planned) and any(
+        spec.searched for spec in trial_specs(project, seeds=[project.study.seed])
+    )
 
 
 def limits_of(project: Project) -> tuple[float, ...]:

@@ -26,6 +26,8 @@ MORE_EXAMPLES = (
 )
 LARGEST_PAGE = 15_000_000
 """Bytes; a larger page is slow to open and to send, which is then reported."""
+MOST_PLANNED_SEEDS = 10
+"""Seeds of the planners' comparison at most: each is a search for every move, planner and shape of gripper."""
 DEFAULT_FILE = Path("report.html")
 
 
@@ -36,7 +38,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "-o", "--out", type=Path, default=DEFAULT_FILE, metavar="FILE", help=f"the page (default: {DEFAULT_FILE})"
     )
     parser.add_argument(
-        "--no-film", action="store_true", help="leave out filmstrips and films, for which a few trials are run again"
+        "--no-film",
+        action="store_true",
+        help="run nothing again: leave out films, and reference planners beside those of the designs",
     )
     parser.add_argument(
         "--film-size",
@@ -91,7 +95,8 @@ def run(options: argparse.Namespace) -> int:
             portfolio=portfolio,
             assumptions=assumption_outcomes(project, measured, store),
         )
-        document = report_document(project, measured, made, store)
+        planners = None if options.no_film else _planners(project)
+        document = report_document(project, measured, made, store, planners=planners)
     notable = notable_trials(measured, made.decision.chosen)
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
     pictures, notice = trial_pictures(project, notable, look=look)
@@ -156,6 +161,19 @@ def _trace(
         title=f"Traceability of the study {project.study.id}",
         definitions=project.measures,
     )
+
+
+def _planners(project: Project) -> dict[str, Any] | None:
+    """The planners of the designs and the references on the same moves; None where there is nothing to compare."""
+    from rgss.engines import missing_engines
+    from rgss.reports.study import planner_comparison
+    from rgss.sweep import compared_planners, has_searches, limits_of
+
+    study = project.study
+    if missing_engines() or not study.planning.references or not has_searches(project):
+        return None
+    seeds = range(study.seed, study.seed + min(study.replicates, MOST_PLANNED_SEEDS))
+    return planner_comparison(compared_planners(project, seeds=seeds), limits_of(project), seeds)
 
 
 def _check_file(path: Path) -> None:

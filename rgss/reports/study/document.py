@@ -27,7 +27,12 @@ SCHEMA = 1
 
 
 def report_document(
-    project: Project, measured: Sequence[VariantMeasures], made: StudyDecision, store: EvidenceStore
+    project: Project,
+    measured: Sequence[VariantMeasures],
+    made: StudyDecision,
+    store: EvidenceStore,
+    *,
+    planners: Plain | None = None,
 ) -> Plain:
     """Gather what a report shows; nothing is simulated.
 
@@ -36,6 +41,7 @@ def report_document(
         measured: Every variant with its estimates and verdicts, by ascending id.
         made: The decision of the study, with its robustness.
         store: The evidence.
+        planners: The planners compared on the same moves, as `planner_comparison` gives them; None if they are not.
 
     Returns:
         A document of dictionaries, lists, texts and finite numbers. Columns have an entry for each
@@ -71,6 +77,7 @@ def report_document(
         "trials": trial_columns(measured, notable),
         "planning": planning_columns(project, measured),
         "planning_references": list(project.study.planning.references),
+        "planner_comparison": planners,
         "assumptions": assumptions_of(project),
         "provenance": provenance_of(project, measured, store, evidence=made.evidence),
     }

@@ -62,3 +62,16 @@ def test_planners_that_cannot_be_compared(rgss, untouched, more, expected):
     told = rgss("planners", *more, "--project", untouched)
     assert told.status == 2
     assert expected in told.errors
+
+
+@pytest.mark.engine
+def test_a_task_without_a_planned_move_has_no_searches(rgss, folder):
+    path = folder / STUDY
+    text = path.read_text(encoding="utf-8")
+    moves = "move_to_grasp, move_to_grasp_departure, move_to_place_approach, move_to_place, move_to_grasp_approach"
+    section = "".join(f"  {name}: straight\n" for name in moves.split(", "))
+    path.write_text(f"{text}\nmoves:\n{section}", encoding="utf-8")
+    told = rgss("planners", "--seeds", 1, "--project", folder)
+    assert (told.status, told.output) == (2, "")
+    assert "studies/pick_place.yaml: no move of task 'pick_and_place' is planned" in told.errors
+    assert "planners search for moves of mode 'planned'" in told.errors
