@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -92,6 +92,43 @@ def _planner_settings(project: Project) -> Iterator[ModelSetting]:
             yield ModelSetting(
                 id=name, value=words, example=f"{name}={words}", changed=partial(_with_parameter, project, planner, key)
             )
+    yield from _shared_settings(project)
+
+
+def _shared_settings(project: Project) -> Iterator[ModelSetting]:
+    """The parameters that several planners of the study have, supposed alike for all of them."""
+    sharing: dict[str, list[str]] = {}
+    for planner, settings in project.study.planning.planners.items():
+        for key in available_planners()[settings.algorithm].parameters:
+            sharing.setdefault(key, []).append(planner)
+    for key, planners in sharing.items():
+        if len(planners) < 2:
+            continue
+        name, unit = f"planning.planners.{key}", PLANNER_QUANTITIES[f"{PLANNER_PREFIX}{key}"].unit
+        found = {planner: _parameter_of(project, planner, key) for planner in planners}
+        words = [
+            ("true" if value else "false") if isinstance(value, bool) else in_words(value, unit)
+            for value in dict.fromkeys(found.values())
+        ]
+        yield ModelSetting(
+            id=name,
+            value=_listed(words),
+            example=f"{name}={words[0]}",
+            changed=partial(_with_shared, project, tuple(planners), key),
+        )
+
+
+def _parameter_of(project: Project, planner: str, key: str) -> float | bool:
+    settings = project.study.planning.planners[planner]
+    parameter = available_planners()[settings.algorithm].parameters[key]
+    value = dict(settings.parameters).get(key, parameter.default)
+    return bool(value) if parameter.type is ParameterType.FLAG else float(value)
+
+
+def _with_shared(project: Project, planners: Sequence[str], key: str, text: str) -> Project:
+    for planner in planners:
+        project = _with_parameter(project, planner, key, text)
+    return project
 
 
 def settings_of_designs(project: Project) -> Iterator[ModelSetting]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -14,7 +15,7 @@ from rgss.decision.what_if import model_settings, suppose
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity, Provenance
 from rgss.reports.decision import decision_lines, decision_part, decision_section, trade_document
-from rgss.studies import trial_specs
+from rgss.studies import load_project, trial_specs
 from rgss.studies.assumptions_section import StudyAssumption
 from rgss.sweep.trial_keys import key_of
 
@@ -23,6 +24,12 @@ def asked(project, *pairs):
     """The project with a list of assumptions and alternatives instead of the derived one."""
     listed = tuple(StudyAssumption(about=about, alternatives=others, places=()) for about, others in pairs)
     return replace(project, study=replace(project.study, assumptions=listed))
+
+
+@pytest.fixture(scope="module")
+def reference():
+    """The reference study, whose planners have settings."""
+    return load_project(Path(__file__).parents[3])
 
 
 @pytest.fixture(scope="module")
@@ -186,6 +193,32 @@ def test_what_cannot_be_supposed_is_one_line(shipped, text, message, hint):
         suppose(shipped, [text])
     assert message in caught.value.message
     assert hint in caught.value.hint
+
+
+def test_a_parameter_is_supposed_alike_for_all_planners_that_have_it(reference):
+    before, after = reference, suppose(reference, ["planning.planners.goal_bias=0.05"]).project
+    biased = {name for name, one in before.study.planning.planners.items() if "goal_bias" in dict(one.parameters)}
+    assert biased == {"RRT", "TRRT", "STRIDE"}
+    for name, planner in after.study.planning.planners.items():
+        given, was = dict(planner.parameters), dict(before.study.planning.planners[name].parameters)
+        assert given == (was | {"goal_bias": 0.05} if name in biased else was)
+    one_by_one = suppose(reference, [f"planning.planners.{name}.goal_bias=0.05" for name in sorted(biased)]).project
+    seeds = [before.study.seed]
+    together = [key_of(spec) for spec in trial_specs(after, seeds=seeds)]
+    assert together == [key_of(spec) for spec in trial_specs(one_by_one, seeds=seeds)]
+    assert set(together).isdisjoint(key_of(spec) for spec in trial_specs(before, seeds=seeds))
+
+
+def test_a_parameter_that_differs_among_planners_shows_every_value(reference):
+    settings = model_settings(reference)
+    assert settings["planning.planners.goal_bias"].value == "0.2"
+    ranges = {dict(one.parameters)["range"] for one in reference.study.planning.planners.values()}
+    assert ranges == {1.0}
+    assert settings["planning.planners.range"].value == "1 rad"
+    with pytest.raises(DefinitionError, match=r"planning\.planners\.RRT: .*kg"):
+        suppose(reference, ["planning.planners.range=1 kg"])
+    other = suppose(reference, ["planning.planners.RRT.range=0.5 rad"]).project
+    assert model_settings(other)["planning.planners.range"].value == "0.5 rad or 1 rad"
 
 
 def test_one_setting_cannot_be_supposed_twice(shipped):
