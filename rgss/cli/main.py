@@ -10,6 +10,7 @@ import keyword
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from types import ModuleType
 
@@ -66,10 +67,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(arguments: Sequence[str] | None) -> int:
     try:
         options = command_line().parse_args(arguments)
-        status = int(options.handler(options))
-        if sys.stdout is not None:
-            # Here, where a failure can still be reported, and not when the interpreter ends.
-            sys.stdout.flush()
+        with _page(options):
+            status = int(options.handler(options))
+            if sys.stdout is not None:
+                # Here, where a failure can still be reported, and not when the interpreter ends.
+                sys.stdout.flush()
         return status
     except DocumentError as error:
         for finding in error.findings:
@@ -96,6 +98,17 @@ def _run(arguments: Sequence[str] | None) -> int:
         return RUN_FAILED
 
 
+def _page(options: argparse.Namespace) -> AbstractContextManager[object]:
+    """The page of what a verb prints; what programs read is no page."""
+    if options.json or not options.is_fitted or sys.stdout is None or not sys.stdout.isatty():
+        return nullcontext()
+    from rgss.cli.terminal import fitted_page
+
+    # Progress would be written over the pager.
+    is_paged = options.is_paged and not getattr(options, "run", False)
+    return fitted_page(is_wide=options.wide, is_paged=is_paged)
+
+
 def command_line() -> argparse.ArgumentParser:
     """The parser of the whole command line, with a parser for each verb."""
     parser = CommandParser(
@@ -119,8 +132,11 @@ def command_line() -> argparse.ArgumentParser:
             "--project", type=Path, metavar="DIR", help="the project's folder (default: the nearest one above)"
         )
         verb.add_argument("--json", action="store_true", help="print one JSON document and nothing else")
+        verb.add_argument("--wide", action="store_true", help="on a terminal: lines and tables wider than it")
         module.configure(verb)
-        verb.set_defaults(handler=module.run)
+        verb.set_defaults(
+            handler=module.run, is_fitted=getattr(module, "FITTED", True), is_paged=getattr(module, "PAGED", False)
+        )
     return parser
 
 

@@ -24,9 +24,16 @@ def print_json(value: Any) -> None:
 
 
 def print_lines(lines: Iterable[str]) -> None:
-    """Print lines of text as they are made."""
+    """Print lines of text as they are made; a table as it fits, where standard output is a terminal."""
+    from rgss.cli.terminal import TerminalPage
+    from rgss.reports import TableLine
+
+    page = sys.stdout if isinstance(sys.stdout, TerminalPage) else None
     for line in lines:
-        print(line)
+        if page is None or not isinstance(line, TableLine):
+            print(line)
+        elif line.is_first:
+            page.show_table(line.table)
 
 
 def print_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = ()) -> None:

@@ -10,17 +10,19 @@ from typing import Any, TextIO, cast
 from rgss.documents import escaped_for_json, steers
 
 
-class _SafeStream:
+class SafeStream:
     """A stream that escapes what would steer a terminal; everything else of it is the stream's own."""
 
     def __init__(self, stream: TextIO) -> None:
         self.own = stream
 
     def write(self, text: str) -> int:
+        """Write text; what would steer a terminal is escaped."""
         self.own.write(escaped_for_json(text) if steers(text) else text)
         return len(text)
 
     def writelines(self, lines: Iterator[str]) -> None:
+        """Write lines, which have their ends."""
         for line in lines:
             self.write(line)
 
@@ -33,7 +35,7 @@ def safe_output() -> Iterator[None]:
     """Let what is printed in the block steer no terminal; JSON that is printed keeps its meaning."""
     before = sys.stdout, sys.stderr
     # Without a console there is no stream.
-    sys.stdout, sys.stderr = (stream if stream is None else cast("TextIO", _SafeStream(stream)) for stream in before)
+    sys.stdout, sys.stderr = (stream if stream is None else cast("TextIO", SafeStream(stream)) for stream in before)
     try:
         yield
     finally:
@@ -46,9 +48,10 @@ def own_stream(stream: TextIO) -> TextIO:
     Args:
         stream: Standard output or error.
     """
-    return stream.own if isinstance(stream, _SafeStream) else stream
+    return stream.own if isinstance(stream, SafeStream) else stream
 
 
 def data_stream() -> TextIO:
     """Stream for the content of a file on standard output: unchanged, except on a terminal."""
-    return sys.stdout if sys.stdout.isatty() else own_stream(sys.stdout)
+    own = own_stream(sys.stdout)
+    return cast("TextIO", SafeStream(own)) if sys.stdout.isatty() else own

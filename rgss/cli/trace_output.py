@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -96,14 +95,18 @@ def deliver(order: TraceOrder, report: TraceReport, found: Chain | Impact | None
         DefinitionError: A package is not installed.
         OSError: A file cannot be written.
     """
-    if order.prints or order.output is not None:
-        contents = _contents(order, report, found)
-        if not order.prints:
-            _write(order, contents)
-        else:
-            ((_, content),) = contents.items()
-            stream = sys.stdout if order.file_format.is_for_terminals else data_stream()
-            stream.write(content.decode("utf-8-sig"))
+    if order.prints and order.file_format.is_for_terminals:
+        from rgss.cli.output import print_lines
+        from rgss.reports.trace import found_lines, report_lines
+
+        print_lines(
+            report_lines(report, gaps_only=order.gaps_only, table=order.table) if found is None else found_lines(found)
+        )
+    elif order.prints:
+        ((_, content),) = _contents(order, report, found).items()
+        data_stream().write(content.decode("utf-8-sig"))
+    elif order.output is not None:
+        _write(order, _contents(order, report, found))
     if order.diagrams is not None:
         _write_diagrams(order.diagrams, report, quiet=order.prints)
 

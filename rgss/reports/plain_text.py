@@ -3,19 +3,57 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from rgss.findings import printable
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TextTable:
+    """A table of texts without anything that steers a terminal.
+
+    Attributes:
+        titles: The head of each column.
+        rows: The cells.
+        right: Columns that are aligned to the right.
+    """
+
+    titles: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    right: frozenset[int]
+
+
+class TableLine(str):
+    """A line of an aligned table, which knows the table: whoever can do better may show that instead."""
+
+    __slots__ = ("is_first", "table")
+
+    table: TextTable
+    is_first: bool
+
+    @classmethod
+    def of(cls, text: str, table: TextTable, *, is_first: bool) -> TableLine:
+        """A line of a table.
+
+        Args:
+            text: The line.
+            table: The table.
+            is_first: Whether it is the table's first line.
+        """
+        line = cls(text)
+        line.table, line.is_first = table, is_first
+        return line
+
+
 def aligned_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right: Iterable[int] = ()) -> list[str]:
-    """Lines of a table whose columns are aligned.
+    """Lines of a table whose columns are aligned, each a `TableLine`.
 
     Args:
         titles: The head of each column.
         rows: The cells.
         right: Columns that are aligned to the right.
     """
-    cells = [[printable(text) for text in row] for row in (titles, *rows)]
+    cells = [tuple(printable(text) for text in row) for row in (titles, *rows)]
     widths = [max(len(row[column]) for row in cells) for column in range(len(titles))]
     to_right = set(right)
     lines = []
@@ -26,4 +64,5 @@ def aligned_table(titles: Sequence[str], rows: Iterable[Sequence[str]], *, right
         ]
         lines.append("  ".join(parts).rstrip())
     lines.insert(1, "  ".join("─" * width for width in widths))
-    return lines
+    table = TextTable(titles=cells[0], rows=tuple(cells[1:]), right=frozenset(to_right))
+    return [TableLine.of(line, table, is_first=place == 0) for place, line in enumerate(lines)]

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rgss.studies import Project
 
 HELP = "check the project's files, wording, traceability and scene, without a simulation"
+PAGED = True
 EXAMPLE = "rgss check --explain wording.R7"
 MORE_EXAMPLES = (
     ("rgss check", "files, wording and traceability of the project"),

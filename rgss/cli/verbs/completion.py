@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Iterator
 
 HELP = "print a script with which a shell completes what is typed after rgss"
+FITTED = False
 EXAMPLE = "rgss completion bash >> ~/.bash_completion"
 MORE_EXAMPLES = (
     ('eval "$(rgss completion bash)"', "for this shell alone"),

@@ -9,6 +9,7 @@ from rgss.cli.options import add_fidelity, add_replicates, add_study, chosen_pro
 from rgss.exchange.formats import EXPORT_FORMATS, export_format
 
 HELP = "write the project or its evidence in the format of another tool"
+FITTED = False
 EXAMPLE = "rgss export reqif -o requirements.reqif"
 MORE_EXAMPLES = (
     ("rgss export reqif -o requirements.reqifz", "the same in an archive"),

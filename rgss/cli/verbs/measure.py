@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rgss.studies import Project
 
 HELP = "estimate the measures of every variant from evidence, and judge the requirements"
+PAGED = True
 EXAMPLE = "rgss measure --json > measures.json"
 MORE_EXAMPLES = (
     ("rgss measure", "the measures of effectiveness and the verdicts of every variant"),

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 HELP = "write JSON Schemas of the YAML documents, with which editors complete and check them"
+FITTED = False
 EXAMPLE = "rgss schema --out schemas --headers"
 MORE_EXAMPLES = (
     ("rgss schema", "list the kinds of documents"),

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rgss.trace.evidence import TraceEvidence
 
 HELP = "show the traceability matrices and their gaps, or the chain of one id"
+PAGED = True
 EXAMPLE = "rgss trace -o trace.html"
 MORE_EXAMPLES = (
     ("rgss trace SYS-005", "one chain, up to the need and down to the trials"),

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff import PortfolioDecision, SolverRun
 
 HELP = "decide which variant is best, say why, and what would change that"
+PAGED = True
 EXAMPLE = 'rgss trade --what-if weight.t_p=0.4 --what-if "SYS-012.threshold=0.9 kg"'
 MORE_EXAMPLES = (
     ("rgss trade", "the decision, why, and what would change it"),

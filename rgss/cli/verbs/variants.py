@@ -8,7 +8,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from rgss.cli.options import add_study, chosen_project
-from rgss.reports.variants import VARIANT_FORMATS, variant_format
+from rgss.reports.variants import VARIANT_FORMATS, variant_format, variant_table_lines
 
 if TYPE_CHECKING:
     from rgss.designs import DesignSpace
@@ -18,6 +18,7 @@ ONLY_HELP = (
     "only these variants: ids such as 1,5,60-72, filters such as planning.planner=RRT or "
     "'robot.tool_speed <= 0.8 m/s', or a balanced fraction such as 1/4; given several times, all must hold, in order"
 )
+PAGED = True
 EXAMPLE = "rgss variants --format csv > variants.csv"
 MORE_EXAMPLES = (
     (
@@ -39,15 +40,19 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """List the variants."""
+    from rgss.cli.output import print_lines
     from rgss.cli.safe_output import data_stream
     from rgss.designs import picked
 
     designs = chosen_project(options).designs
     variants = picked(designs, options.only or ())
     chosen = variant_format("json" if options.json else options.format)
-    stream = data_stream() if chosen.is_data else sys.stdout
-    for text in chosen.write(designs, variants):
-        stream.write(text)
+    if chosen.name == "table":
+        print_lines(variant_table_lines(designs, variants))
+    else:
+        stream = data_stream() if chosen.is_data else sys.stdout
+        for text in chosen.write(designs, variants):
+            stream.write(text)
     for line in _left_out(designs):
         print(f"rgss: {line}", file=sys.stderr)
     return 0

@@ -9,5 +9,6 @@ if TYPE_CHECKING:
     from rgss.reports.trace.formats import TRACE_FORMATS, TraceFormat, trace_format
     from rgss.reports.trace.html import trace_context
     from rgss.reports.trace.report import TraceReport, trace_report
+    from rgss.reports.trace.terminal import found_lines, report_lines
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from rgss.reports.plain_text import aligned_table
 from rgss.reports.tables import Cell, Table, cell_text, chosen_table
 from rgss.reports.trace.report import MatrixPart, TraceReport
 from rgss.reports.trace.tables import LINKED, matrix_note
@@ -65,6 +66,29 @@ def terminal_tables(report: TraceReport, *, gaps_only: bool = False, table: str 
     return whole if gaps_only else (coverage, *matrices, verification)
 
 
+def report_lines(report: TraceReport, *, gaps_only: bool = False, table: str = "") -> list[str]:
+    """A report as lines of text.
+
+    Args:
+        report: The report.
+        gaps_only: As of `terminal_tables`.
+        table: As of `terminal_tables`.
+
+    Raises:
+        DefinitionError: There is no such table.
+    """
+    return [report.title, "", *table_lines(terminal_tables(report, gaps_only=gaps_only, table=table))]
+
+
+def found_lines(found: Chain | Impact) -> list[str]:
+    """A chain or an impact as lines of text.
+
+    Args:
+        found: The chain or the impact.
+    """
+    return chain_lines(found) if isinstance(found, Chain) else impact_lines(found)
+
+
 def table_lines(tables: Sequence[Table]) -> list[str]:
     """Tables as aligned lines of text, each under its title; what cannot be printed is replaced."""
     lines: list[str] = []
@@ -75,10 +99,7 @@ def table_lines(tables: Sequence[Table]) -> list[str]:
         lines += _folded(table.note)
         if table.rows:
             cells = [[_safe(cell_text(cell)) for cell in row] for row in (table.heads, *table.rows)]
-            widths = [max(len(row[column]) for row in cells) for column in range(len(table.heads))]
-            made = ["  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)) for row in cells]
-            made.insert(1, "  ".join("─" * width for width in widths))
-            lines += [line.rstrip() for line in made]
+            lines += aligned_table(cells[0], cells[1:])
     return lines
 
 

@@ -12,18 +12,15 @@ if TYPE_CHECKING:
 
 
 def _report(report: TraceReport, selection: Selection) -> bytes:
-    from rgss.reports.trace.terminal import table_lines, terminal_tables
+    from rgss.reports.trace.terminal import report_lines
 
-    return _text(
-        [report.title, "", *table_lines(terminal_tables(report, gaps_only=selection.gaps_only, table=selection.table))]
-    )
+    return _text(report_lines(report, gaps_only=selection.gaps_only, table=selection.table))
 
 
 def _found(found: Chain | Impact, report: TraceReport) -> bytes:  # noqa: ARG001
-    from rgss.reports.trace.terminal import chain_lines, impact_lines
-    from rgss.trace.views import Chain
+    from rgss.reports.trace.terminal import found_lines
 
-    return _text(chain_lines(found) if isinstance(found, Chain) else impact_lines(found))
+    return _text(found_lines(found))
 
 
 def _text(lines: list[str]) -> bytes:

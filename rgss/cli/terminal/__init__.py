@@ -1,0 +1,10 @@
+"""What people see on a terminal: pages that fit it, colours, a pager."""
+
+from typing import TYPE_CHECKING
+
+from rgss.lazy_exports import lazy_exports
+
+if TYPE_CHECKING:
+    from rgss.cli.terminal.page import TerminalPage, fitted_page
+else:
+    __getattr__, __dir__ = lazy_exports(__name__, __file__)

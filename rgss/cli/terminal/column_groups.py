@@ -1,0 +1,91 @@
+"""Division of a table that is wider than the terminal: columns that stand beside each other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+GAP = 2
+"""Spaces between two columns."""
+
+
+def column_groups(
+    cells: Sequence[Sequence[str]], width: int, *, keys: int = 1
+) -> tuple[tuple[tuple[int, ...], tuple[int, ...]], ...]:
+    """The columns of each part of a table, and how wide each is.
+
+    Either all columns stand beside each other, with cells that go over several lines at spaces, or they
+    stand in parts below each other, each of which begins with the first columns. Of the two ways it is the one
+    that takes fewer lines. A column that is too wide by itself goes over several lines in any case.
+
+    Args:
+        cells: The rows, the heads first; all have the same number of cells.
+        width: The characters of a line.
+        keys: The number of first columns that every part begins with.
+    """
+    natural = [max(len(row[column]) for row in cells) for column in range(len(cells[0]))]
+    every = tuple(range(len(natural)))
+    if _total(natural) <= width:
+        return ((every, tuple(natural)),)
+    ways = [_parts(natural, width, keys)]
+    least = [max(map(_longest_word, column)) for column in zip(*cells, strict=True)]
+    if _total(least) <= width:
+        ways.append((every,))
+    fitted = [tuple((part, _widths(natural, least, part, width)) for part in way) for way in ways]
+    return min(fitted, key=lambda way: sum(_lines(cells, part, widths) for part, widths in way))
+
+
+def _parts(natural: Sequence[int], width: int, keys: int) -> tuple[tuple[int, ...], ...]:
+    """Columns in parts that fit by their whole widths, if a part has more than one column beside the first ones."""
+    first = tuple(range(min(keys, len(natural) - 1)))
+    parts: list[tuple[int, ...]] = []
+    part = first
+    for column in range(len(first), len(natural)):
+        if part != first and _total([natural[one] for one in (*part, column)]) > width:
+            parts.append(part)
+            part = first
+        part = (*part, column)
+    return (*parts, part)
+
+
+def _widths(natural: Sequence[int], least: Sequence[int], part: Sequence[int], width: int) -> tuple[int, ...]:
+    """Widths of the columns of a part: the widest ones give way first, down to their longest words."""
+    given = [natural[column] for column in part]
+    floors = [least[column] for column in part]
+    if _total(floors) > width:
+        # No words are short enough: they are broken, the longest first.
+        floors = [1] * len(part)
+    while _total(given) > width:
+        over = [place for place in range(len(part)) if given[place] > floors[place]]
+        if not over:
+            break
+        widest = max(over, key=lambda place: (given[place], place))
+        given[widest] -= 1
+    return tuple(given)
+
+
+def _lines(cells: Sequence[Sequence[str]], part: Sequence[int], widths: Sequence[int]) -> int:
+    """The lines of a part, with the rule and an empty one behind it."""
+    return 2 + sum(
+        max(_broken(row[column], width) for column, width in zip(part, widths, strict=True)) for row in cells
+    )
+
+
+def _broken(text: str, width: int) -> int:
+    """The lines of a text that is broken at spaces, and within words that are wider than a line."""
+    if len(text) <= width:
+        return 1
+    lines, used = 1, 0
+    for word in text.split():
+        if used and used + 1 + len(word) > width:
+            lines, used = lines + 1, 0
+        used += len(word) + (1 if used else 0)
+        lines, used = lines + max(0, used - 1) // width, (used - 1) % width + 1
+    return lines
+
+
+def _total(widths: Sequence[int]) -> int:
+    return sum(widths) + GAP * (len(widths) - 1)
+
+
+def _longest_word(text: str) -> int:
+    return max(map(len, text.split()), default=0)

@@ -1,0 +1,133 @@
+"""Page on a terminal: lines are broken between words, tables fit, verdicts have colours."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+import textwrap
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, TextIO, cast
+
+from rgss.cli.safe_output import SafeStream, own_stream
+from rgss.cli.terminal.column_groups import GAP, column_groups
+from rgss.cli.terminal.pager import Pager
+from rgss.cli.terminal.styles import STYLES
+
+if TYPE_CHECKING:
+    from rgss.reports import TextTable
+
+_NUMBER_AND_UNIT = re.compile(r"(?<=\d)()\s(?=(?:%|[a-zA-Z]{1,3}(?:/\w+)?\b)(?![a-z]))")
+LEAST_WIDTH = 40
+"""A narrower terminal is taken for one of this width."""
+
+
+class TerminalPage(SafeStream):
+    """Standard output that is a terminal."""
+
+    def __init__(self, stream: TextIO, *, width: int) -> None:
+        """Take a terminal.
+
+        Args:
+            stream: What leads to it.
+            width: Characters of a line.
+        """
+        super().__init__(stream)
+        self._width = width
+        self._begun = ""
+
+    def write(self, text: str) -> int:
+        """Take text; whole lines are written, broken between words."""
+        *lines, self._begun = (self._begun + text).split("\n")
+        for line in lines:
+            self._write_line(line)
+        return len(text)
+
+    def isatty(self) -> bool:
+        """True: what a pager shows stands on a terminal, too."""
+        return True
+
+    def flush(self) -> None:
+        """Write what there is of a line, such as a question."""
+        if self._begun:
+            super().write(self._begun)
+            self._begun = ""
+        self.own.flush()
+
+    def show_table(self, table: TextTable) -> None:
+        """Write a table in parts that fit.
+
+        Args:
+            table: The table.
+        """
+        from rich.box import SIMPLE_HEAD
+        from rich.table import Table
+        from rich.text import Text
+
+        from rgss.cli.terminal.console import PageConsole
+
+        console = PageConsole(file=self.own, width=self._width, force_terminal=True, highlight=False)
+        cells = (table.titles, *table.rows)
+        parts = column_groups(cells, self._width)
+        for place, (part, widths) in enumerate(parts):
+            shown = Table(
+                box=SIMPLE_HEAD, pad_edge=False, padding=(0, GAP - 1, 0, 0), show_edge=False, header_style="bold"
+            )
+            for column, width in zip(part, widths, strict=True):
+                shown.add_column(
+                    Text(table.titles[column]),
+                    width=width,
+                    justify="right" if column in table.right else "left",
+                    overflow="fold",
+                )
+            for row in table.rows:
+                shown.add_row(*(Text(row[column], style=STYLES.get(row[column], "")) for column in part))
+            console.print(shown)
+            if place < len(parts) - 1:
+                console.print()
+
+    def _write_line(self, line: str) -> None:
+        if len(line) <= self._width:
+            super().write(f"{line}\n")
+            return
+        indent = line[: len(line) - len(line.lstrip())]
+        broken = textwrap.wrap(
+            _NUMBER_AND_UNIT.sub("\\1\u00a0", line),
+            self._width,
+            subsequent_indent=f"{indent}  ",
+            break_long_words=False,
+            break_on_hyphens=False,
+            drop_whitespace=True,
+        )
+        super().write("\n".join(broken).replace("\u00a0", " ") + "\n")
+
+
+@contextmanager
+def fitted_page(
+    *, is_wide: bool, is_paged: bool, environment: Mapping[str, str] = os.environ
+) -> Iterator[TerminalPage | None]:
+    """Let what is printed in the block fit the terminal; nothing changes where standard output is none.
+
+    Args:
+        is_wide: Whether lines may be wider than the terminal.
+        is_paged: Whether a long page goes through a pager.
+        environment: Variables of the process: ``PAGER``, ``RGSS_PAGER``.
+    """
+    before = sys.stdout
+    if before is None or not before.isatty():
+        yield None
+        return
+    width = shutil.get_terminal_size().columns
+    pager = Pager.of(environment) if is_paged and sys.stdin is not None and sys.stdin.isatty() else None
+    own = own_stream(before) if pager is None else pager.start()
+    page = TerminalPage(own, width=10**6 if is_wide else max(width, LEAST_WIDTH))
+    sys.stdout = cast("TextIO", page)
+    try:
+        yield page
+        page.flush()
+    finally:
+        sys.stdout = before
+        if pager is not None:
+            pager.end()
