@@ -113,12 +113,14 @@ def command_line() -> argparse.ArgumentParser:
     """The parser of the whole command line, with a parser for each verb."""
     parser = CommandParser(
         prog="rgss",
-        description="Choose a robot design by evidence: requirements, simulated trials, a certified trade-off.",
+        description="Choose a robot design by evidence: requirements, simulated trials, a certified trade-off. "
+        "Without a verb: how the project stands, and the next command.",
         epilog="Begin with 'rgss init my_project'; every verb has examples under --help. "
         "Exit status: 0 clean, 1 findings or nothing feasible, 2 bad input, 3 a run failed, 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=f"rgss {_version()}")
-    verbs = parser.add_subparsers(metavar="VERB", required=True)
+    parser.set_defaults(handler=_show_state, json=False, is_fitted=True, is_paged=False, wide=False)
+    verbs = parser.add_subparsers(metavar="VERB")
     for name in VERBS:
         module = importlib.import_module(f"rgss.cli.verbs.{module_name(name)}")
         verb = verbs.add_parser(
@@ -138,6 +140,15 @@ def command_line() -> argparse.ArgumentParser:
             handler=module.run, is_fitted=getattr(module, "FITTED", True), is_paged=getattr(module, "PAGED", False)
         )
     return parser
+
+
+def _show_state(options: argparse.Namespace) -> int:  # noqa: ARG001 - every handler takes the options
+    """Say how the project stands, and what to do next."""
+    from rgss.cli.output import print_lines
+    from rgss.cli.project_state import state_lines
+
+    print_lines(state_lines())
+    return CLEAN
 
 
 def module_name(verb: str) -> str:

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rgss.studies import Project
 
+STUDY_HELP = "the study, by its file or its name (default: pick_place, or the only one)"
 FIDELITIES = ("kinematic", "dynamic", "contact")
 
 
 def add_study(parser: argparse.ArgumentParser) -> None:
     """Add the study as an argument."""
-    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    parser.add_argument("study", nargs="?", metavar="STUDY", help=STUDY_HELP)
 
 
 def add_replicates(parser: argparse.ArgumentParser) -> None:

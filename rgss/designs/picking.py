@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Callable, Sequence
 
@@ -31,7 +32,8 @@ def picked(space: DesignSpace, terms: Sequence[str], *, option: str = "--only") 
     - ids and filters with commas between them, which choose what any of them does: ``1,5,60-72``,
       ``planning.planner=RRT,planning.planner=TRRT``. A filter compares a parameter (by its id or by what
       it sets), a factor's level or a component with a value (``planning.planner=RRT``, ``fingers=two``,
-      ``gripper!=kg-2-light``), or is a constraint as in the file of the design space
+      ``gripper!=kg-2-light``), whatever its capitals, a component also with a level that chooses it
+      (``gripper=three``), or is a constraint as in the file of the design space
       (``robot.tool_speed <= 0.8 m/s``);
     - a fraction such as ``1/4``: so many of the variants that the terms before it choose, balanced
       over the levels of their factors.
@@ -140,25 +142,59 @@ def _equals(space: DesignSpace, name: str, value: str, option: str) -> Filter | 
         except QuantityError as error:
             raise DefinitionError(f"{option}: {name}: {error.message}", hint=error.hint) from error
         if parameter.kind is ParameterKind.NAME:
-            _require(option, name, value, {str(one.parameters[bare]) for one in space.expand()})
+            wanted = _known_value(option, name, value, {str(one.parameters[bare]) for one in space.expand()})
         return lambda variant: variant.parameters[bare] == wanted
     factor = next((one for one in space.factors if one.id == name), None)
     if factor is not None:
+        level = value
         if factor.span is None:
-            _require(option, name, value, {level.id for level in factor.levels})
-        return lambda variant: variant.levels[name] == value
+            level = _known_value(option, name, value, {level.id for level in factor.levels})
+        return lambda variant: variant.levels[name] == level
     role = name.removeprefix(COMPONENT_PREFIX)
     if role in {one.id for one in space.catalogue.roles}:
-        _require(option, name, value, {one.id for one in space.catalogue.of_role(role)})
-        return lambda variant: variant.components[role].id == value
+        choosing = _levels_that_choose(space, role)
+        component = _known_value(
+            option, name, value, {one.id for one in space.catalogue.of_role(role)}, others=frozenset(choosing)
+        )
+        if component in choosing:
+            return lambda variant: any(variant.levels[one] == component for one in choosing[component])
+        return lambda variant: variant.components[role].id == component
     return None
 
 
-def _require(option: str, name: str, value: str, known: set[str]) -> None:
-    if value not in known:
-        raise DefinitionError(
-            f"{option}: {name} is never {value!r}", hint=near_hint(value, known, f"known values of {name}")
-        )
+def _levels_that_choose(space: DesignSpace, role: str) -> dict[str, list[str]]:
+    """The levels by which the component of a role is chosen, such as the numbers of fingers, each with its factors."""
+    parameters = {name for one in space.catalogue.of_role(role) for name in space.selectors.get(one.id, {})}
+    found: dict[str, list[str]] = {}
+    for factor in space.factors:
+        for level in factor.levels:
+            if parameters & set(level.values):
+                found.setdefault(level.id, []).append(factor.id)
+    return found
+
+
+def _known_value(option: str, name: str, value: str, known: set[str], *, others: frozenset[str] = frozenset()) -> str:
+    """The value as it is spelt; capitals make no difference where only one value is meant.
+
+    Args:
+        option: What the user knows the filter by.
+        name: What is compared.
+        value: The value as the user wrote it.
+        known: The values that there are.
+        others: Further ones, which are taken if none of these is meant.
+
+    Raises:
+        DefinitionError: There is no such value.
+    """
+    for some in (known, others):
+        if value in some:
+            return value
+        alike = [one for one in some if one.lower() == value.lower()]
+        if len(alike) == 1:
+            return alike[0]
+    near = difflib.get_close_matches(value.lower(), {*known, *others}, n=1)
+    hint = near_hint(value, {*near} or known, f"known values of {name}")
+    raise DefinitionError(f"{option}: {name} is never {value!r}", hint=hint)
 
 
 def _known_names(space: DesignSpace) -> set[str]:

@@ -22,7 +22,7 @@ from rgss.studies.finding_suppression import without_consequences
 from rgss.studies.measure_sources import source_findings
 from rgss.studies.measure_traces import measure_traces
 from rgss.studies.motion import motion_findings
-from rgss.studies.project_folders import DEFAULT_STUDY, REQUIREMENTS, measures_of, requirements_named
+from rgss.studies.project_folders import REQUIREMENTS, measures_of, requirements_named, study_file
 from rgss.studies.study import StudyDefinition, named_file, read_study
 from rgss.studies.uncertainty_findings import uncertainty_findings
 from rgss.tasks import default_task, task_findings
@@ -105,8 +105,8 @@ def load_project(folder: Path, study: str | None = None) -> Project:
 
     Args:
         folder: The project's folder.
-        study: The study file, relative to the project or to the current folder; the reference
-            study by default.
+        study: The study file, relative to the project or to the current folder, or its name alone; the reference
+            study by default, or else the only one.
 
     Raises:
         DocumentError: Files are wrong; with every problem in all of them.
@@ -134,7 +134,7 @@ class _Reader:
     # long function: one check after the other of files that name each other, each with its own findings.
     def read(self, study_name: str | None) -> Project:
         folder = self._folder
-        path, label = self._study_file(study_name)
+        path, label = study_file(folder, study_name)
         try:
             named_set = requirements_named(folder, read_document(path, label=label).data)
         except DocumentError:
@@ -202,24 +202,6 @@ class _Reader:
         except DocumentError as error:
             self._findings.extend(error.findings)
             return None
-
-    def _study_file(self, name: str | None) -> tuple[Path, str]:
-        if name is None:
-            # That of another project, in which this process may have been started, is never meant.
-            path = self._folder / DEFAULT_STUDY
-            others = [] if path.exists() else sorted((self._folder / "studies").glob("*.yaml"))
-            if others:
-                hint = f"name the study, such as studies/{others[0].name}"
-                raise DefinitionError(f"the project has no {DEFAULT_STUDY}, which is the default", hint=hint)
-            return path, DEFAULT_STUDY
-        path = self._folder / name
-        try:
-            if not path.is_file() and Path(name).is_file():
-                path = Path(name)
-            label = path.resolve().relative_to(self._folder.resolve()).as_posix()
-        except (OSError, ValueError):  # a name that no file can have, a study outside the project
-            label = name
-        return path, label
 
     def _named_files(self, path: Path, label: str) -> dict[str, str]:
         """The files that a study names, by key; without those that are not there or lie outside the project."""

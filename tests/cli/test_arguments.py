@@ -36,7 +36,6 @@ def test_version(rgss):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        ([], "rgss: the following arguments are required: VERB (see 'rgss --help')"),
         (["decide"], "rgss: argument VERB: invalid choice: 'decide' (choose from "),
         (["tradee"], "rgss: argument VERB: invalid choice: 'tradee' (did you mean 'trade'?) (see 'rgss --help')"),
         (["sweep", "--replicate=3", "--fidelty=contact"], "rgss sweep: unrecognized arguments: --fidelty=contact (did"),
@@ -139,3 +138,26 @@ def test_a_study_that_has_not_the_default_name_is_to_be_named(rgss, folder):
         f"(name the study, such as studies/{min(path.name for path in (folder / 'studies').glob('*.yaml'))})"
     )
     assert rgss("variants", "studies/serving.yaml", "--project", folder).status == 0
+
+
+def test_a_study_is_meant_by_its_name(rgss, folder):
+    by_file = rgss("variants", "studies/straight_moves.yaml", "--project", folder)
+    by_name = rgss("variants", "straight_moves", "--project", folder)
+    assert (by_name.status, by_name.output) == (0, by_file.output)
+    told = rgss("variants", "straight_mvs", "--project", folder)
+    assert (told.status, told.complaint) == (
+        2,
+        "rgss: there is no study 'straight_mvs' (did you mean 'straight_moves'?)",
+    )
+    far = rgss("variants", "zzz", "--project", folder)
+    assert far.complaint.startswith("rgss: there is no study 'zzz' (studies: ")
+
+
+def test_the_only_study_needs_no_name(rgss, folder):
+    for path in (folder / "studies").glob("*.yaml"):
+        if path.name != "straight_moves.yaml":
+            path.unlink()
+    assert rgss("variants", "--project", folder).status == 0
+    (folder / "studies" / "straight_moves.yaml").unlink()
+    told = rgss("variants", "--project", folder)
+    assert told.complaint.startswith("studies/pick_place.yaml:1:1: error: no such file")

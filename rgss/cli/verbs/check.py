@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rgss.cli.options import STUDY_HELP
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -25,7 +27,7 @@ MORE_EXAMPLES = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
-    parser.add_argument("study", nargs="?", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    parser.add_argument("study", nargs="?", metavar="STUDY", help=STUDY_HELP)
     parser.add_argument("--all", action="store_true", help="show notes too, not only errors and warnings")
     parser.add_argument(
         "--evidence", action="store_true", help="check the stored evidence and the result of the tests too"

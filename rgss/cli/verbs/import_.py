@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rgss.cli.options import STUDY_HELP
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
@@ -34,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=VALUE",
         help="an attribute that new elements get where the file has none",
     )
-    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from rgss.cli.options import add_fidelity, chosen_project
+from rgss.cli.options import STUDY_HELP, add_fidelity, chosen_project
 
 HELP = "run a stored trial again and compare it bit for bit"
 EXAMPLE = "rgss replay 2/1"
@@ -19,7 +19,7 @@ _SHOWN = 12
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     parser.add_argument("trial", metavar="TRIAL", help="variant and seed, such as 28/1, or the beginning of its key")
-    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
     add_fidelity(parser)
 
 

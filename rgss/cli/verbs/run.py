@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from rgss.cli.driven import add_driver
-from rgss.cli.options import add_fidelity, add_nominal, chosen_project
+from rgss.cli.options import STUDY_HELP, add_fidelity, add_nominal, chosen_project
 from rgss.cli.pictures import add_pictures, made_pictures, ordered_pictures, other_trial, seen_trial
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ MORE_EXAMPLES = (
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     parser.add_argument("variant", type=int, metavar="ID", help="the variant's id")
-    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
     add_fidelity(parser)
     add_nominal(parser)
     parser.add_argument("--seed", type=int, metavar="N", help="the trial's seed (default: the study's first)")

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rgss.cli.options import add_fidelity, add_replicates, chosen_project
+from rgss.cli.options import STUDY_HELP, add_fidelity, add_replicates, chosen_project
 from rgss.cli.trace_output import TABLES, deliver, ordered
 from rgss.errors import DefinitionError
 from rgss.reports.trace import TRACE_FORMATS
@@ -44,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--junit", type=Path, metavar="FILE", help="the result of the tests (default: .rgss/junit.xml in the project)"
     )
-    parser.add_argument("--study", metavar="STUDY", help="the study file (default: studies/pick_place.yaml)")
+    parser.add_argument("--study", metavar="STUDY", help=STUDY_HELP)
     add_replicates(parser)
     add_fidelity(parser)
 

@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.reports.decision.answers_in_words import elicitation_sentences
-    from rgss.reports.decision.conclusion import seeds_sentences
+    from rgss.reports.decision.conclusion import headline, seeds_sentences
     from rgss.reports.decision.json import (
         decision_to_json,
         elicitation_to_json,

@@ -9,6 +9,7 @@ from rgss.documents import read_document
 from rgss.errors import DefinitionError, DocumentError
 from rgss.findings import shown
 from rgss.studies.project_folders.locating import DEFAULT_STUDY
+from rgss.studies.project_folders.study_names import study_file
 
 REQUIREMENTS = "requirements"
 """The set of every study that names no other."""
@@ -94,12 +95,9 @@ def requirements_of_study(project: Path, study: str | None) -> str:
         DocumentError: The study cannot be read.
         DefinitionError: It names no set that can be used.
     """
-    label = DEFAULT_STUDY if study is None else study
-    path = project / label
-    if study is None and not path.exists():
+    if study is None and not (project / DEFAULT_STUDY).exists():
         return REQUIREMENTS
-    if study is not None and not _is_file(path) and _is_file(Path(study)):
-        path = Path(study)
+    path, label = study_file(project, study)
     named = requirements_named(project, read_document(path, label=label).data)
     if named is None:
         raise DefinitionError(
@@ -137,10 +135,3 @@ def named_sets(project: Path) -> tuple[str, ...]:
         project: The project's folder.
     """
     return tuple(folder for folder in studies_by_set(project) if folder != REQUIREMENTS)
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except (OSError, ValueError):  # a name that no file can have
-        return False

@@ -62,6 +62,14 @@ def rule_of(rule_id: str) -> Rule:
     for rule in RULES:
         if rule.id.lower() == rule_id.lower():
             return rule
+    # The name behind the dot is enough where only one rule has it, such as R9 for wording.R9.
+    short = [rule for rule in RULES if rule.id.rpartition(".")[2].lower() == rule_id.lower()]
+    if len(short) == 1:
+        return short[0]
+    if short:
+        raise DefinitionError(
+            f"{rule_id!r} is the name of several rules", hint="write " + " or ".join(rule.id for rule in short)
+        )
     if rule_id.split(".", maxsplit=1)[0] in _READING:
         raise DefinitionError(
             f"{rule_id!r} is about reading files; its findings have the full explanation",

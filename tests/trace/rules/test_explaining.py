@@ -58,3 +58,15 @@ def test_rules_are_found_by_id():
         rule_of("document.syntax")
     with pytest.raises(DefinitionError, match=r"there is no rule '§' \('rgss check --explain' lists all rules\)"):
         rule_of("§")
+
+
+@pytest.mark.parametrize(("short", "whole"), [("R9", "wording.R9"), ("r9", "wording.R9"), ("wording.r9", "wording.R9")])
+def test_the_name_behind_the_dot_is_enough_where_only_one_rule_has_it(short, whole):
+    assert rule_of(short).id == whole
+
+
+def test_a_name_of_several_rules_is_not_enough():
+    with pytest.raises(DefinitionError, match="'cycle' is the name of several rules") as caught:
+        rule_of("cycle")
+    assert caught.value.hint.startswith("write ")
+    assert " or " in caught.value.hint

@@ -1,0 +1,62 @@
+"""Study that a user means: a file, its name alone, or the only one that there is."""
+
+from __future__ import annotations
+
+import difflib
+from pathlib import Path
+
+from rgss.errors import DefinitionError
+from rgss.studies.project_folders.locating import DEFAULT_STUDY
+
+_STUDIES = "studies"
+_SUFFIX = ".yaml"
+
+
+def study_file(project: Path, name: str | None) -> tuple[Path, str]:
+    """The file of a study, and its label: the path relative to the project.
+
+    Args:
+        project: The project's folder.
+        name: The file, relative to the project or to the current folder, or its name alone, such as ``lite6_cubes``;
+            None for the default study, or else for the only one.
+
+    Raises:
+        DefinitionError: No study is named, and there are several but not the default one; or none has the name.
+    """
+    if name is None:
+        return _unnamed(project)
+    path = project / name
+    try:
+        if not path.is_file() and Path(name).is_file():
+            path = Path(name)
+        elif not path.exists() and Path(name).name == name and not name.endswith(_SUFFIX):
+            return _by_name(project, name)
+        return path, path.resolve().relative_to(project.resolve()).as_posix()
+    except (OSError, ValueError):  # a name that no file can have, a study outside the project
+        return path, name
+
+
+def _unnamed(project: Path) -> tuple[Path, str]:
+    # That of another project, in which this process may have been started, is never meant.
+    path = project / DEFAULT_STUDY
+    others = [] if path.exists() else _labels(project)
+    if not others:
+        return path, DEFAULT_STUDY
+    if len(others) > 1:
+        hint = f"name the study, such as {others[0]}"
+        raise DefinitionError(f"the project has no {DEFAULT_STUDY}, which is the default", hint=hint)
+    return project / others[0], others[0]
+
+
+def _by_name(project: Path, name: str) -> tuple[Path, str]:
+    label = f"{_STUDIES}/{name}{_SUFFIX}"
+    if (project / label).is_file():
+        return project / label, label
+    known = [Path(one).stem for one in _labels(project)]
+    near = difflib.get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"studies: {', '.join(known) or 'none'}"
+    raise DefinitionError(f"there is no study {name!r}", hint=hint)
+
+
+def _labels(project: Path) -> list[str]:
+    return [f"{_STUDIES}/{path.name}" for path in sorted((project / _STUDIES).glob(f"*{_SUFFIX}"))]
