@@ -2,7 +2,8 @@
 
 Replicates are added where the choice is open, so that two designs seldom have the same seeds. They are compared on
 those that both have, by the posterior that names ties in the study itself; but a seed in which one of them alone
-succeeded is no proof that it is the better one.
+succeeded is no proof that it is the better one. Whether they meet every requirement is told by all seeds of each: four
+seeds in which the one succeeds each time do not outdo a hundred in which the other succeeds nine times of ten.
 """
 
 from __future__ import annotations
@@ -24,13 +25,17 @@ from rgss.tradeoff.robustness import PosteriorOutcomes, choice_uncertainty
 FEWEST_REPLICATES = 2
 """With fewer common seeds nothing is known of noise, and the estimates alone are compared."""
 
+FEASIBILITY_DOUBT = 0.2
+"""They are not separated if with this probability the former choice meets every requirement and the new one not."""
+
 
 def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: int, former: int) -> bool:
     """Tell whether a choice is better than a former one by what the seeds that both have show.
 
     It is not where the former one meets every requirement and is within the practical margin by the estimates, nor
     where both are feasible and it is worth as much with a probability of at least 5 %
-    (`rgss.tradeoff.robustness.choice_uncertainty`).
+    (`rgss.tradeoff.robustness.choice_uncertainty`), nor where it is feasible and the choice is not with a probability
+    of at least 20 %, by all seeds of each.
 
     Args:
         project: The project, under the suppositions that lead to the choice.
@@ -55,6 +60,8 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
     problem = trade_problem(project, pair)
     if not isinstance(problem.program, AdditiveValue):
         return True
+    if _may_miss_alone(project, measured, chosen, former):
+        return False
     table = tabulated(problem.alternatives)
     margin = project.study.trade_off.practical_margin
     replicates = np.array([len(entry.records) for entry in pair])
@@ -78,6 +85,24 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
     ).rivals
     # What leads only where the choice is not feasible is no reason to keep it: by value it is behind.
     return all(rival.by_feasibility for rival in rivals)
+
+
+def _may_miss_alone(project: Project, measured: Sequence[VariantMeasures], chosen: int, former: int) -> bool:
+    """Whether the choice may well be infeasible where the former one is not, by all seeds of all variants."""
+    if min(len(entry.records) for entry in measured) < FEWEST_REPLICATES:
+        return False
+    problem = trade_problem(project, measured)
+    table = tabulated(problem.alternatives)
+    feasible = PosteriorOutcomes.of(
+        problem,
+        table,
+        proportion_measures(project),
+        generator=np.random.default_rng(project.study.seed),
+        levels=level_numbers(project.designs, table.variants.tolist()),
+        apart=True,
+    ).outcomes.feasible
+    alone = feasible[:, table.row_of(former)] & ~feasible[:, table.row_of(chosen)]
+    return bool(alone.mean() >= FEASIBILITY_DOUBT)
 
 
 def _is_near(problem: TradeProblem, table: EvidenceTable, chosen: int, former: int, margin: float) -> bool:

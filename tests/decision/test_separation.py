@@ -58,6 +58,17 @@ def test_failures_of_most_common_seeds_separate(measured_with):
     assert is_separated(project, measured, FIRST, SECOND)
 
 
+def test_a_few_successes_do_not_outdo_many_trials(measured_with):
+    """All four of the one succeed, and one of the other's four with these seeds fails, as 3 of its 64 do."""
+    project, measured = measured_with(failing=((0, 20, 40), ()), ran=(64, 4), time_s=(3.0, 2.0))
+    assert not is_separated(project, measured, SECOND, FIRST)
+
+
+def test_many_successes_of_a_faster_design_separate(measured_with):
+    project, measured = measured_with(failing=(tuple(range(0, 64, 5)), ()), ran=(64, 64), time_s=(3.0, 2.0))
+    assert is_separated(project, measured, SECOND, FIRST)
+
+
 def test_a_time_that_is_longer_in_every_trial_separates(measured_with):
     project, measured = measured_with(time_s=(3.0, 14.0))
     assert is_separated(project, measured, FIRST, SECOND)

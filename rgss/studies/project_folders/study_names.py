@@ -17,7 +17,7 @@ def study_file(project: Path, name: str | None) -> tuple[Path, str]:
 
     Args:
         project: The project's folder.
-        name: The file, relative to the project or to the current folder, or its name alone, such as ``lite6_cubes``;
+        name: The file, relative to the project or to the current folder, or its name alone, such as ``pick_place``;
             None for the default study, or else for the only one.
 
     Raises:
