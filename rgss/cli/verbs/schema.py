@@ -28,6 +28,7 @@ DOCUMENTS = (
     "task",
     "parallel-gripper",
     "vacuum-gripper",
+    "linkage-gripper",
     "study",
 )
 
