@@ -12,7 +12,7 @@ from typing import Any
 
 from rgss.scenes import Linkage, LinkageMotion, link_names_of
 
-LEAST_ITERATIONS = 300
+LEAST_ITERATIONS = 600
 """Iterations of the solver with which the joints of a linkage follow within `docs/grippers.md`'s bound."""
 
 _GEAR_FORCE = 1.0e4

@@ -187,8 +187,10 @@ class World(ClientOwner):
         """
         settings = self.settings
         iterations = self._solver_iterations
+        # The gears of a linkage need theirs at any time.
+        fewer = settings.free_iterations if self._linkage is None else iterations
         self._engine.setPhysicsEngineParameter(
-            numSolverIterations=min(iterations, settings.free_iterations) if free else iterations,
+            numSolverIterations=min(iterations, fewer) if free else iterations,
             physicsClientId=self._client,
         )
 

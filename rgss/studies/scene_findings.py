@@ -79,7 +79,7 @@ def _pad_friction(project: Project, file: str) -> float:
     if project.scene.task.candidates is None:
         return 0.0
     specs = trial_specs(project, seeds=[project.study.seed])
-    geometries = {*project.grippers[file].mountings.values()}
+    geometries = {at_object(geometry, project.scene) for geometry in project.grippers[file].mountings.values()}
     return min(spec.gripper.friction for spec in specs if spec.gripper.geometry in geometries)
 
 

@@ -21,6 +21,8 @@ from rgss.scenes.shapes import Box, Cylinder
 from rgss.scenes.urdf_file import UrdfError, number_problems, parse_urdf
 from rgss.scenes.urdf_meshes import embed_collision_meshes, files_of
 
+_LEAST_ON_PAD_M = 1.0e-4
+
 
 class LinkageGripper:
     """The kind ``linkage``."""
@@ -93,7 +95,7 @@ def _own_findings(entry: LinkageGripperDocument, document: Document) -> Iterable
 def _limit_findings(entry: LinkageGripperDocument, document: Document, motion: LinkageMotion) -> Iterable[Finding]:
     force_n, speed_m_s = pad_limits(motion)
     length_m = min(pad.size_m[2] for pad in motion.linkage.pads)
-    if entry.grasp_from_tip is not None and entry.grasp_from_tip >= length_m:
+    if entry.grasp_from_tip is not None and entry.grasp_from_tip > length_m - _LEAST_ON_PAD_M:
         message = f"the grasp centre must lie on the pads, which are {length_m * 1e3:.4g} mm long"
         yield document.finding("scene.grasp-depth", message, ("grasp_from_tip",), hint="give less than that")
     if entry.force is not None and entry.force > force_n * (1 + 1e-9):
