@@ -28,6 +28,7 @@ pads: [left_tip, right_tip]
 grasp_from_tip: 15 mm
 speed: 50 mm/s
 """
+PARAMETER = "  - {id: hand, name: hand, symbol: h, kind: name, sets: catalogue.gripper, description: Hand.}\n"
 COMPONENTS = """\
   - id: panda-hand
     role: gripper
@@ -66,8 +67,7 @@ def project(projects, tmp_path_factory):
         (r"sets: \{fingers: 3, friction: 0.7\}", "sets: {hand: two-finger}"),
         (
             "parameters:\n",
-            "parameters:\n"
-            "  - {id: hand, name: hand, symbol: h, kind: name, sets: catalogue.gripper, description: Hand.}\n",
+            f"parameters:\n{PARAMETER}",
         ),
     )
     edit(
