@@ -74,8 +74,10 @@ def test_the_grasp_may_be_nearer_to_the_tip(jaws):
     assert geometry.base.height_m == pytest.approx(0.06)
 
 
+@pytest.mark.engine
 def test_forward_kinematics_of_cranks_agree_with_another_library(two_finger):
-    pinocchio = pytest.importorskip("pinocchio")
+    import pinocchio
+
     model = pinocchio.buildModelFromUrdf(str(TWO_FINGER))
     data = model.createData()
     linkage = two_finger.geometry.linkage
@@ -111,6 +113,7 @@ def test_pads_of_cranks_move_on_arcs(two_finger):
     assert two_finger.settings["gripper.finger.force"] == pytest.approx(1.0 / radius_m, rel=1e-3)
 
 
+@pytest.mark.engine
 def test_the_hand_of_a_whole_robot_is_read_from_its_urdf(tmp_path):
     shutil.copytree(urdf_of("seven with a hand").parent, tmp_path / "franka_panda")
     (tmp_path / "gripper.yaml").write_text(PANDA, encoding="utf-8")
