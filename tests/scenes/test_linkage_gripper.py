@@ -167,6 +167,12 @@ def test_the_hand_of_a_whole_robot_is_read_from_its_urdf(tmp_path):
         ('type="prismatic"', 'type="planar"', "has the planar joint 'left_joint'"),
         ('xyz="0 0 0.06"', 'xyz="0 zero 0.06"', "has xyz='0 zero 0.06' in <origin> of 'left_joint'"),
         ("</robot>", "", "is not XML"),
+        (
+            '<child link="camera"/>',
+            '<child link="lens"/>',
+            "lets the joint 'camera_joint' carry 'lens', which it has not",
+        ),
+        ('<child link="camera"/>', '<child link="left"/>', "has several joints that carry the link 'left'"),
     ],
 )
 def test_a_mechanism_that_cannot_grip_is_refused_in_one_line(jaws, old, new, expected):

@@ -82,6 +82,19 @@ def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Itera
             yield f"has no link {name!r} below the palm", ("pads", index), f"links: {', '.join(links)}"
     if entry.pads[0] == entry.pads[1]:
         yield f"has the link {entry.pads[0]!r} for both pads", ("pads",), "name the links of two fingers"
+    carried = {palm_of(root, entry)}
+    for joint in root.findall("joint"):
+        child = _end(joint, "child")
+        if child not in links:
+            yield f"lets the joint {joint.get('name')!r} carry {child!r}, which it has not", ("description",), ""
+        elif child in carried:
+            hint = "a link has one joint; let joints follow with <mimic> instead of closing a loop"
+            yield (
+                f"has several joints that carry the link {child!r}, or one that carries the palm",
+                ("description",),
+                hint,
+            )
+        carried.add(child)
     for joint in joints.values():
         if joint.get("type") != "fixed" and kind_of(joint) is None:
             hint = "joints of a gripper are revolute, continuous or prismatic"
