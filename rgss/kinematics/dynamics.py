@@ -9,7 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rgss.kinematics.description import build_model, transform
-from rgss.scenes import Cylinder, Gripper, Pose, Robot, Workpiece, principal_frame, solid_moments
+from rgss.scenes import (
+    Cylinder,
+    Gripper,
+    Linkage,
+    LinkageMotion,
+    Pose,
+    Robot,
+    Workpiece,
+    linkage_masses_kg,
+    principal_frame,
+    quaternion_of,
+    solid_moments,
+)
 
 Vector = NDArray[np.float64]
 
@@ -37,6 +49,8 @@ def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
         opening_m: Distance of its pads from its axis.
     """
     geometry = gripper.geometry
+    if geometry.linkage is not None:
+        return _linkage_loads(gripper, geometry.linkage, opening_m)
     base = Load(
         mass_kg=gripper.base_mass_kg - gripper.cup_mass_kg,
         moments_kg_m2=solid_moments(geometry.base, gripper.base_mass_kg - gripper.cup_mass_kg),
@@ -58,6 +72,23 @@ def gripper_loads(gripper: Gripper, opening_m: float) -> tuple[Load, ...]:
         pose=geometry.cup_pose,
     )
     return (base, cup)
+
+
+def _linkage_loads(gripper: Gripper, linkage: Linkage, opening_m: float) -> tuple[Load, ...]:
+    """The links of a gripper as loads of the flange, with their inertias as the URDF has them."""
+    motion = LinkageMotion(linkage)
+    poses = linkage.link_poses(motion.driven_at(motion.largest_opening_m - opening_m))
+    loads = []
+    for link, pose, mass_kg in zip(linkage.links, poses, linkage_masses_kg(gripper, linkage), strict=True):
+        if mass_kg == 0.0:
+            continue
+        xx, yy, zz, xy, xz, yz = (moment * mass_kg / link.mass_kg for moment in link.inertia_kg_m2)
+        (a, b, c), axes = np.linalg.eigh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        axes[:, 2] *= np.sign(np.linalg.det(axes))
+        turned = Pose(quaternion_xyzw=quaternion_of(axes))
+        moments = (float(a), float(b), float(c))
+        loads.append(Load(mass_kg=mass_kg, moments_kg_m2=moments, pose=pose @ link.inertial @ turned))
+    return tuple(loads)
 
 
 def workpiece_load(workpiece: Workpiece, pose: Pose) -> Load:

@@ -27,6 +27,7 @@ from rgss.scenes import (
     Shape,
     convex_parts,
     finger_link,
+    linkage_hulls,
 )
 
 # The engine takes its flag by position alone.
@@ -78,10 +79,16 @@ def collision_parts(
     def held(name: str, placement: Any, shape: Shape) -> Part:
         return Part(name=name, chain=joint, joint=joint, placement=to_joint * placement, shape=solid_of(shape))
 
-    parts.append(held(GRIPPER_BASE_LINK, transform(gripper.base_pose), gripper.base))
-    for finger in range(gripper.fingers):
-        pose = gripper.finger_pose(finger, situation.opening_m)
-        parts.append(held(finger_link(finger), transform(pose), gripper.finger))
+    if gripper.linkage is None:
+        parts.append(held(GRIPPER_BASE_LINK, transform(gripper.base_pose), gripper.base))
+        for finger in range(gripper.fingers):
+            pose = gripper.finger_pose(finger, situation.opening_m)
+            parts.append(held(finger_link(finger), transform(pose), gripper.finger))
+    else:
+        parts += [
+            Part(name=name, chain=joint, joint=joint, placement=to_joint * transform(pose), shape=_hull(corners))
+            for name, pose, corners in linkage_hulls(gripper.linkage, situation.opening_m)
+        ]
     if gripper.cup is not None:
         parts.append(held(CUP_LINK, transform(gripper.cup_pose), gripper.cup))
     workpiece = scene.workpiece

@@ -15,6 +15,7 @@ from typing import Any
 
 from rgss.errors import SimulationError
 from rgss.physics.engine import load_urdf_text, open_client, pybullet
+from rgss.physics.finger_joints import finger_joint_names, finger_joint_positions
 from rgss.physics.solids import Surface, box_surface, cup_surface, cylinder_surface, hull_surface
 from rgss.scenes import (
     CUP_LINK,
@@ -30,7 +31,6 @@ from rgss.scenes import (
     Shape,
     assembled_urdf,
     convex_parts,
-    finger_joint,
     finger_link,
 )
 
@@ -130,7 +130,8 @@ class Stage:
         """Set the pose of everything that moves."""
         engine = self._engine
         joints = (*self._arm_joints, *self._finger_joints)
-        for joint, position in zip(joints, (*posture.joints_rad, *posture.finger_travel_m), strict=True):
+        fingers = finger_joint_positions(self._gripper.geometry, posture.finger_travel_m)
+        for joint, position in zip(joints, (*posture.joints_rad, *fingers), strict=True):
             engine.resetJointState(self._robot, joint, position, physicsClientId=self._machine)
         for part, at in self._workpiece:
             self._place(part, posture.workpiece @ at)
@@ -195,9 +196,10 @@ class Stage:
     def _add_robot(self) -> None:
         """Load the machine to know where its links are, and a part in the picture for each solid of a link."""
         engine, client, base = self._engine, self._machine, self._scene.robot.base
+        assembled = assembled_urdf(self._scene.robot, self._gripper)
         self._robot = load_urdf_text(
             client,
-            assembled_urdf(self._scene.robot, self._gripper),
+            assembled,
             position=base.position_m,
             orientation=base.quaternion_xyzw,
             flags=0,
@@ -210,7 +212,7 @@ class Stage:
         links = {entry[12].decode(): entry[0] for entry in info}
         fingers = range(self._gripper.geometry.fingers)
         self._arm_joints = [joints[joint.name] for joint in self._scene.robot.joints]
-        self._finger_joints = [joints[finger_joint(finger)] for finger in fingers]
+        self._finger_joints = [joints[name] for name in finger_joint_names(self._gripper.geometry)]
         self._flange = links[self._scene.robot.flange]
         colours = {links[finger_link(finger)]: FINGER_COLOUR for finger in fingers}
         colours[links[GRIPPER_BASE_LINK]] = GRIPPER_BASE_COLOUR
@@ -230,12 +232,14 @@ class Stage:
             self._half_sizes[part] = _half_size(shape)
             self._parts.append((part, link, pose))
         links[engine.getBodyInfo(self._robot, physicsClientId=client)[0].decode()] = -1
-        for convex in convex_parts(self._scene.robot.urdf)[1]:
-            part = self._add(self.moving, hull_surface(convex.vertices_m), Pose(), ARM_COLOUR)
+        for convex in convex_parts(assembled)[1]:
+            colour = colours.get(links[convex.link], ARM_COLOUR)
+            part = self._add(self.moving, hull_surface(convex.vertices_m), Pose(), colour)
             self._half_sizes[part] = _half_extent(convex.vertices_m)
             self._parts.append((part, links[convex.link], convex.pose))
         self._link_names = {index: name for name, index in links.items()}
-        self._add_rails(links[GRIPPER_BASE_LINK])
+        if self._gripper.geometry.linkage is None:
+            self._add_rails(links[GRIPPER_BASE_LINK])
 
     def _add_rails(self, base_link: int) -> None:
         geometry = self._gripper.geometry

@@ -8,6 +8,7 @@ from dataclasses import replace
 from rgss.errors import SimulationError
 from rgss.physics.bodies import add_object
 from rgss.physics.engine import ClientOwner, load_urdf_text
+from rgss.physics.linkage_drive import LinkageDrive
 from rgss.physics.settings import PhysicsSettings
 from rgss.scenes import Gripper, Pose, Robot, Workpiece, assembled_urdf, finger_joint
 
@@ -32,6 +33,7 @@ class TorqueArm(ClientOwner):
         """
         super().__init__()
         self._held = self._bond = -1
+        self._linkage: LinkageDrive | None = None
         self._grasp_centre = gripper.geometry.grasp_centre
         try:
             self._build(robot, gripper, settings, gravity_m_s2)
@@ -51,6 +53,10 @@ class TorqueArm(ClientOwner):
     def hold_fingers(self, finger_travel_m: float) -> None:
         """Put the fingers at a travel from open and hold them there; a suction cup has none."""
         if not self._fingers:
+            return
+        if self._linkage is not None:
+            self._linkage.reset(finger_travel_m)
+            self._linkage.hold(finger_travel_m, stiff=True)
             return
         for joint in self._fingers:
             self._engine.resetJointState(self._body, joint, finger_travel_m, 0.0, physicsClientId=self._client)
@@ -146,6 +152,10 @@ class TorqueArm(ClientOwner):
         self._flange = links[robot.flange]
         self._joints = [names[joint.name] for joint in robot.joints]
         self._fingers = [names[finger_joint(finger)] for finger in range(gripper.geometry.fingers)]
+        if gripper.geometry.linkage is not None:
+            self._linkage = LinkageDrive(
+                engine, client, self._body, gripper.geometry.linkage, names, step_s=settings.step_s
+            )
         # The engine's default motors would brake the joints.
         engine.setJointMotorControlArray(
             self._body,

@@ -18,6 +18,7 @@ from rgss.physics.contact_reader import ContactReader
 from rgss.physics.contacts import Contacts, FingerContact
 from rgss.physics.engine import ClientOwner
 from rgss.physics.hand_view import HandView
+from rgss.physics.linkage_drive import LinkageDrive
 from rgss.physics.settings import PhysicsSettings
 from rgss.physics.suction_seal import SuctionSeal
 from rgss.physics.world_builder import WorldBuilder
@@ -61,6 +62,7 @@ class World(ClientOwner):
         self.settings = settings
         self._steps = 0
         self._seal: SuctionSeal | None = None
+        self._linkage: LinkageDrive | None = None
         self._to_renew: list[int] = []
         self._renewed_at = scene.workpiece.pose.quaternion_xyzw
         try:
@@ -86,8 +88,11 @@ class World(ClientOwner):
         """Put the arm at rest at a configuration, fingers open, without stepping."""
         for joint, angle in zip(self._arm_joints, self._true(configuration_rad), strict=True):
             self._engine.resetJointState(self._robot, joint, angle, 0.0, physicsClientId=self._client)
-        for joint in self._finger_joints:
-            self._engine.resetJointState(self._robot, joint, 0.0, 0.0, physicsClientId=self._client)
+        if self._linkage is None:
+            for joint in self._finger_joints:
+                self._engine.resetJointState(self._robot, joint, 0.0, 0.0, physicsClientId=self._client)
+        else:
+            self._linkage.reset(0.0)
         self.command_arm(configuration_rad, (0.0,) * len(self._arm_joints))
         self.hold_open()
 
@@ -113,6 +118,9 @@ class World(ClientOwner):
         if self._seal is not None:
             self._seal.switch(on=False)
             return
+        if self._linkage is not None:
+            self._linkage.hold(0.0)
+            return
         count = len(self._finger_joints)
         self._engine.setJointMotorControlArray(
             self._robot,
@@ -131,6 +139,9 @@ class World(ClientOwner):
             return
         if velocity_m_s < 0.0:
             self.renew_contacts()
+        if self._linkage is not None:
+            self._linkage.drive(velocity_m_s, force_n)
+            return
         count = len(self._finger_joints)
         self._engine.setJointMotorControlArray(
             self._robot,
@@ -146,6 +157,8 @@ class World(ClientOwner):
         self._steps += 1
         if self._steps % _RENEWAL_CHECK_STEPS == 0 and self._seal is None:
             self._renew_contacts_after_rotation()
+        if self._linkage is not None:
+            self._linkage.before_step()
         self._engine.stepSimulation(self._client)
         if self._seal is not None:
             self._seal.after_step(self._flange_pose(), self.workpiece_pose())
@@ -173,9 +186,11 @@ class World(ClientOwner):
             free: Whether the hand is empty and moves.
         """
         settings = self.settings
-        iterations = settings.solver_iterations
+        iterations = self._solver_iterations
+        # The gears of a linkage need theirs at any time.
+        fewer = settings.free_iterations if self._linkage is None else iterations
         self._engine.setPhysicsEngineParameter(
-            numSolverIterations=min(iterations, settings.free_iterations) if free else iterations,
+            numSolverIterations=min(iterations, fewer) if free else iterations,
             physicsClientId=self._client,
         )
 
@@ -228,6 +243,8 @@ class World(ClientOwner):
         """Distance that each finger has closed from its open end."""
         if not self._finger_joints:
             return ()
+        if self._linkage is not None:
+            return self._linkage.travel_m()
         states = self._engine.getJointStates(self._robot, self._finger_joints, self._client)
         return tuple([state[0] for state in states])
 
@@ -263,6 +280,11 @@ class World(ClientOwner):
     def grip_fault(self) -> str:
         """Why a suction cup that was switched on does not hold the workpiece; empty where it does, and for fingers."""
         return "" if self._seal is None else self._seal.fault
+
+    @property
+    def follow_error(self) -> float:
+        """Greatest difference in rad or m of a linkage's joint from where it should follow; 0 for other grippers."""
+        return 0.0 if self._linkage is None else self._linkage.largest_error
 
     def support_force_n(self) -> float:
         """Sum of the normal forces of the scene's bodies on the workpiece in the last step."""
@@ -337,5 +359,7 @@ class World(ClientOwner):
         self._link_names = index.link_names
         self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)
+        self._solver_iterations = builder.solver_iterations
+        self._linkage = builder.linkage_drive(self._robot, index)
         self._seal_on = partial(builder.seal, self._robot, index)
         self._seal = self._seal_on(self._workpiece, self.scene.workpiece)

@@ -15,6 +15,7 @@ from typing import Any
 from rgss.errors import SimulationError
 from rgss.physics.bodies import add_body, add_object
 from rgss.physics.engine import load_urdf_text
+from rgss.physics.linkage_drive import LEAST_ITERATIONS, LinkageDrive
 from rgss.physics.settings import PhysicsSettings
 from rgss.physics.suction_seal import SuctionSeal
 from rgss.scenes import (
@@ -46,6 +47,7 @@ class RobotIndex:
         flange: Link of the flange.
         cup: Link of the suction cup; None for a gripper with fingers.
         link_names: Name of each link by its number; -1 is the base.
+        joints: Number of each joint by its name.
     """
 
     arm_joints: list[int]
@@ -53,6 +55,7 @@ class RobotIndex:
     flange: int
     cup: int | None
     link_names: Mapping[int, str]
+    joints: Mapping[str, int]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +82,7 @@ class WorldBuilder:
         engine.setGravity(0.0, 0.0, -self.scene.gravity_m_s2, physicsClientId=client)
         engine.setPhysicsEngineParameter(
             fixedTimeStep=self.settings.step_s,
-            numSolverIterations=self.settings.solver_iterations,
+            numSolverIterations=self.solver_iterations,
             numSubSteps=0,
             # With a residual threshold of zero every iteration runs, and a held object does not creep.
             solverResidualThreshold=0.0,
@@ -89,6 +92,12 @@ class WorldBuilder:
             deterministicOverlappingPairs=1,
             physicsClientId=client,
         )
+
+    @property
+    def solver_iterations(self) -> int:
+        """Iterations of the solver; the gears of a linkage need their own number at least."""
+        iterations = self.settings.solver_iterations
+        return iterations if self.gripper.geometry.linkage is None else max(iterations, LEAST_ITERATIONS)
 
     def add_scene(self) -> dict[int, str]:
         """Add the fixed bodies; the result names each by its number."""
@@ -179,6 +188,7 @@ class WorldBuilder:
             flange=links[self.scene.robot.flange],
             cup=links.get(CUP_LINK),
             link_names=link_names,
+            joints=joints,
         )
 
     def set_robot_dynamics(self, robot: int, index: RobotIndex) -> None:
@@ -200,8 +210,15 @@ class WorldBuilder:
                 contactDamping=self.settings.pad_damping_n_s_m / elements,
                 physicsClientId=client,
             )
-        if len(index.finger_joints) == 2:
+        if len(index.finger_joints) == 2 and self.gripper.geometry.linkage is None:
             self._couple_fingers(robot, *index.finger_joints)
+
+    def linkage_drive(self, robot: int, index: RobotIndex) -> LinkageDrive | None:
+        """The drive of a gripper's linkage; None for fingers that slide, and for a cup."""
+        linkage = self.gripper.geometry.linkage
+        if linkage is None:
+            return None
+        return LinkageDrive(self.engine, self.client, robot, linkage, index.joints, step_s=self.settings.step_s)
 
     def seal(self, robot: int, index: RobotIndex, body: int, workpiece: Workpiece) -> SuctionSeal | None:
         """The seal of a suction cup on an object; None for a gripper with fingers."""

@@ -1,6 +1,14 @@
 """Scenes: robot, gripper, workpiece, fixed bodies, and the task's waypoints."""
 
-from rgss.scenes.assembly import CUP_LINK, GRIPPER_BASE_LINK, assembled_urdf, finger_joint, finger_link
+from rgss.scenes.assembly import (
+    CUP_LINK,
+    GRIPPER_BASE_LINK,
+    assembled_urdf,
+    finger_joint,
+    finger_link,
+    link_names_of,
+    linkage_hulls,
+)
 from rgss.scenes.convex_shapes import ConvexPart, convex_link_urdf, convex_parts, vertices_of, with_mesh_files
 from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.grasps import (
@@ -22,14 +30,19 @@ from rgss.scenes.gripper import Gripper, GripperDrive, GripperFile, GripperGeome
 from rgss.scenes.gripper_file import load_gripper, load_gripper_file
 from rgss.scenes.hands import (
     GRIPPER_KINDS,
+    LinkageGripperDocument,
     ParallelGripperDocument,
     VacuumGripperDocument,
+    at_object,
+    at_opening,
     at_top,
     flat_top_radius_m,
     misfit,
     too_narrow,
     too_wide,
 )
+from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion, LinkagePad
+from rgss.scenes.linkage_assembly import linkage_masses_kg
 from rgss.scenes.mass_properties import (
     Gyration,
     centre_of_mass,

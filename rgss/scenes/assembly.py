@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 from rgss.scenes.grasps import PadLayout
 from rgss.scenes.gripper import Gripper, GripperGeometry
+from rgss.scenes.linkage import Linkage, LinkageMotion, Triple
+from rgss.scenes.linkage_assembly import add_linkage, linkage_link_names
 from rgss.scenes.pose import Pose
 from rgss.scenes.robot import Robot
 from rgss.scenes.shapes import Box, Cylinder
@@ -30,6 +32,26 @@ def finger_joint(finger: int) -> str:
     return f"finger_{finger + 1}_joint"
 
 
+def link_names_of(linkage: Linkage) -> tuple[str, ...]:
+    """Names of the links of a gripper's linkage in the URDF of the whole machine."""
+    fingers = [finger_link(finger) for finger in range(len(linkage.pads))]
+    return linkage_link_names(linkage, GRIPPER_BASE_LINK, fingers)
+
+
+def linkage_hulls(linkage: Linkage, opening_m: float) -> Iterator[tuple[str, Pose, tuple[Triple, ...]]]:
+    """The collision shapes of a linkage: name of the link, its transform to the flange, and corners in the link.
+
+    Args:
+        linkage: The mechanism.
+        opening_m: Distance of its pads from its axis.
+    """
+    motion = LinkageMotion(linkage)
+    poses = linkage.link_poses(motion.driven_at(motion.largest_opening_m - opening_m))
+    for name, link, pose in zip(link_names_of(linkage), linkage.links, poses, strict=True):
+        for corners in link.hulls_m:
+            yield name, pose, corners
+
+
 @lru_cache(maxsize=16)
 def assembled_urdf(
     robot: Robot, gripper: Gripper, *, pads: tuple[PadLayout, ...] = (), has_drives: bool = False
@@ -48,6 +70,10 @@ def assembled_urdf(
     """
     root = ET.fromstring(robot.urdf)  # noqa: S314 - entities and document types are refused on reading
     geometry = gripper.geometry
+    if geometry.linkage is not None:
+        names = link_names_of(geometry.linkage)
+        add_linkage(root, gripper, geometry.linkage, flange=robot.flange, names=names, pads=pads)
+        return ET.tostring(root, encoding="unicode")
     radius, height = geometry.base.radius_m, geometry.base.height_m
     drive_kg = gripper.drive.inertia_kg if has_drives else 0.0
     base_kg = gripper.base_mass_kg - geometry.fingers * drive_kg - gripper.cup_mass_kg

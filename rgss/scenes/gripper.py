@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from rgss.scenes.linkage import Linkage
 from rgss.scenes.pose import Pose
 from rgss.scenes.shapes import Box, Cylinder
 
@@ -29,6 +30,8 @@ class GripperGeometry:
         grasp_depth_m: Distance along z from the flange to the grasp centre.
         mounting: Name of the mounting of the fingers; empty where the gripper has one alone.
         cup: Suction cup below the base; None for a gripper with fingers.
+        linkage: Mechanism that moves the pads; None for fingers that slide. The finger is then the part of a link
+            that has the pad, where it is at the object's width, and the base ends where the pad begins.
     """
 
     id: str
@@ -40,6 +43,7 @@ class GripperGeometry:
     grasp_depth_m: float
     mounting: str = ""
     cup: Cylinder | None = None
+    linkage: Linkage | None = None
 
     @property
     def fingers(self) -> int:
@@ -50,6 +54,11 @@ class GripperGeometry:
     def least_opening_m(self) -> float:
         """Pad distance from the axis when closed."""
         return self.largest_opening_m - self.stroke_m
+
+    @property
+    def palm_height_m(self) -> float:
+        """Distance along z from the flange to the palm, which an object between the fingers must not reach."""
+        return self.base.height_m if self.linkage is None else min(self.base.height_m, self.linkage.palm_height_m)
 
     @property
     def base_pose(self) -> Pose:

@@ -66,9 +66,8 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
         project: The folder that no file may lie outside of.
     """
     try:
-        text = _read_text(path)
-        root = _parsed(text)
-    except _UrdfError as error:
+        text, root = parse_urdf(path)
+    except UrdfError as error:
         message = f"{shown(entry.description)} {error.problem}"
         return ReadUrdf(findings=(document.finding("scene.urdf", message, ("description",), hint=error.hint),))
     label = (Path(document.label).parent / entry.description).as_posix()
@@ -91,7 +90,7 @@ def read_urdf(path: Path, document: Document, entry: RobotDocument, *, project: 
     return ReadUrdf(text=without_meshes(settled), files=named.files, kinds=kinds, findings=tuple(findings))
 
 
-class _UrdfError(Exception):
+class UrdfError(Exception):
     """A URDF is unusable; the message follows its name."""
 
     def __init__(self, problem: str, hint: str = "") -> None:
@@ -100,34 +99,47 @@ class _UrdfError(Exception):
         self.hint = hint
 
 
+def parse_urdf(path: Path) -> tuple[str, ET.Element]:
+    """The text of a URDF and its elements.
+
+    Args:
+        path: The URDF; it is there.
+
+    Raises:
+        UrdfError: It cannot be read, or is not a URDF.
+    """
+    text = _read_text(path)
+    return text, _parsed(text)
+
+
 def _read_text(path: Path) -> str:
     try:
         with path.open("rb") as file:
             content = file.read(_LARGEST_BYTES + 1)
     except OSError as error:
-        raise _UrdfError(f"cannot be read: {error.strerror}") from None
+        raise UrdfError(f"cannot be read: {error.strerror}") from None
     if len(content) > _LARGEST_BYTES:
-        raise _UrdfError("is larger than 1 MiB", "a robot of primitive shapes needs a few KiB")
+        raise UrdfError("is larger than 1 MiB", "a robot of primitive shapes needs a few KiB")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise _UrdfError("is not UTF-8", "save the file as UTF-8") from None
+        raise UrdfError("is not UTF-8", "save the file as UTF-8") from None
 
 
 def _parsed(text: str) -> ET.Element:
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
-        raise _UrdfError("declares a document type or an entity", "remove the declaration")
+        raise UrdfError("declares a document type or an entity", "remove the declaration")
     try:
         root = ET.fromstring(text)  # noqa: S314 - entities and document types are refused above
     except ET.ParseError as error:
-        raise _UrdfError(f"is not XML: {error}") from None
+        raise UrdfError(f"is not XML: {error}") from None
     if root.tag != "robot":
-        raise _UrdfError(f"has the root element {shown(root.tag)}", "a URDF's root element is 'robot'")
+        raise UrdfError(f"has the root element {shown(root.tag)}", "a URDF's root element is 'robot'")
     level = [root]
     for _ in range(_DEEPEST_NESTING):
         level = [child for element in level for child in element]
     if level:
-        raise _UrdfError(f"is nested more than {_DEEPEST_NESTING} deep", "a URDF nests a handful of elements")
+        raise UrdfError(f"is nested more than {_DEEPEST_NESTING} deep", "a URDF nests a handful of elements")
     return root
 
 
@@ -145,10 +157,15 @@ def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Loc
         # One engine would silently assume one kilogram, another none.
         hint = "give it an <inertial> with both; a frame that is fixed and has no collision shape needs none"
         yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint
-    yield from _number_problems(root)
+    yield from number_problems(root)
 
 
-def _number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
+def number_problems(root: ET.Element) -> Iterable[tuple[str, Location, str]]:
+    """Attributes that must be numbers and are not: message, place in the naming file, hint.
+
+    Args:
+        root: The URDF.
+    """
     for part in (*root.findall("link"), *root.findall("joint")):
         for element in part.iter():
             for attribute, count in _NUMBERS.get(element.tag, {}).items():

@@ -18,6 +18,7 @@ from rgss.requirements import ArchitectureFile, ReviewsFile, RulesFile, Stakehol
 from rgss.scenes import (
     CalibrationDocument,
     GripperDocument,
+    LinkageGripperDocument,
     ParallelGripperDocument,
     RobotDocument,
     SceneDocument,
@@ -97,6 +98,7 @@ DOCUMENT_KINDS = (
         id="parallel-gripper", title="Parallel gripper", model=ParallelGripperDocument, place="scenes/grippers/"
     ),
     DocumentKind(id="vacuum-gripper", title="Vacuum gripper", model=VacuumGripperDocument, place="scenes/grippers/"),
+    DocumentKind(id="linkage-gripper", title="Linkage gripper", model=LinkageGripperDocument, place="scenes/grippers/"),
     DocumentKind(id="study", title="Study", model=StudyDocument, place="studies/"),
 )
 
@@ -109,6 +111,7 @@ _BY_KEY: Mapping[str, tuple[tuple[str, str], ...]] = {
         ("azimuths", "gripper"),
         ("mountings", "parallel-gripper"),
         ("cup", "vacuum-gripper"),
+        ("pads", "linkage-gripper"),
         ("servos", "calibration"),
         ("excitation", "excitation"),
         ("steps", "task"),

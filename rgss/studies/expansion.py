@@ -11,7 +11,7 @@ from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity
 from rgss.motion import ClockKind, PlanningClock
 from rgss.physics import PhysicsSettings
-from rgss.scenes import Gripper, at_top
+from rgss.scenes import Gripper, at_object
 from rgss.scenes.uncertainty import NOTHING_UNCERTAIN
 from rgss.studies.design_settings import GRIPPER, MOUNTING, PLANNER, TIME_LIMIT, default_values
 from rgss.studies.project import Project
@@ -100,7 +100,7 @@ def _spec(
         # What of its uncertainty counts is in the trial's own.
         scene=replace(project.scene, uncertainty=NOTHING_UNCERTAIN),
         gripper=Gripper(
-            geometry=at_top(mounted(file, values.get(MOUNTING), variant.id), project.scene.workpiece.shape),
+            geometry=at_object(mounted(file, values.get(MOUNTING), variant.id), project.scene),
             base_mass_kg=math.nan,
             finger_mass_kg=math.nan,
             finger_velocity_m_s=math.nan,

@@ -237,7 +237,10 @@ class _Reader:
                 hint = "copy the file into the project and name it"
                 self._findings.append(catalogue.document.finding("design.geometry", message, place, hint=hint))
             elif name and name not in shapes:
-                shape = self._try(lambda name=name: load_gripper_file(self._folder / name, label=name))  # type: ignore[misc]
+                shape = self._try(lambda name=name: self._gripper(name))  # type: ignore[misc]
                 if shape is not None:
                     shapes[name] = shape
         return shapes
+
+    def _gripper(self, name: str) -> GripperFile:
+        return load_gripper_file(self._folder / name, label=name, project=self._folder)

@@ -10,7 +10,7 @@ from rgss.documents import Document, read_document
 from rgss.engines import INSTALL
 from rgss.errors import DefinitionError
 from rgss.findings import Finding, Severity
-from rgss.scenes import GripperGeometry, Waypoint, at_top, misfit
+from rgss.scenes import GripperGeometry, Waypoint, at_object, misfit
 from rgss.studies.design_settings import GRIPPER
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import Project
@@ -79,7 +79,7 @@ def _pad_friction(project: Project, file: str) -> float:
     if project.scene.task.candidates is None:
         return 0.0
     specs = trial_specs(project, seeds=[project.study.seed])
-    geometries = {*project.grippers[file].mountings.values()}
+    geometries = {at_object(geometry, project.scene) for geometry in project.grippers[file].mountings.values()}
     return min(spec.gripper.friction for spec in specs if spec.gripper.geometry in geometries)
 
 
@@ -87,7 +87,7 @@ def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:
     """The first shape of a gripper that can hold the object; what cannot is found by its trials, at the grasp."""
     gripper, scene = project.grippers[file], project.scene
     held = (geometry for geometry in gripper.mountings.values() if not misfit(geometry, scene))
-    return at_top(next(held, gripper.geometry), scene.workpiece.shape)
+    return at_object(next(held, gripper.geometry), scene)
 
 
 class _Places:

@@ -29,6 +29,7 @@ DOCUMENTS = (
     "task",
     "parallel-gripper",
     "vacuum-gripper",
+    "linkage-gripper",
     "study",
 )
 

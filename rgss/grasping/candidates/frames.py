@@ -67,7 +67,7 @@ def depths_m(half_m: float, centre_m: float, heights: int, geometry: GripperGeom
         heights: How many places.
         geometry: The gripper's shape.
     """
-    palm_m = geometry.grasp_depth_m - geometry.base.height_m
+    palm_m = geometry.grasp_depth_m - geometry.palm_height_m
     low, high = max(-0.6 * half_m, half_m - palm_m + _LEAST_GAP_M), half_m
     if low > high:
         return ()

@@ -59,6 +59,11 @@ class MujocoWorld:
                 f"a rate of {settings.rate_hz:g} Hz is too low for contacts in MuJoCo",
                 hint=f"give {LEAST_MUJOCO_RATE_HZ:g} Hz or more",
             )
+        if gripper.geometry.linkage is not None:
+            raise DefinitionError(
+                f"MuJoCo's world has fingers that slide alone, gripper {gripper.geometry.id!r} has a linkage",
+                hint="leave the other engine out for this gripper",
+            )
         if gripper.suction is not None:
             raise DefinitionError(
                 f"MuJoCo's world has fingers alone, gripper {gripper.geometry.id!r} has a suction cup",

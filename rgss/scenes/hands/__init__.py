@@ -9,6 +9,9 @@ if TYPE_CHECKING:
     from rgss.scenes.hands.fit import flat_top_radius_m, misfit, too_narrow, too_wide
     from rgss.scenes.hands.gripper_kind import GripperKind
     from rgss.scenes.hands.kinds import GRIPPER_KINDS, kind_of_gripper
+    from rgss.scenes.hands.linkage_document import LinkageGripperDocument
+    from rgss.scenes.hands.linkage_fit import at_object, at_opening
+    from rgss.scenes.hands.linkage_gripper import LinkageGripper
     from rgss.scenes.hands.parallel_gripper import ParallelGripper, ParallelGripperDocument
     from rgss.scenes.hands.vacuum_gripper import VacuumGripper, VacuumGripperDocument, at_top
 else:

@@ -11,18 +11,19 @@ from rgss.errors import DocumentError
 from rgss.findings import shown
 from rgss.scenes.hands.finger_gripper import FingerGripper
 from rgss.scenes.hands.gripper_kind import GripperKind
+from rgss.scenes.hands.linkage_gripper import LinkageGripper
 from rgss.scenes.hands.parallel_gripper import ParallelGripper
 from rgss.scenes.hands.vacuum_gripper import VacuumGripper
 
 _FINGERS = FingerGripper()
 
-GRIPPER_KINDS: Mapping[str, GripperKind] = MappingProxyType(
-    {kind.name: kind for kind in (_FINGERS, ParallelGripper(), VacuumGripper())}
+GRIPPER_KINDS: Mapping[str, GripperKind | LinkageGripper] = MappingProxyType(
+    {kind.name: kind for kind in (_FINGERS, ParallelGripper(), VacuumGripper(), LinkageGripper())}
 )
 """The kinds by their names in files."""
 
 
-def kind_of_gripper(document: Document) -> GripperKind:
+def kind_of_gripper(document: Document) -> GripperKind | LinkageGripper:
     """The kind of a gripper file; that of prismatic fingers where the file names none.
 
     Args:

@@ -209,7 +209,7 @@ class BenchSpec:
                 f"which opens to {geometry.largest_opening_m:g} m",
                 hint="take a thinner object or a gripper that opens wider",
             )
-        palm_m = geometry.grasp_depth_m - geometry.base.height_m
+        palm_m = geometry.grasp_depth_m - geometry.palm_height_m
         if self.shape.half_height_m >= palm_m:
             raise DefinitionError(
                 f"an object of height {self.shape.height_m:g} m gripped at its centre meets the base of "

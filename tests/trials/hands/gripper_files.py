@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rgss.scenes import Cylinder, Gripper, at_top, load_gripper_file
+from rgss.scenes import Cylinder, Gripper, at_opening, at_top, load_gripper_file
 
 FILES = {
     "fingers": """\
@@ -47,12 +47,24 @@ base: {radius: 30 mm, height: 60 mm, mass: 250 g}
 cup: {radius: 10 mm, length: 25 mm, normal_force: 15 N, tangential_force: 8 N, largest_gap: 3 mm, largest_angle: 5 deg,
       leak: 10 %, build_up: 100 ms, release: 150 ms}
 """,
+    "linkage": """\
+gripper: two-finger
+kind: linkage
+description: two_finger.urdf
+pads: [left_tip, right_tip]
+grasp_from_tip: 15 mm
+speed: 40 mm/s
+friction: 0.7
+""",
 }
+
+TWO_FINGER = Path(__file__).with_name("two_finger.urdf")
+"""Two cranks that a joint turns alike, each with a tip that is turned back: parallel pads that move along arcs."""
 
 HELD = Cylinder(radius_m=0.015, height_m=0.04)
 """An object that each of them can hold."""
 
-UNFIT = {"fingers": 0.004, "parallel": 0.007, "open-loop": 0.007, "vacuum": 0.007}
+UNFIT = {"fingers": 0.004, "parallel": 0.007, "open-loop": 0.007, "vacuum": 0.007, "linkage": 0.006}
 """Radius of an object that each of them can be put over and cannot hold."""
 
 
@@ -60,10 +72,11 @@ def gripper_of(folder: Path, name: str, shape: Cylinder = HELD) -> Gripper:
     """The gripper of a file for an object."""
     path = folder / f"{name}.yaml"
     path.write_text(FILES[name], encoding="utf-8")
+    (folder / TWO_FINGER.name).write_bytes(TWO_FINGER.read_bytes())
     file = load_gripper_file(path)
     values = {key.removeprefix("gripper."): value for key, value in file.settings.items() if isinstance(value, float)}
     return Gripper(
-        geometry=at_top(file.geometry, shape),
+        geometry=at_opening(at_top(file.geometry, shape), shape.radius_m),
         base_mass_kg=values["base.mass"],
         finger_mass_kg=values["finger.mass"],
         finger_velocity_m_s=values["finger.speed"],

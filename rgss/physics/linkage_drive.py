@@ -1,0 +1,154 @@
+"""Drive of a gripper's linkage in PyBullet: a motor on the driven joint, gears to the joints that follow it.
+
+A gear of the engine holds two joints at a ratio as a constraint of the solver. Each joint is geared to the driven one
+itself: along a chain of gears errors add up and the solver converges more slowly. The gears pass the motor's effort to
+both pads, so a pad's force follows from the mechanism; they need more iterations of the solver than fingers that slide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from rgss.scenes import Linkage, LinkageMotion, link_names_of
+
+LEAST_ITERATIONS = 600
+"""Iterations of the solver with which the joints of a linkage follow within `docs/grippers.md`'s bound."""
+
+_GEAR_FORCE = 1.0e4
+_GEAR_CORRECTION = 0.2
+
+
+class LinkageDrive:
+    """The joints of one linkage in a physics client."""
+
+    def __init__(
+        self, engine: Any, client: int, robot: int, linkage: Linkage, joints: Mapping[str, int], *, step_s: float
+    ) -> None:
+        """Gear the joints together.
+
+        Args:
+            engine: The engine's module.
+            client: The physics client.
+            robot: The robot's body.
+            linkage: The mechanism.
+            joints: Numbers of the engine's joints by their names.
+            step_s: Length of a step.
+        """
+        self._engine, self._client, self._robot = engine, client, robot
+        self._step_s = step_s
+        self._linkage, self._motion = linkage, LinkageMotion(linkage)
+        names = link_names_of(linkage)
+        self._joints = {
+            index: joints[f"{names[index]}_joint"] for index, link in enumerate(linkage.links) if link.kind is not None
+        }
+        self._driven = self._joints[linkage.driven]
+        self._towards = 1.0 if linkage.closed > linkage.opened else -1.0
+        self._command: tuple[float, float] | None = None
+        for joint in self._joints.values():
+            # The engine's default motors would brake the joints.
+            engine.setJointMotorControl2(robot, joint, engine.VELOCITY_CONTROL, force=0.0, physicsClientId=client)
+        for index in self._joints:
+            if index != linkage.driven:
+                self._gear(index)
+
+    @property
+    def largest_error(self) -> float:
+        """Greatest difference of a joint from where it should follow the driven one, in rad or m."""
+        driven = self._position(self._driven)
+        return max(
+            abs(self._position(joint) - self._linkage.joint_position(index, driven))
+            for index, joint in self._joints.items()
+        )
+
+    def reset(self, travel_m: float) -> None:
+        """Put the mechanism at rest where each pad has a travel from open.
+
+        Args:
+            travel_m: The travel.
+        """
+        driven = self._motion.driven_at(travel_m)
+        for index, joint in self._joints.items():
+            position = self._linkage.joint_position(index, driven)
+            self._engine.resetJointState(self._robot, joint, position, 0.0, physicsClientId=self._client)
+
+    def hold(self, travel_m: float, *, stiff: bool = False) -> None:
+        """Hold the mechanism where each pad has a travel from open.
+
+        Args:
+            travel_m: The travel.
+            stiff: Whether a motor of unlimited effort holds each joint, as where nothing is touched.
+        """
+        self._command = None
+        driven = self._motion.driven_at(travel_m)
+        for index, joint in self._joints.items() if stiff else ((self._linkage.driven, self._driven),):
+            self._engine.setJointMotorControl2(
+                self._robot,
+                joint,
+                self._engine.POSITION_CONTROL,
+                targetPosition=self._linkage.joint_position(index, driven),
+                targetVelocity=0.0,
+                force=_GEAR_FORCE if stiff else self._linkage.effort,
+                physicsClientId=self._client,
+            )
+
+    def drive(self, velocity_m_s: float, force_n: float) -> None:
+        """Move each pad at a velocity (positive closes) with at most a force, from now on.
+
+        Args:
+            velocity_m_s: Velocity of each pad.
+            force_n: Force of each pad; the effort of the driven joint limits it.
+        """
+        self._command = (velocity_m_s, force_n)
+        self.before_step()
+
+    def before_step(self) -> None:
+        """Set the motor by the Jacobian where the mechanism is: torque 2 J F, speed v / J."""
+        if self._command is None:
+            return
+        velocity_m_s, force_n = self._command
+        linkage, driven = self._linkage, self._position(self._driven)
+        transmission = self._motion.transmission(driven)
+        end = linkage.closed if velocity_m_s >= 0.0 else linkage.opened
+        # The engine's own stop yields to the motor by a tenth of a millimetre and more.
+        left = abs(end - driven) / self._step_s if (end - driven) * self._towards * velocity_m_s > 0.0 else 0.0
+        speed = min(abs(velocity_m_s) / transmission, linkage.speed, left)
+        self._engine.setJointMotorControl2(
+            self._robot,
+            self._driven,
+            self._engine.VELOCITY_CONTROL,
+            targetVelocity=self._towards * (speed if velocity_m_s >= 0.0 else -speed),
+            force=min(len(linkage.pads) * transmission * force_n, linkage.effort),
+            physicsClientId=self._client,
+        )
+
+    def travel_m(self) -> tuple[float, ...]:
+        """Travel of each pad from open, by the driven joint."""
+        travel_m = self._motion.travel_m(self._position(self._driven))
+        return (travel_m,) * len(self._linkage.pads)
+
+    def _position(self, joint: int) -> float:
+        return float(self._engine.getJointState(self._robot, joint, self._client)[0])
+
+    def _gear(self, index: int) -> None:
+        engine, robot, link = self._engine, self._robot, self._linkage.links[index]
+        joint = self._joints[index]
+        gear = engine.createConstraint(
+            robot,
+            self._driven,
+            robot,
+            joint,
+            engine.JOINT_GEAR,
+            [1, 0, 0],
+            [0, 0, 0],
+            [0, 0, 0],
+            physicsClientId=self._client,
+        )
+        engine.changeConstraint(
+            gear,
+            gearRatio=-1.0 / link.multiplier,
+            relativePositionTarget=-link.offset / link.multiplier,
+            maxForce=_GEAR_FORCE,
+            erp=_GEAR_CORRECTION,
+            physicsClientId=self._client,
+        )

@@ -1,0 +1,47 @@
+"""Gripper at the object: the grasp centre depends on the object's top for a cup, and on its width for a linkage."""
+
+from __future__ import annotations
+
+from rgss.scenes.gripper import GripperGeometry
+from rgss.scenes.hands.linkage_gripper import linkage_geometry
+from rgss.scenes.hands.vacuum_gripper import at_top
+from rgss.scenes.linkage import LinkageMotion
+from rgss.scenes.objects import grasp_opening_m
+from rgss.scenes.scene import Scene
+from rgss.scenes.shapes import half_extents_m
+
+_ROUNDS = 3
+
+
+def at_object(geometry: GripperGeometry, scene: Scene) -> GripperGeometry:
+    """A gripper whose grasp centre is where its pads or its cup hold the object; sliding fingers as they are.
+
+    The pads of a linkage may move along the tool axis while they close. Where grasps are chosen among candidates, the
+    width is the object's least.
+
+    Args:
+        geometry: The gripper's shape.
+        scene: The scene, with the object as its workpiece.
+    """
+    if geometry.linkage is None:
+        return at_top(geometry, scene.workpiece.shape)
+    for _ in range(_ROUNDS):
+        if scene.task.candidates is not None and scene.task.grasp is None:
+            opening_m = min(half_extents_m(scene.workpiece.shape)[:2])
+        else:
+            opening_m = grasp_opening_m(scene, geometry)
+        geometry = at_opening(geometry, opening_m)
+    return geometry
+
+
+def at_opening(geometry: GripperGeometry, opening_m: float) -> GripperGeometry:
+    """A gripper whose grasp centre is where its pads are at an opening; sliding fingers as they are.
+
+    Args:
+        geometry: The gripper's shape.
+        opening_m: Distance of the pads from the tool axis.
+    """
+    if geometry.linkage is None:
+        return geometry
+    motion = LinkageMotion(geometry.linkage)
+    return linkage_geometry(geometry, geometry.linkage, motion.driven_at(motion.largest_opening_m - opening_m))

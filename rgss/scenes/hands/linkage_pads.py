@@ -1,0 +1,205 @@
+"""Pads of a linkage: which face of each named link touches an object, and whether the two close on one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from rgss.scenes.findings import Location
+from rgss.scenes.linkage import Linkage, LinkageLink, LinkagePad, Triple
+from rgss.scenes.pose import Pose
+
+Problem = tuple[str, Location, str]
+
+_SAMPLES = 32
+_LARGEST_TURN_RAD = math.radians(1.0)
+_LEAST_STROKE_M = 1.0e-3
+_LEAST_PAD_M = 4.0e-3
+_TOLERANCE_M = 1.0e-3
+_FACE_M = 6.0e-4
+_LARGEST_M = 1.0
+_LARGEST_KG = 50.0
+_HALVINGS = 60
+
+
+class PadError(Exception):
+    """The pads of a mechanism hold nothing; the message follows the name of the URDF.
+
+    Attributes:
+        problem: Message, place in the gripper file and hint.
+    """
+
+    def __init__(self, message: str, location: Location, hint: str) -> None:
+        super().__init__(message)
+        self.problem: Problem = (message, location, hint)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrivenRange:
+    """What a URDF says of the driven joint.
+
+    Attributes:
+        link: Index of the link that it carries.
+        lower: Its least position in rad or m.
+        upper: Its greatest position.
+        effort: Its greatest torque in N·m or force in N.
+        speed: Its greatest speed.
+    """
+
+    link: int
+    lower: float
+    upper: float
+    effort: float
+    speed: float
+
+
+def linkage_of(links: tuple[LinkageLink, ...], pads: tuple[int, int], driven: DrivenRange) -> Linkage:
+    """The mechanism, with its open and closed ends and the faces of its pads.
+
+    Args:
+        links: The links, each after the one that carries it.
+        pads: Indices of the links that have the pads.
+        driven: The driven joint.
+
+    Raises:
+        PadError: The pads do not close on an object along the tool axis.
+    """
+    bare = Linkage(
+        links=links,
+        pads=(),
+        driven=driven.link,
+        opened=driven.lower,
+        closed=driven.upper,
+        effort=driven.effort,
+        speed=driven.speed,
+    )
+    _require_metres(bare)
+    for index in pads:
+        if not links[index].hulls_m:
+            raise PadError(
+                f"has no collision shape for the pad {links[index].name!r}", ("pads",), "give the link its shape"
+            )
+    outward, opens_low = _outward(bare, pads)
+    if not opens_low:
+        bare = replace(bare, opened=driven.upper, closed=driven.lower)
+    azimuth = math.atan2(outward[1], outward[0])
+    found = tuple(_face(bare, index, angle) for index, angle in zip(pads, (azimuth, azimuth + math.pi), strict=True))
+    return _closing(replace(bare, pads=found))
+
+
+def _require_metres(linkage: Linkage) -> None:
+    poses = linkage.link_poses((linkage.opened + linkage.closed) / 2)
+    for pose, link in zip(poses, linkage.links, strict=True):
+        places = [pose.position_m, *(_moved(pose, corner) for hull in link.hulls_m for corner in hull)]
+        far_m = max(max(map(abs, place)) for place in places)
+        if far_m > _LARGEST_M:
+            message = f"puts a part of the link {link.name!r} {far_m:.4g} m from the flange"
+            hint = "lengths of a URDF are metres; write millimetres as metres, and scale meshes by 0.001"
+            raise PadError(message, ("description",), hint)
+        if link.mass_kg > _LARGEST_KG:
+            message = f"gives the link {link.name!r} {link.mass_kg:.4g} kg"
+            raise PadError(message, ("description",), "masses of a URDF are kilograms")
+
+
+def _outward(linkage: Linkage, pads: tuple[int, int]) -> tuple[tuple[float, float], bool]:
+    """Direction from the second pad to the first, across the tool axis, and whether the lower end is open."""
+    low, high = linkage.link_poses(linkage.opened), linkage.link_poses(linkage.closed)
+    names = [linkage.links[index].name for index in pads]
+    ends = []
+    for index, name in zip(pads, names, strict=True):
+        turn = low[index].inverse() @ high[index]
+        angle = 2 * math.acos(min(1.0, abs(turn.quaternion_xyzw[3])))
+        if angle > _LARGEST_TURN_RAD:
+            message = f"turns the pad {name!r} by {math.degrees(angle):.3g} deg over the stroke"
+            raise PadError(message, ("pads", names.index(name)), "pads must stay parallel; let a joint turn them back")
+        middle = _middle(linkage.links[index])
+        ends.append((_moved(low[index], middle), _moved(high[index], middle)))
+    (one_low, one_high), (other_low, other_high) = ends
+    apart_low = [a - b for a, b in zip(one_low[:2], other_low[:2], strict=True)]
+    apart_high = [a - b for a, b in zip(one_high[:2], other_high[:2], strict=True)]
+    x, y = (a - b for a, b in zip(apart_high, apart_low, strict=True))
+    way_m = math.hypot(x, y)
+    if way_m < 2 * _LEAST_STROKE_M:
+        message = (
+            f"never lets the pads {names[0]!r} and {names[1]!r} meet: they stay {math.hypot(*apart_low):.4g} m apart"
+        )
+        raise PadError(message, ("pads",), "name the links that close on an object, and check multipliers of <mimic>")
+    x, y = x / way_m, y / way_m
+    at_low, at_high = (x * apart[0] + y * apart[1] for apart in (apart_low, apart_high))
+    opens_low = abs(at_low) > abs(at_high)
+    sign = math.copysign(1.0, at_low if opens_low else at_high)
+    return (sign * x, sign * y), opens_low
+
+
+def _face(linkage: Linkage, index: int, azimuth: float) -> LinkagePad:
+    """The innermost face of a link, seen from the tool axis."""
+    link, pose = linkage.links[index], linkage.link_poses(linkage.opened)[index]
+    x, y = math.cos(azimuth), math.sin(azimuth)
+    corners = [_moved(pose, corner) for hull in link.hulls_m for corner in hull]
+    depths = [x * px + y * py for px, py, _ in corners]
+    inner = min(depths)
+    face = [corner for corner, depth in zip(corners, depths, strict=True) if depth < inner + _FACE_M]
+    across = [y * -px + x * py for px, py, _ in face]
+    along = [pz for _, _, pz in face]
+    width, length = max(across) - min(across), max(along) - min(along)
+    if min(width, length) < _LEAST_PAD_M:
+        message = f"has no flat face of 4 mm on the pad {link.name!r}: {width * 1e3:.3g} mm x {length * 1e3:.3g} mm"
+        raise PadError(message, ("pads",), "give the collision shape a face that is parallel to the tool axis")
+    aside, height = (max(across) + min(across)) / 2, (max(along) + min(along)) / 2
+    place = (inner * x - aside * y, inner * y + aside * x, height)
+    frame = pose.inverse() @ Pose.from_roll_pitch_yaw(place, (0.0, 0.0, azimuth))
+    return LinkagePad(link=index, frame=frame, size_m=(max(depths) - inner, width, length))
+
+
+def _closing(linkage: Linkage) -> Linkage:
+    """The linkage with its stroke ended where the pads meet, after a check that both close alike on the tool axis."""
+    names = " and ".join(repr(linkage.links[pad.link].name) for pad in linkage.pads)
+    hint = "put the palm where it belongs under 'mount', with z out of the arm and the pads on both sides of the axis"
+    span = linkage.closed - linkage.opened
+    opened = [linkage.opened + span * index / _SAMPLES for index in range(_SAMPLES + 1)]
+    openings = [linkage.opening_m(driven) for driven in opened]
+    for driven in opened:
+        one, other = linkage.pad_poses(driven)
+        beside_m = math.hypot(*((a + b) / 2 for a, b in zip(one.position_m[:2], other.position_m[:2], strict=True)))
+        if beside_m > _TOLERANCE_M:
+            raise PadError(f"closes the pads {names} {beside_m * 1e3:.3g} mm beside the tool axis", ("mount",), hint)
+        offset_m = abs(one.position_m[2] - other.position_m[2])
+        if offset_m > _TOLERANCE_M:
+            raise PadError(f"has the pads {names} {offset_m * 1e3:.3g} mm apart along the axis", ("pads",), hint)
+    if openings[0] <= _LEAST_STROKE_M:
+        message = f"never opens the pads {names}"
+        raise PadError(message, ("pads",), "their inner faces must face each other")
+    end = next((index for index, opening in enumerate(openings) if opening < 0.0), None)
+    if end is not None:
+        linkage = replace(linkage, closed=_meeting(linkage, opened[end - 1], opened[end]))
+        openings = openings[: end + 1]
+    if any(later >= before for before, later in pairwise(openings)):
+        message = f"lets the pads {names} approach and part again"
+        raise PadError(message, ("description",), "limit the driven joint to the way on which they approach")
+    if linkage.opening_m(linkage.opened) - linkage.opening_m(linkage.closed) < _LEAST_STROKE_M:
+        raise PadError(f"moves the pads {names} by less than 1 mm", ("pads",), "name the links that close on an object")
+    return linkage
+
+
+def _meeting(linkage: Linkage, apart: float, crossed: float) -> float:
+    """Position of the driven joint at which the pads touch each other, by bisection."""
+    for _ in range(_HALVINGS):
+        middle = (apart + crossed) / 2
+        if linkage.opening_m(middle) < 0.0:
+            crossed = middle
+        else:
+            apart = middle
+    return apart
+
+
+def _middle(link: LinkageLink) -> Triple:
+    corners: Sequence[Triple] = [corner for hull in link.hulls_m for corner in hull]
+    x, y, z = (math.fsum(corner[axis] for corner in corners) / len(corners) for axis in range(3))
+    return x, y, z
+
+
+def _moved(pose: Pose, point: Triple) -> Triple:
+    (x, y, z), (dx, dy, dz) = pose.position_m, pose.rotate(point)
+    return x + dx, y + dy, z + dz

@@ -1,0 +1,128 @@
+"""The drive of a linkage: joints follow within a bound, and pads press with what virtual work gives."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from rgss.errors import DefinitionError
+from rgss.kinematics import gripper_loads
+from rgss.physics import PhysicsSettings, open_world
+from rgss.physics.linkage_drive import LEAST_ITERATIONS
+from rgss.scenes import LinkageMotion
+from rgss.trials.payload_bench.of_trial import payload_bench
+from rgss.trials.payload_bench.rig import PayloadRig
+from rgss.trials.second_engine import mujoco_settings
+from tests.trials.hands.gripper_files import HELD, gripper_of
+
+MASS_KG = 0.3
+
+
+@pytest.fixture
+def bench(spec_of, tmp_path):
+    """Makes the bench of the cranks with an object, at a rate and with other forces of the pads."""
+
+    def make(rate_hz=240.0, force_n=None):
+        spec = spec_of()
+        gripper = gripper_of(tmp_path, "linkage")
+        if force_n is not None:
+            gripper = replace(gripper, finger_force_n=force_n)
+        scene = replace(spec.scene, workpiece=replace(spec.scene.workpiece, shape=HELD))
+        bench = payload_bench(replace(spec, gripper=gripper, scene=scene))
+        return replace(bench, physics=PhysicsSettings(rate_hz=rate_hz))
+
+    return make
+
+
+# As docs/grippers.md states them: rad by which a joint is off while an object is closed on and held.
+@pytest.mark.parametrize(("rate_hz", "bound_rad"), [(240.0, 2e-3), (960.0, 5e-5)])
+def test_joints_follow_while_the_hand_closes_and_holds(bench, rate_hz, bound_rad):
+    with PayloadRig(bench(rate_hz), MASS_KG) as rig:
+        world, worst_rad = rig._world, 0.0
+        step = world.step
+
+        def watched():
+            nonlocal worst_rad
+            step()
+            worst_rad = max(worst_rad, world.follow_error)
+
+        world.step = watched
+        rig.grasp()
+        rig.accelerate(1.0, 0.3)
+
+    assert rig.stopped_by is None
+    assert 0.0 < worst_rad < bound_rad
+
+
+@pytest.mark.parametrize("force_n", [6.0, 15.0])
+def test_pads_press_with_what_virtual_work_gives(bench, force_n):
+    """Torque 2 J F balances the pads' force F; what hangs on the mechanism adds its share along the arcs."""
+    spec = bench(960.0, force_n)
+    linkage = spec.gripper.geometry.linkage
+    with PayloadRig(spec, MASS_KG) as rig:
+        rig.grasp()
+        rig.accelerate(0.5, 0.2)
+        rig.accelerate(0.0, 0.3)
+        sums_n = []
+        for _ in range(20):
+            rig.accelerate(0.0, 0.01)
+            sums_n.append(rig.contacts().finger_force_sum_n)
+
+    motion = LinkageMotion(linkage)
+    driven = motion.driven_at(motion.largest_opening_m - HELD.radius_m)
+    small = 1e-4
+    arm_m = motion.transmission(driven)
+    lowered_m = (linkage.depth_m(driven + small) - linkage.depth_m(driven - small)) / (2 * small)
+    loads = [
+        gripper_loads(spec.gripper, motion.largest_opening_m - motion.travel_m(at))
+        for at in (driven - small, driven + small)
+    ]
+    work = math.fsum(
+        after.mass_kg * (after.pose.position_m[2] - before.pose.position_m[2]) / (2 * small)
+        for before, after in zip(*loads, strict=True)
+    )
+    weights_n_m = spec.gravity_m_s2 * (MASS_KG * lowered_m + work)
+    expected_n = 2 * force_n + weights_n_m / arm_m
+
+    assert sum(sums_n) / len(sums_n) == pytest.approx(expected_n, rel=0.005)
+    # The share of the weights is no noise.
+    assert abs(expected_n - 2 * force_n) > 0.2
+
+
+def test_the_effort_of_the_joint_limits_the_force(bench):
+    strong = bench(240.0, 100.0)
+    linkage = strong.gripper.geometry.linkage
+    motion = LinkageMotion(linkage)
+    driven = motion.driven_at(motion.largest_opening_m - HELD.radius_m)
+    with PayloadRig(replace(strong, force_limit_n=1e3), MASS_KG) as rig:
+        world = rig._world
+        world.drive_fingers(0.04, 100.0)
+        for _ in range(240):
+            world.step()
+        pressed_n = world.contacts().finger_force_sum_n
+
+    assert pressed_n == pytest.approx(linkage.effort / motion.transmission(driven), rel=0.05)
+
+
+def test_the_solver_takes_the_iterations_that_gears_need(bench):
+    assert bench().physics.solver_iterations < LEAST_ITERATIONS
+
+
+def test_loads_are_the_masses_of_the_links(tmp_path):
+    gripper = replace(gripper_of(tmp_path, "linkage"), base_mass_kg=1.2, finger_mass_kg=0.18)
+    loads = gripper_loads(gripper, gripper.geometry.largest_opening_m)
+
+    # Twice what the URDF has of the palm, and twice of what moves.
+    assert [load.mass_kg for load in loads] == pytest.approx([1.2, 0.08, 0.08, 0.1, 0.1])
+    assert math.fsum(load.mass_kg for load in loads) == pytest.approx(gripper.mass_kg)
+    crank, tip = loads[1], loads[3]
+    assert crank.pose.position_m == pytest.approx((0.012 + 0.01625, 0.0, 0.07 + 0.02315))
+    assert tip.pose.position_m == pytest.approx((0.0445 + 0.005, 0.0, 0.1163 + 0.025))
+    assert sorted(tip.moments_kg_m2) == pytest.approx([6e-6, 2.4e-5, 2.6e-5])
+
+
+def test_mujoco_has_no_linkages(spec_of, tmp_path):
+    with pytest.raises(DefinitionError, match="fingers that slide alone, gripper 'two-finger' has a linkage"):
+        open_world(spec_of().scene, gripper_of(tmp_path, "linkage"), mujoco_settings())
