@@ -199,7 +199,7 @@ class World(ClientOwner):
         self._attend(scene.workpiece.id)
         self._renewed_at = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)[1]
         self._reader = self._reader_of_workpiece()
-        self._seal = self._seal_on(self._workpiece, scene.workpiece)
+        self._seal = self._seal_on(self._workpiece, scene)
 
     def object_pose(self, name: str) -> Pose:
         """Transform of an object's shape to the world.
@@ -338,4 +338,4 @@ class World(ClientOwner):
         self._reader = self._reader_of_workpiece()
         builder.set_robot_dynamics(self._robot, index)
         self._seal_on = partial(builder.seal, self._robot, index)
-        self._seal = self._seal_on(self._workpiece, self.scene.workpiece)
+        self._seal = self._seal_on(self._workpiece, self.scene)
