@@ -14,7 +14,7 @@ import math
 from collections import deque
 from typing import Any
 
-from rgss.scenes import Gripper, Pose, Suction, Workpiece, flat_top_radius_m
+from rgss.scenes import Gripper, Pose, Suction, SuctionPoint
 
 _BOND_SHARE = 2.0
 _WINDOW_S = 0.02
@@ -38,7 +38,7 @@ class SuctionSeal:
         robot: int,
         cup_link: int,
         body: int,
-        workpiece: Workpiece,
+        point: SuctionPoint,
         gripper: Gripper,
         suction: Suction,
         step_s: float,
@@ -51,7 +51,7 @@ class SuctionSeal:
             robot: The robot's body.
             cup_link: Link of the cup.
             body: The workpiece's body.
-            workpiece: The workpiece, with an even top.
+            point: Where the cup is meant to seal on the workpiece.
             gripper: The gripper with its greatest normal force.
             suction: What the cup seals on and holds.
             step_s: Length of a step.
@@ -60,7 +60,7 @@ class SuctionSeal:
         self.fault = ""
         self._engine, self._client = engine, client
         self._robot, self._link, self._body = robot, cup_link, body
-        self._workpiece, self._gripper, self._suction, self._step_s = workpiece, gripper, suction, step_s
+        self._point, self._gripper, self._suction, self._step_s = point, gripper, suction, step_s
         cup = gripper.geometry.cup
         self._radius_m = 0.0 if cup is None else cup.radius_m
         self._half_length_m = 0.0 if cup is None else cup.half_height_m
@@ -99,7 +99,6 @@ class SuctionSeal:
         if self._on_s is None:
             return
         lip = flange @ self._gripper.geometry.lip
-        top = workpiece @ Pose(position_m=(0.0, 0.0, self._workpiece.shape.half_height_m))
         if not math.isinf(self._off_s):
             self._off_s += self._step_s
             if self._off_s >= self._suction.release_s - 1e-9:
@@ -107,7 +106,7 @@ class SuctionSeal:
                 self._on_s = None
             return
         if self._bond is None:
-            self.fault = self._misplaced(lip, top)
+            self.fault = self._misplaced(lip, workpiece)
             if self.fault:
                 self._on_s, self.force_n = 0.0, 0.0
                 return
@@ -121,20 +120,20 @@ class SuctionSeal:
             # While the vacuum builds up the object stands on its support, and comes to rest there.
             self._seal()
 
-    def _misplaced(self, lip: Pose, top: Pose) -> str:
+    def _misplaced(self, lip: Pose, workpiece: Pose) -> str:
         """Why the cup cannot seal where it is; empty where it can."""
-        suction, offset = self._suction, lip.inverse() @ top
-        x, y, z = offset.position_m
-        _, _, along = offset.rotate((0.0, 0.0, 1.0))
+        suction, point, workpiece_to_lip = self._suction, self._point, lip.inverse() @ workpiece
+        x, y, z = (workpiece_to_lip @ Pose(position_m=point.position_m)).position_m
+        _, _, along = workpiece_to_lip.rotate(point.normal)
         angle_rad = math.acos(max(-1.0, min(1.0, -along)))
-        aside_m, room_m = math.hypot(x, y), flat_top_radius_m(self._workpiece.shape) - self._radius_m
+        aside_m, room_m = math.hypot(x, y), point.room_m - self._radius_m
         if room_m < 0.0 or aside_m > room_m:
-            return f"the cup is {aside_m * 1e3:.1f} mm off the centre of a top that leaves it {room_m * 1e3:.1f} mm"
+            return f"the cup is {aside_m * 1e3:.1f} mm off its place on a face that leaves it {room_m * 1e3:.1f} mm"
         if abs(z) > suction.largest_gap_m:
             return f"the cup is {z * 1e3:.1f} mm above the object, it seals within {suction.largest_gap_m * 1e3:g} mm"
         if angle_rad > suction.largest_angle_rad:
             largest = math.degrees(suction.largest_angle_rad)
-            return f"the cup is tilted by {math.degrees(angle_rad):.1f}° against the top, it seals within {largest:g}°"
+            return f"the cup is tilted by {math.degrees(angle_rad):.1f}° against the face, it seals within {largest:g}°"
         return ""
 
     def _seal(self) -> None:

@@ -214,7 +214,7 @@ class World(ClientOwner):
         self._attend(scene.workpiece.id)
         self._renewed_at = self._engine.getBasePositionAndOrientation(self._workpiece, self._client)[1]
         self._reader = self._reader_of_workpiece()
-        self._seal = self._seal_on(self._workpiece, scene.workpiece)
+        self._seal = self._seal_on(self._workpiece, scene)
 
     def object_pose(self, name: str) -> Pose:
         """Transform of an object's shape to the world.
@@ -362,4 +362,4 @@ class World(ClientOwner):
         self._solver_iterations = builder.solver_iterations
         self._linkage = builder.linkage_drive(self._robot, index)
         self._seal_on = partial(builder.seal, self._robot, index)
-        self._seal = self._seal_on(self._workpiece, self.scene.workpiece)
+        self._seal = self._seal_on(self._workpiece, self.scene)

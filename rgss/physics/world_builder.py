@@ -25,11 +25,11 @@ from rgss.scenes import (
     Pose,
     Scene,
     SceneObject,
-    Workpiece,
     assembled_urdf,
     finger_joint,
     most_elements,
     pad_layouts,
+    suction_point_of,
 )
 
 _GEAR_FORCE_N = 1.0e4
@@ -220,8 +220,8 @@ class WorldBuilder:
             return None
         return LinkageDrive(self.engine, self.client, robot, linkage, index.joints, step_s=self.settings.step_s)
 
-    def seal(self, robot: int, index: RobotIndex, body: int, workpiece: Workpiece) -> SuctionSeal | None:
-        """The seal of a suction cup on an object; None for a gripper with fingers."""
+    def seal(self, robot: int, index: RobotIndex, body: int, scene: Scene) -> SuctionSeal | None:
+        """The seal of a suction cup on the workpiece of a scene; None for a gripper with fingers."""
         suction = self.gripper.suction
         if suction is None or index.cup is None:
             return None
@@ -231,7 +231,7 @@ class WorldBuilder:
             robot=robot,
             cup_link=index.cup,
             body=body,
-            workpiece=workpiece,
+            point=suction_point_of(scene),
             gripper=self.gripper,
             suction=suction,
             step_s=self.settings.step_s,

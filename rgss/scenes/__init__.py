@@ -18,6 +18,7 @@ from rgss.scenes.grasps import (
     PadElement,
     PadLayout,
     PadPatch,
+    SuctionPoint,
     TakenGrasp,
     most_elements,
     pad_layouts,
@@ -38,6 +39,7 @@ from rgss.scenes.hands import (
     at_top,
     flat_top_radius_m,
     misfit,
+    suction_point_of,
     too_narrow,
     too_wide,
 )

@@ -80,7 +80,7 @@ def _pad_friction(project: Project, file: str) -> float:
         return 0.0
     specs = trial_specs(project, seeds=[project.study.seed])
     geometries = {at_object(geometry, project.scene) for geometry in project.grippers[file].mountings.values()}
-    return min(spec.gripper.friction for spec in specs if spec.gripper.geometry in geometries)
+    return min(spec.gripper.grip_coefficient(1.0) for spec in specs if spec.gripper.geometry in geometries)
 
 
 def _mounting_that_holds(project: Project, file: str) -> GripperGeometry:

@@ -77,7 +77,11 @@ def cell_of(spec: TrialSpec) -> Workcell:
     perceived, clearance_m = conditions_of(spec).perceived_scene, spec.settings.planning.clearance_m
     if perceived.task.candidates is not None:
         perceived = grasp_search_of(
-            perceived, spec.gripper.geometry, friction=spec.gripper.friction, clearance_m=clearance_m, task=spec.task
+            perceived,
+            spec.gripper.geometry,
+            friction=spec.gripper.grip_coefficient(1.0),
+            clearance_m=clearance_m,
+            task=spec.task,
         ).scene
     return workcell_of(perceived, spec.gripper.geometry, clearance_m, spec.task)
 

@@ -154,11 +154,20 @@ def _print_chosen_grasp(record: Any) -> None:
     metrics = next((phase.metrics for phase in record.phases if "chosen_grasp_rank" in phase.metrics), None)
     if metrics is None:
         return
-    at, opening = metrics["chosen_grasp_position_m"], metrics["chosen_grasp_opening_m"]
+    at, opening = metrics["chosen_grasp_position_m"], metrics.get("chosen_grasp_opening_m")
     place = ", ".join(number(value * 1e3, 1) for value in at if value is not None) if isinstance(at, tuple) else ""
+    chosen = f"Grasp: candidate {metrics['chosen_grasp_rank']} of {metrics['chosen_grasp_candidates']}, "
+    if "chosen_grasp_weight_1" in metrics:
+        room = metrics["chosen_grasp_room_m"]
+        print(
+            f"{chosen}cup {number(room * 1e3 if isinstance(room, float) else None, 1)} mm from the edge of its face, "
+            f"grasp centre at ({place}) mm in the object, bears {number(metrics['chosen_grasp_weight_1'], 3)} N of "
+            "weight per N of vacuum"
+        )
+        return
     width = number(2e3 * opening, 1) if isinstance(opening, float) else ""
     print(
-        f"Grasp: candidate {metrics['chosen_grasp_rank']} of {metrics['chosen_grasp_candidates']}, centre at "
+        f"{chosen}centre at "
         f"({place}) mm in the object, pads {width} mm apart, smallest maximum wrench "
         f"{number(metrics['chosen_grasp_smw_1'], 3)} N per N"
     )

@@ -1,8 +1,8 @@
 """Grasp candidates of an object, from its shape or its file, with their contacts and quality."""
 
 from rgss.grasping.candidates.frames import ToolFrame, approach_of
-from rgss.grasping.candidates.hand import SuctionHand
 from rgss.grasping.candidates.ranking import RankedGrasp, RankedGrasps, Unfit, ranked_grasps
 from rgss.grasping.candidates.scoring import contact_points
-from rgss.grasping.candidates.suction import SuctionPoint, suction_points
+from rgss.grasping.candidates.suction import given_suction_point, suction_points
+from rgss.grasping.candidates.suction_ranking import ranked_suction, weight_share
 from rgss.grasping.candidates.symmetry import symmetric_turns

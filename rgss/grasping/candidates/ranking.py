@@ -19,6 +19,7 @@ from rgss.scenes import (
     GripperGeometry,
     MeshShape,
     Pose,
+    SuctionPoint,
     Workpiece,
     centre_of_mass,
     settled_grasp,
@@ -37,6 +38,7 @@ class Unfit(str, Enum):
     TOO_NARROW = "too narrow"
     RIM = "rim of a pad"
     NO_FORCE_CLOSURE = "no force closure"
+    SEAL = "no flat face under the whole lip"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,8 +50,9 @@ class RankedGrasp:
         tool_in_object: Transform of the grasp-centre frame to the object's frame.
         opening_m: Distance of the pads from the gripper's axis.
         approach: Kind of its approach.
-        quality_1: Smallest maximum wrench for finger forces of 1 N.
+        quality_1: Smallest maximum wrench for finger forces of 1 N; of a cup, the weight that it bears over its force.
         com_distance_m: Distance of the centre of mass from the line or the middle of the contacts.
+        suction: The place of a suction cup; None for fingers.
     """
 
     id: str
@@ -58,6 +61,7 @@ class RankedGrasp:
     approach: Approach
     quality_1: float
     com_distance_m: float
+    suction: SuctionPoint | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,55 +1,108 @@
-"""Points at which a suction cup holds an object: on flat faces that bear the whole cup."""
+"""Points at which a suction cup holds an object: on flat faces that bear its whole lip."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.grasping.candidates.hand import SuctionHand
-from rgss.scenes import Box, Cylinder, LyingCylinder, MeshShape, ObjectShape, surface_of
+from rgss.scenes import Box, Cylinder, LyingCylinder, MeshShape, ObjectShape, Pose, SuctionPoint, surface_of
 
 Array = NDArray[np.float64]
 Vector3 = tuple[float, float, float]
 _COPLANAR = 1e-6
+_COS_SQUARE = float(np.cos(np.radians(5.0)))
+_RIM_POINTS = 32
+_ABOVE_M = 5e-4
+_MARGIN_M = 2e-3
+_GRID_SHARE = 0.25
+_GRID_STEPS = 24
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SuctionPoint:
-    """A place of a suction cup.
-
-    Attributes:
-        position_m: Middle of the cup on the object, in the object's frame.
-        normal: Unit normal of the face, out of the object.
-        room_m: Distance to the nearest edge of the face.
-    """
-
-    position_m: Vector3
-    normal: Vector3
-    room_m: float
-
-
-def suction_points(shape: ObjectShape, hand: SuctionHand, centre_of_mass_m: Vector3) -> tuple[SuctionPoint, ...]:
-    """The suction points of an object, one for each flat face that bears the cup, the nearest to the centre of mass.
+def suction_points(shape: ObjectShape, cup_radius_m: float, centre_of_mass_m: Vector3) -> tuple[SuctionPoint, ...]:
+    """The suction points of an object, one for each flat face that bears the lip, nearest to the centre of mass first.
 
     Ordered by the distance of the cup's axis from the centre of mass, which bends the cup, then by the normal from the
-    top down.
+    top down. A face that another part of the object covers under the lip bears no cup.
 
     Args:
         shape: The object's shape; the wall of a cylinder bears no cup.
-        hand: The hand.
+        cup_radius_m: Radius of the cup's lip.
         centre_of_mass_m: The object's centre of mass.
     """
     found = []
+    parts = _half_spaces(shape)
     for normal, edges in _faces(shape):
         centre = np.array(centre_of_mass_m)
-        place = _place(normal, edges, centre, hand.cup_radius_m)
+        place = _place(normal, edges, centre, cup_radius_m)
+        if place is not None and _is_covered(place[0], normal, cup_radius_m, parts):
+            place = _uncovered(normal, edges, place[0], cup_radius_m, parts)
         if place is not None:
             point, room = place
             arm = float(np.linalg.norm(np.cross(point - centre, normal)))
             found.append((round(arm, 9), tuple(np.round(-normal[::-1], 9)), _point(point, normal, room)))
     return tuple(one for _, _, one in sorted(found, key=lambda row: row[:2]))
+
+
+def given_suction_point(shape: ObjectShape, cup_radius_m: float, tool_in_object: Pose) -> SuctionPoint | None:
+    """The point at which the axis of a given tool frame enters a face that bears the lip; None where none does.
+
+    Args:
+        shape: The object's shape.
+        cup_radius_m: Radius of the cup's lip.
+        tool_in_object: Transform of the given frame to the object's, its z axis towards the object.
+    """
+    towards, origin = np.array(tool_in_object.rotate((0.0, 0.0, 1.0))), np.array(tool_in_object.position_m)
+    parts, found = _half_spaces(shape), []
+    for normal, rows in _faces(shape):
+        slope = float(normal @ towards)
+        if slope > -_COS_SQUARE:
+            continue
+        point = origin - (rows[-1, :3] @ origin + rows[-1, 3]) / slope * towards
+        room = -float(np.max(rows[:-1, :3] @ point + rows[:-1, 3]))
+        if room >= cup_radius_m and not _is_covered(point, normal, cup_radius_m, parts):
+            found.append((float(point @ towards), _point(point, normal, room)))
+    return min(found, key=lambda row: row[0])[1] if found else None
+
+
+def _half_spaces(shape: ObjectShape) -> list[Array]:
+    """The half-spaces (n, 4) of each convex part of a mesh of several: inside where a·x + d <= 0."""
+    parts = surface_of(shape) if isinstance(shape, MeshShape) and len(shape.parts_m) > 1 else ()
+    return [np.array([rows[-1] for _, rows in _polygons(part)]) for part in parts]
+
+
+def _is_covered(point: Array, normal: Array, radius_m: float, parts: list[Array]) -> bool:
+    """True if a part of the object is where the cup would be: under its lip, or beside it within its margin."""
+    if not parts:
+        return False
+    first, second = _tangents(normal)
+    turns = np.arange(_RIM_POINTS) * 2.0 * np.pi / _RIM_POINTS
+    reach_m = radius_m + _MARGIN_M
+    ring = np.outer(np.cos(turns), first) + np.outer(np.sin(turns), second)
+    disc = np.vstack([np.zeros((1, 3)), *(reach_m * share * ring for share in (0.25, 0.5, 0.75, 1.0))])
+    above = np.vstack([point + disc + height * normal for height in (_ABOVE_M, _MARGIN_M, radius_m)])
+    return any(bool(np.any(np.all(above @ part[:, :3].T + part[:, 3] < 0.0, axis=1))) for part in parts)
+
+
+def _uncovered(
+    normal: Array, rows: Array, point: Array, radius_m: float, parts: list[Array]
+) -> tuple[Array, float] | None:
+    """The place of a grid on a face nearest to a covered one at which the cup has room and is not covered."""
+    first, second = _tangents(normal)
+    steps = range(-_GRID_STEPS, _GRID_STEPS + 1)
+    offsets = sorted((u * u + v * v, u, v) for u in steps for v in steps)
+    for _, u, v in offsets:
+        tried = point + radius_m * _GRID_SHARE * (u * first + v * second)
+        room = -float(np.max(rows[:-1, :3] @ tried + rows[:-1, 3]))
+        if room >= radius_m and not _is_covered(tried, normal, radius_m, parts):
+            return tried, room
+    return None
+
+
+def _tangents(normal: Array) -> tuple[Array, Array]:
+    """Two unit vectors square to a normal and to one another."""
+    first = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
+    first /= np.linalg.norm(first)
+    return first, np.cross(normal, first)
 
 
 def _point(point: Array, normal: Array, room_m: float) -> SuctionPoint:
@@ -113,9 +166,7 @@ def _place(normal: Array, rows: Array, centre: Array, radius_m: float) -> tuple[
     room = -float(np.max(edges[:, :3] @ foot + edges[:, 3]))
     if room >= radius_m:
         return foot, room
-    first = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
-    first /= np.linalg.norm(first)
-    frame = np.column_stack([first, np.cross(normal, first)])
+    frame = np.column_stack(_tangents(normal))
     limits = -edges[:, 3] - edges[:, :3] @ foot - radius_m
     slopes = edges[:, :3] @ frame
     result = minimize(

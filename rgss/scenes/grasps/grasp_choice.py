@@ -49,6 +49,21 @@ class GraspCandidates:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SuctionPoint:
+    """A place of a suction cup on a flat face of an object.
+
+    Attributes:
+        position_m: Middle of the cup on the object, in the object's frame.
+        normal: Unit normal of the face, out of the object.
+        room_m: Distance to the nearest edge of the face.
+    """
+
+    position_m: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    room_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TakenGrasp:
     """The grasp that is taken.
 
@@ -57,10 +72,12 @@ class TakenGrasp:
         tool_in_object: Transform of the grasp-centre frame to the object's frame.
         opening_m: Distance of the pads from the gripper's axis when they touch.
         place_yaw_rad: Turn of the object about the vertical at its place, in the world.
-        quality_1: Smallest maximum wrench for finger forces of 1 N.
-        com_distance_m: Distance of the centre of mass from the middle of the contacts.
+        quality_1: Smallest maximum wrench for finger forces of 1 N; of a suction cup, the weight that it bears over the
+            force of its vacuum.
+        com_distance_m: Distance of the centre of mass from the middle of the contacts, or from the cup's axis.
         candidates: How many candidates there were.
         rejected: How many of them were rejected before it.
+        suction: The place of the cup; None for fingers.
     """
 
     id: str
@@ -71,3 +88,4 @@ class TakenGrasp:
     com_distance_m: float
     candidates: int
     rejected: int
+    suction: SuctionPoint | None = None

@@ -6,7 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.scenes.hands.finger_gripper import FingerGripper
-    from rgss.scenes.hands.fit import flat_top_radius_m, misfit, too_narrow, too_wide
+    from rgss.scenes.hands.fit import flat_top_radius_m, misfit, suction_point_of, too_narrow, too_wide
     from rgss.scenes.hands.gripper_kind import GripperKind
     from rgss.scenes.hands.kinds import GRIPPER_KINDS, kind_of_gripper
     from rgss.scenes.hands.linkage_document import LinkageGripperDocument

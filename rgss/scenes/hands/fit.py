@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from rgss.scenes.grasps import SuctionPoint
 from rgss.scenes.gripper import GripperGeometry
 from rgss.scenes.objects import grasp_opening_m
 from rgss.scenes.scene import Scene
@@ -45,22 +46,36 @@ def misfit(geometry: GripperGeometry, scene: Scene) -> str:
         geometry: The gripper's shape.
         scene: The scene, with the object as its workpiece.
     """
-    return too_wide(geometry, scene) or too_narrow(geometry, scene) or unsealed(geometry, scene.workpiece.shape)
+    return too_wide(geometry, scene) or too_narrow(geometry, scene) or unsealed(geometry, scene)
 
 
-def unsealed(geometry: GripperGeometry, shape: ObjectShape) -> str:
-    """Why a cup does not seal on the top of an object; empty where it does, and for fingers.
+def unsealed(geometry: GripperGeometry, scene: Scene) -> str:
+    """Why a cup does not seal on an object; empty where it does, and for fingers.
 
     Args:
         geometry: The gripper's shape.
-        shape: The object.
+        scene: The scene, with the object as its workpiece.
     """
-    if geometry.cup is None or flat_top_radius_m(shape) >= geometry.cup.radius_m:
+    room_m = suction_point_of(scene).room_m
+    if geometry.cup is None or room_m >= geometry.cup.radius_m:
         return ""
     return (
-        f"the top of the object of {_millimetres(2 * flat_top_radius_m(shape))} is smaller than the cup of "
+        f"the top of the object of {_millimetres(2 * room_m)} is smaller than the cup of "
         f"{_named(geometry)}, {_millimetres(2 * geometry.cup.radius_m)}"
     )
+
+
+def suction_point_of(scene: Scene) -> SuctionPoint:
+    """The place of a suction cup on the object: the one that is taken of candidates, or the middle of its top.
+
+    Args:
+        scene: The scene, with the object as its workpiece.
+    """
+    taken, shape = scene.task.grasp, scene.workpiece.shape
+    if taken is not None and taken.suction is not None:
+        return taken.suction
+    top = (0.0, 0.0, shape.half_height_m)
+    return SuctionPoint(position_m=top, normal=(0.0, 0.0, 1.0), room_m=flat_top_radius_m(shape))
 
 
 def flat_top_radius_m(shape: ObjectShape) -> float:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
         other_solids,
         positive_values,
         region_of,
+        shared_grasp_findings,
     )
     from rgss.scenes.objects.object_entry import candidates_of, object_lengths
     from rgss.scenes.objects.object_file import ObjectSolid, object_solid, workpiece_of

@@ -22,11 +22,13 @@ def with_chosen_grasp(
     """
     if taken is None:
         return tuple(results)
+    quality: dict[str, Metric] = {"chosen_grasp_opening_m": taken.opening_m, "chosen_grasp_smw_1": taken.quality_1}
+    if taken.suction is not None:
+        quality = {"chosen_grasp_weight_1": taken.quality_1, "chosen_grasp_room_m": taken.suction.room_m}
     chosen: dict[str, Metric] = {
         "chosen_grasp_rank": taken.rejected + 1,
         "chosen_grasp_candidates": taken.candidates,
-        "chosen_grasp_opening_m": taken.opening_m,
-        "chosen_grasp_smw_1": taken.quality_1,
+        **quality,
         "chosen_grasp_com_distance_m": taken.com_distance_m,
         "chosen_grasp_position_m": taken.tool_in_object.position_m,
         "chosen_grasp_quaternion_1": taken.tool_in_object.quaternion_xyzw,

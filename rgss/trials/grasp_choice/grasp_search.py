@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, symmetric_turns
+from rgss.grasping.candidates import RankedGrasp, RankedGrasps, ranked_grasps, ranked_suction, symmetric_turns
 from rgss.kinematics import Arm, CollisionModel, inverse_kinematics, straight_line
 from rgss.scenes import GraspCandidates, GripperGeometry, Scene, TakenGrasp, Waypoint, waypoint_poses
 from rgss.tasks import MoveKind
@@ -87,10 +87,14 @@ def search_grasp(
         scene: The scene as it is perceived.
         geometry: The gripper's shape.
         options: Which grasps are tried.
-        friction: Coefficient of the pads; the contact's is the product with the object's.
+        friction: Coefficient of the pads; the contact's is the product with the object's. Of a cup, its greatest
+            tangential over its greatest normal force.
         build: Makes arm and collision models of a scene.
     """
-    ranked = ranked_grasps(scene.workpiece, geometry, options, friction=friction * scene.workpiece.friction)
+    if geometry.cup is not None:
+        ranked = ranked_suction(scene.workpiece, geometry, options, tangential_1=friction)
+    else:
+        ranked = ranked_grasps(scene.workpiece, geometry, options, friction=friction * scene.workpiece.friction)
     turns = symmetric_turns(scene.workpiece.shape, options.yaws)
     rejected: Counter[Rejection] = Counter()
     first: Scene | None = None
@@ -138,6 +142,7 @@ def _taken(scene: Scene, grasp: RankedGrasp, turn: float, candidates: int, rejec
         com_distance_m=grasp.com_distance_m,
         candidates=candidates,
         rejected=rejected,
+        suction=grasp.suction,
     )
 
 

@@ -28,9 +28,21 @@ CHOICE_METRICS: tuple[MetricDescriptor, ...] = (
         better=Direction.HIGHER,
     ),
     MetricDescriptor(
+        name="chosen_grasp_weight_1",
+        unit="1",
+        meaning="weight at rest that a suction cup bears at the chosen point over the force of its vacuum",
+        better=Direction.HIGHER,
+    ),
+    MetricDescriptor(
+        name="chosen_grasp_room_m",
+        unit="m",
+        meaning="distance of the chosen suction point from the nearest edge of its face",
+        better=Direction.HIGHER,
+    ),
+    MetricDescriptor(
         name="chosen_grasp_com_distance_m",
         unit="m",
-        meaning="distance of the centre of mass from the line between two contacts, or from the middle of more",
+        meaning="distance of the centre of mass from the line of two contacts, the middle of more, or a cup's axis",
         better=Direction.LOWER,
     ),
     MetricDescriptor(

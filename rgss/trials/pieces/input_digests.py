@@ -165,7 +165,7 @@ def _choice_digest(conditions: Conditions) -> tuple[str, ...]:
     workpiece = conditions.perceived_scene.workpiece
     if conditions.scene.task.candidates is None:
         return ()
-    frictions = [workpiece.friction, conditions.design_gripper.friction]
+    frictions = [workpiece.friction, conditions.design_gripper.grip_coefficient(1.0)]
     return (digest([to_plain(workpiece.grasps), list(centre_of_mass(workpiece)), frictions]),)
 
 

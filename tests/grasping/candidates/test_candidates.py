@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from rgss.grasping.candidates import contact_points, ranked_grasps, suction_points, symmetric_turns
+from rgss.grasping.candidates import contact_points, ranked_grasps, symmetric_turns
 from rgss.grasping.candidates.ranking import Unfit
 from rgss.scenes import (
     Approach,
@@ -157,26 +157,3 @@ def test_a_symmetric_turn_leaves_the_shape_where_it_was(shape, count):
             turned = corners @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]).T
             distances = np.linalg.norm(turned[:, None] - corners[None], axis=2)
             assert np.max(np.min(distances, axis=1)) < 1e-12
-
-
-class Cup:
-    cup_radius_m = 0.02
-
-
-def test_suction_points_are_on_the_faces_that_bear_the_cup():
-    points = suction_points(BOX, Cup(), (0.0, 0.0, 0.0))
-    assert len(points) == 6
-    assert points[0].normal == pytest.approx((0.0, 0.0, 1.0))
-    for point in points:
-        assert point.room_m >= Cup.cup_radius_m - 1e-7
-    assert len(suction_points(Box(size_m=(0.2, 0.03, 0.2)), Cup(), (0.0, 0.0, 0.0))) == 2
-
-
-def test_a_suction_point_is_as_near_to_the_centre_of_mass_as_the_edge_allows():
-    best = suction_points(Box(size_m=(0.1, 0.1, 0.05)), Cup(), (0.04, 0.0, 0.0))
-    on_top = next(point for point in best if point.normal[2] > 0.99)
-    assert on_top.position_m == pytest.approx((0.03, 0.0, 0.025), abs=1e-6)
-
-
-def test_the_wall_of_a_cylinder_bears_no_cup():
-    assert [point.normal[2] for point in suction_points(SHAPES["cylinder"], Cup(), (0.0, 0.0, 0.0))] == [1.0, -1.0]

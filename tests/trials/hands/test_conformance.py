@@ -140,4 +140,4 @@ def test_a_cup_that_is_off_the_top_does_not_seal(trial):
     record = Pieces().record(replace(spec, gripper=replace(spec.gripper, geometry=wide)))
 
     assert record.failed_phase == "grasp"
-    assert "off the centre of a top that leaves it 0.0 mm" in record.failure_detail
+    assert "off its place on a face that leaves it 0.0 mm" in record.failure_detail
