@@ -24,7 +24,7 @@ _CARRY = "carry"
 
 
 class Aspect(str, Enum):
-    """What of a draw is compared."""
+    """Part of a draw that is compared."""
 
     VALUE = "value"
     SIZE = "size"
@@ -164,7 +164,7 @@ class _Table:
         self.columns = _columns({record.seed: record for record in records}, self.seeds)
 
     def failures(self, kind: _Kind) -> Array:
-        """How many trials of each seed ended so."""
+        """Number of trials of each seed that ended so."""
         return self._counted(lambda record: _kind(record, self._carried) == kind)
 
     def compared(self, failed: Array) -> Iterator[tuple[str, Aspect, float, float]]:

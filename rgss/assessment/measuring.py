@@ -23,11 +23,11 @@ _UNDECIDED = (Verdict.NOT_RUN, Verdict.STALE)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VariantMeasures:
-    """What is known of one variant.
+    """Estimates and verdicts of one variant.
 
     Attributes:
         variant: The variant.
-        trials: The keys of the trials that it stands on, in the order of their seeds.
+        trials: The keys of its trials, in the order of their seeds.
         records: Their records.
         missing: How many of its trials have no evidence.
         estimates: The estimate of each measure by its id.
@@ -133,7 +133,7 @@ def record_of(
 
 
 def require_complete(measured: Sequence[VariantMeasures]) -> None:
-    """Make sure that every trial of the study has evidence.
+    """Check that every trial of the study has evidence.
 
     Raises:
         EvidenceError: Some have none.

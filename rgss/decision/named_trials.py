@@ -38,7 +38,7 @@ class NamingStudy:
     Attributes:
         file: Its file, relative to the project.
         project: The project with this study.
-        own: The trials that it asks for, at its fidelity and with its number of replicates; of a study that
+        own: The trials that it needs, at its fidelity and with its number of replicates; of a study that
             replicates until decided also all up to its cap as far as the evidence has the seeds.
         all: These, and what ``--fidelity`` and ``--replicates`` make of them as far as the
             evidence has the seeds.
@@ -98,7 +98,7 @@ def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
 
     Args:
         project: The project with its study, its number of replicates and its fidelity.
-        store: The evidence, which says what a screening screens out.
+        store: The evidence, on which a screening depends.
 
     Raises:
         EvidenceError: The store is damaged.

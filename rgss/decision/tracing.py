@@ -77,7 +77,7 @@ def _chosen(
     project: Project, measured: Sequence[VariantMeasures], variant: int | None, decision: Decision | None
 ) -> tuple[int | None, str]:
     if variant is not None:
-        return project.designs.variant(variant).id, f"variant {variant}, as asked for"
+        return project.designs.variant(variant).id, f"variant {variant}, as requested"
     try:
         decision = choose(project, measured) if decision is None else decision
     except RgssError as error:

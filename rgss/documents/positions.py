@@ -64,7 +64,7 @@ class _Positions(Mapping[Location, Position]):
     """Positions of the parts of a file by their locations."""
 
     def __init__(self, places: Places, end: Callable[[], Position]) -> None:
-        """Take the places of a whole file.
+        """Positions of a whole file.
 
         Args:
             places: The places.

@@ -10,7 +10,7 @@ from rgss.findings import Finding, Severity
 MOST_PROBLEMS = 1_000
 """Number of problems that are reported of one file; a hostile file may have millions."""
 
-# What YAML counts as one line break.
+# A line break in YAML.
 _LINE_BREAK = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
 
 

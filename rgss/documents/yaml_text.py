@@ -23,7 +23,7 @@ def value_lines(value: Any, indent: int, used: int = 0) -> list[str]:
         used: How much of the key's line is taken.
 
     Returns:
-        What stands behind the colon, empty if nothing does; then whole lines.
+        The text behind the colon, which may be empty; then whole lines.
     """
     inline = inline_text(value)
     fits = used + 1 + len(inline) <= WIDEST_LINE

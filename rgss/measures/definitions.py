@@ -122,7 +122,7 @@ class Equation(DocumentModel):
 
 
 def _as_text(value: Any) -> Any:
-    """A pure number may stand without quotes; its unit decides later whether it may."""
+    """A pure number may be unquoted; its unit decides later whether it is valid."""
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
@@ -164,7 +164,7 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measure:
-    """A quantity by which designs are compared.
+    """Quantity that designs are compared by.
 
     Attributes:
         id: Its id, which is also its symbol in expressions.
@@ -176,7 +176,7 @@ class Measure:
         expression: Its value from constants, inputs and other measures.
         equation: The equation that it realises; None if none is published.
         better: Which values are better.
-        traces: Stakeholder needs that it stands for.
+        traces: Stakeholder needs that it measures.
         contributes_to: Measures of effectiveness that it contributes to.
         estimate: How trial values become one; None when it follows from the design alone.
         summary: How a row becomes one number; None for a single number.

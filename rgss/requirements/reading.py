@@ -30,7 +30,7 @@ class FolderReader:
     """Reads files of one folder; what is wrong with them goes into one list."""
 
     def __init__(self, folder: Path, label_root: str, findings: list[Finding]) -> None:
-        """Take a folder.
+        """Reader of a folder.
 
         Args:
             folder: The folder.

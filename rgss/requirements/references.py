@@ -14,7 +14,7 @@ _LONGEST_CHAIN = 10
 
 
 class ElementKind(Enum):
-    """Kind of the element that an id names, in the words of messages."""
+    """Kind of the element that an id names, as messages name it."""
 
     NEED = "stakeholder requirement"
     REQUIREMENT = "system requirement"
@@ -51,7 +51,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declaration:
-    """An id, what it names, where it is declared, and what the element says of others and of rules.
+    """An id, what it names, where it is declared, and its references to other elements and to rules.
 
     Attributes:
         id: The id.
@@ -81,7 +81,7 @@ def check_references(
 
     Args:
         declarations: Everything declared, in the order of files and lines.
-        known: The kinds whose files could all be read; a reference to another kind is left alone.
+        known: The kinds whose files could all be read; a reference to another kind is not checked.
         hints: Names what was probably meant.
     """
     first: dict[str, Declaration] = {}

@@ -15,7 +15,7 @@ ASSUMPTIONS = "assumptions"
 
 
 def _as_text(value: Any) -> Any:
-    """A flag and a number may stand without quotes."""
+    """A flag and a number may be unquoted."""
     if isinstance(value, bool):
         return str(value).lower()
     return repr(value) if isinstance(value, (int, float)) else value

@@ -36,7 +36,7 @@ def design_findings(
     robot: Robot,
     planning: PlanningChoice,
 ) -> Iterator[Finding]:
-    """Find what would keep a trial of a design from being run.
+    """Findings on designs whose trials cannot be run.
 
     Args:
         designs: The design space.
@@ -116,7 +116,7 @@ def _planner_parameter_findings(
     for (planner, name, value), number in found.items():
         algorithm = planning.planner_settings(planner).algorithm
         if algorithm not in available_planners():
-            continue  # a finding of its own
+            continue  # it has its own finding
         try:
             require_value(available_planners()[algorithm], name.removeprefix(PLANNER_PREFIX), value)
         except QuantityError as error:

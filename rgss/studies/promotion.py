@@ -14,7 +14,7 @@ from rgss.studies.document import StudyDocument
 class Promotion:
     """Rule for the designs that are tried again at a higher fidelity.
 
-    A design that provably misses a requirement is never among them, whatever else is said; with
+    A design that provably misses a requirement is never among them, whatever the bounds; with
     neither of the two bounds every other design is.
 
     Attributes:
@@ -51,7 +51,7 @@ def read_screening(entry: StudyDocument, document: Document, findings: list[Find
     """Screening as the study's file states it; None if all its designs are tried at one fidelity.
 
     Args:
-        entry: What the file says.
+        entry: The content of the file.
         document: The file.
         findings: Takes what is wrong.
     """

@@ -18,7 +18,7 @@ def task_of_scene(project: Path, scene: str, findings: list[Finding]) -> str | N
         findings: Where problems are put.
 
     Returns:
-        None for a scene that names no task, or that cannot be read, which has findings of its own.
+        None for a scene that names no task, or that cannot be read, which has its own findings.
     """
     try:
         document = read_document(project / scene, label=scene)

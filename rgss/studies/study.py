@@ -62,7 +62,7 @@ class ValueAnchors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StudyDefinition:
-    """A study as its file says.
+    """Definition of a study.
 
     Attributes:
         id: Its name.
@@ -84,11 +84,11 @@ class StudyDefinition:
         regression: Which metrics are guarded against a baseline; None if none are.
         until_decided: When replication until decided goes on, and when it stops.
         is_sequential: Whether the file states that rule, so that variants may have more replicates than `replicates`.
-        uncertainty: What differs from trial to trial, in place of what the scene says of the same quantities.
+        uncertainty: Uncertainty from trial to trial; replaces that of the scene for the same quantities.
         workload: The objects that the trials carry.
         is_nominal: Whether neither is applied, nor the scene's uncertainty.
         assumptions: Assumptions that are questioned, with what they could be taken as instead.
-        physics: Other physics settings than rate and iterations of the file, for a confirmation; None as the file says.
+        physics: Other physics settings than rate and iterations of the file, for a confirmation; None for the file's.
         motion: How moves are timed and joints controlled.
     """
 
@@ -145,7 +145,7 @@ def read_study(
     Args:
         path: The file.
         measures: The project's measures, which the file names; None if they could not be read,
-            and then what it says of them is not looked at.
+            and then its use of them is not checked.
         project: The project's folder, which the files that it names are relative to.
         label: The file's name in messages.
         requirements: The requirements that it verifies; read from their folder if the file names one and
@@ -248,7 +248,7 @@ def _file_findings(document: Document, entry: StudyDocument, project: Path) -> l
 
 
 def _requirements(folder: Path) -> RequirementSet | None:
-    """The requirements of a folder; None if they cannot be read, which has a finding of its own."""
+    """The requirements of a folder; None if they cannot be read, which has its own finding."""
     try:
         return load_requirements(folder)
     except DocumentError:

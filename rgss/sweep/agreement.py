@@ -64,5 +64,5 @@ def _is_within(change: Change) -> bool:
 
 
 def _is_float(text: str) -> bool:
-    """Tell a measured number from a count, which other numerics do not change without another course of the trial."""
+    """True for a measured number; False for a count, which other numerics change only if the trial runs otherwise."""
     return any(sign in text for sign in ".e")

@@ -31,7 +31,7 @@ _READERS: Mapping[PieceKind, Callable[[str], object]] = {
 
 
 def checked(ended: Ended, task: Task) -> Ended:
-    """The end of a task; one whose result is not what was asked for has failed by a wrong answer.
+    """The end of a task; one whose result does not fit the task has failed by a wrong answer.
 
     Args:
         ended: How the task ended, from whatever worker.
@@ -44,7 +44,7 @@ def checked(ended: Ended, task: Task) -> Ended:
         return wrong_answer(ended.key, problem)
     if isinstance(task, PieceTask):
         return ended
-    # As it will be read: a text may have stood for a member of an enumeration.
+    # As it will be read: a text may replace a member of an enumeration.
     return replace(ended, result=record_from_json(record_to_json(ended.result)))
 
 
@@ -86,7 +86,7 @@ def record_problem(spec: TrialSpec, record: object) -> str:
         EvidenceError: A part of it is of a wrong type, or is not finite.
     """
     if type(record) is not TrialRecord:
-        return f"a record was asked for, and it is a {type(record).__name__}"
+        return f"expected a record, got a {type(record).__name__}"
     record_to_json(record)
     if (record.variant, record.seed, record.fidelity) != (spec.variant, spec.seed, spec.fidelity):
         return "it is the record of another trial"
@@ -121,12 +121,12 @@ def is_end_of(ended: object, key: str) -> TypeGuard[Ended]:
 
 def _piece_problem(task: PieceTask, result: object) -> str:
     if type(result) is not Piece:
-        return f"a piece was asked for, and it is a {type(result).__name__}"
+        return f"expected a piece, got a {type(result).__name__}"
     if result.kind is not task.kind:
-        return f"a piece of kind {task.kind.value} was asked for, and it is {shown(result.kind)}"
+        return f"expected a piece of kind {task.kind.value}, got {shown(result.kind)}"
     if result.digest != task.digest:
-        return f"piece {task.digest[:12]} was asked for, and it is {shown(result.digest)}"
-    # Its row is what is kept, and what will be read is what it says.
+        return f"expected piece {task.digest[:12]}, got {shown(result.digest)}"
+    # The row is what the store keeps and reads back.
     piece_row(result)
     _READERS[task.kind](result.text)
     return ""

@@ -29,7 +29,7 @@ class InlineWorkers:
         return 1 - len(self._ended)
 
     def want(self, tasks: int) -> None:
-        """There is one worker, whatever is wanted."""
+        """There is one worker, whatever the demand."""
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
         """Carry out a task, from its beginning to its end.

@@ -87,7 +87,7 @@ def compared_planners(
         on_plan: Callback after each task that was planned: their number so far, and how many there are.
 
     Raises:
-        DefinitionError: There is no planner of a name, or an engine is not installed.
+        DefinitionError: A planner is unknown, or an engine is not installed.
     """
     chosen = _chosen(project, names)
     total, done, found = len(seeds) * sum(len(specs) for _, _, _, specs in chosen), 0, []

@@ -100,7 +100,7 @@ class DryRun:
 
 
 def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: bool = True) -> DryRun:
-    """Find out what a sweep would make, and why, without making anything.
+    """Dry run: what a sweep would make, and why, without making anything.
 
     Args:
         specs: The trials.

@@ -54,7 +54,7 @@ def sweep(
     pieces are shared. When it is interrupted, what was finished is kept, and the next sweep goes on
     from there. A task whose worker crashes, hangs or runs out of memory is tried once more; then it
     is recorded as a failure of the run, and the sweep goes on without it; so it is with a task whose answer
-    is not what was asked for.
+    does not fit its task.
 
     Args:
         specs: The trials.
@@ -64,16 +64,16 @@ def sweep(
         on_state: Called whenever something has ended.
         share: Whether pieces are shared between trials and taken from the store.
         limits: What a worker may use for one task.
-        origin: Tells where the trials come from, for their provenance; asked only if there are any to run.
+        origin: Callback for the provenance of the trials; called only if there are any to run.
         maker: What carries out a task: a function of a module, which the workers import by its name.
         workers_for: Gives the workers that carry out tasks by a maker, in place of `jobs` and `limits`;
-            asked only if there is anything to be made.
+            called only if there is anything to be made.
 
     Raises:
         DefinitionError: A planning limit is longer than the search, or an engine is not installed.
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
         StorageError: The disk is full; or the store was removed, replaced or damaged meanwhile, and the
-            message says where what could be saved is.
+            message names the file with what could be saved.
         SimulationError: Worker processes cannot be started, or the workers are lost.
     """
     require_engines("a sweep")
@@ -249,7 +249,7 @@ class _Sweep:
             piece = self._store.piece(digest)
             if piece is None:
                 raise EvidenceError(
-                    f"piece {digest[:12]} has gone from the store during the sweep", hint="run the sweep again"
+                    f"piece {digest[:12]} was removed from the store during the sweep", hint="run the sweep again"
                 )
             self._held[digest] = piece
             self._reused[piece.kind.value] += 1

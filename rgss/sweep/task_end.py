@@ -76,7 +76,7 @@ def ended_by(answer: Answer, key: str) -> Ended:
     """The end of a task that a worker has answered.
 
     Args:
-        answer: What the worker said.
+        answer: The worker's answer.
         key: The task's name.
     """
     if not answer.error:
@@ -105,7 +105,7 @@ def is_answer(message: object, task: int) -> bool:
 
 
 def process_ending(process: BaseProcess) -> str:
-    """End of a process whose end of the pipe is closed, in words that follow 'the worker'."""
+    """End of a process whose end of the pipe is closed, as a phrase that follows 'the worker'."""
     latest = time.monotonic() + _ENDING_S
     while process.exitcode is None and time.monotonic() < latest:
         time.sleep(_ENDING_LOOK_S)

@@ -48,7 +48,7 @@ class Answer:
         result: The result; None if there is none.
         error: The exception that ended it, in one line; empty if there was none.
         ours: Whether that exception is one that this package raises by intention.
-        out_of_memory: Whether it was for want of memory.
+        out_of_memory: Whether it was for lack of memory.
         took_s: The task's time by the wall clock.
     """
 
@@ -203,7 +203,7 @@ def _limit_memory(limit_bytes: int) -> None:
 
 
 def _keep_freed_memory() -> None:
-    """Let the process keep what it frees, as far as its C library can be told.
+    """Let the process keep freed memory, as far as its C library can be configured.
 
     The physics engine takes some megabytes for each world. Given back to the kernel and mapped anew, page by
     page, they take more time than all else that makes a world.

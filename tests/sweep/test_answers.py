@@ -57,9 +57,9 @@ def test_wrong_pieces_are_failures_of_their_trials_alone(liars, specs_of, tmp_pa
             failure.key: failure for failure in lost.values()
         }
         details = {seed: failure.detail for seed, failure in lost.items()}
-        assert details[1] == "a piece was asked for, and it is a NoneType"
-        assert details[3].endswith(f"was asked for, and it is '{'0' * 59}…'")
-        assert details[4].startswith("a piece of kind plan was asked for, and it is <PieceKind.BENCH")
+        assert details[1] == "expected a piece, got a NoneType"
+        assert details[3].endswith(f", got '{'0' * 59}…'")
+        assert details[4].startswith("expected a piece of kind plan, got <PieceKind.BENCH")
         assert details[7].startswith("it is malformed: the plan is not JSON: ")
         assert details[9].endswith("NaN is not a finite number")
         assert details[11].startswith("it is malformed: the piece has 17825792 bytes")

@@ -189,7 +189,7 @@ def test_garbage_in_place_of_an_answer_costs_the_worker_and_nothing_else(liars, 
         f"the worker was ended: it announced an answer of {2**60} bytes; at most 67108864 are read"
     )
     assert details["a wrong checksum"] == "the worker was ended: its answer was damaged on the way"
-    assert details["an answer to another task"] == "the worker was ended: it answered something else than it was asked"
+    assert details["an answer to another task"] == "the worker was ended: its answer belongs to another task"
     assert details["what cannot be put together"].startswith("the worker was ended: its answer cannot be read: ValueEr")
     assert after["who"].trouble is None
 

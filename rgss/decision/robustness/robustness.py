@@ -185,7 +185,7 @@ def _assumed(
 
 
 def _no_weights(problem: TradeProblem, chosen: int | None) -> str:
-    """Why weights, assumptions and costs are not analysed; empty where they are."""
+    """Reason that weights, assumptions and costs are not analysed; empty where they are."""
     if chosen is None:
         return "no variant meets every requirement"
     if not isinstance(problem.program, AdditiveValue):

@@ -37,7 +37,7 @@ class Sensitivity:
         variants: The ids of the rows of everything below, ascending.
         measures: The measures with a weight above 0.
         weights: Their weights, shape (m,).
-        tornado: Swing of the advantage over each input; None where `refused` or `not_computed` says why.
+        tornado: Swing of the advantage over each input; None where `refused` or `not_computed` has the reason.
         bends: The choice under bent value functions.
         kept: The feasible designs with the reason that each is worth keeping, or what beats it; None where it
             could not be computed.

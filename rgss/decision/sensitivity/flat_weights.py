@@ -17,7 +17,7 @@ class FlatRemedy(str, Enum):
 
     Attributes:
         MOVE_ENDS: The quantities differ, but all lie beyond one end of the value function: move the ends to them.
-        VARY_THE_WORLD: Trials show the same for all: the task asks too little of the designs.
+        VARY_THE_WORLD: Trials show the same for all: the task is too easy for the designs.
         OTHER_DESIGNS: The quantity follows from the design, and the feasible designs do not differ in it.
     """
 

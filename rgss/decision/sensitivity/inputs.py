@@ -68,7 +68,7 @@ class UncertainInput:
         low: The low end of its range.
         high: The high end.
         basis: Where the range comes from.
-        standing: What the designs are worth at a value.
+        standing: Weighted values and feasibility of the designs at a value of the input.
         exact: Whether that value is the nearest for certain; a scan may miss a change that reverts within a step.
         search: How the value is found at which the choice changes.
         known_flips: Of KNOWN, the nearest changes below and above the base; None where there is none.

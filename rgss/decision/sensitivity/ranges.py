@@ -77,7 +77,7 @@ class RangeBook:
         return name in self._stated
 
     def check(self, others: Iterable[str] = ()) -> None:
-        """Make sure that every stated range is of an input, and right.
+        """Check that every stated range is of an input, and right.
 
         Args:
             others: Inputs that have no range because they decide nothing.

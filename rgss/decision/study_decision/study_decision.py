@@ -61,7 +61,7 @@ class StudyDecision:
         elicited_by: The same of stakeholders, by name.
         gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
         readings: What each reading of the source would lead to; empty if not analysed.
-        assumptions: The choice under each alternative of each assumption; empty if not asked for.
+        assumptions: The choice under each alternative of each assumption; empty if not requested.
         drivers: Which draws go with which failures; None if not analysed.
         cases: The success of each case of the workload; empty without a workload.
         seeds: The seeds that were read, where variants may have different numbers; empty otherwise.

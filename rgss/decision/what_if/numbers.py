@@ -42,7 +42,7 @@ class ModelNumber:
 
     @property
     def source(self) -> str:
-        """The source by which measures and rules name it; empty for a constant."""
+        """Name of its source in measures and rules; empty for a constant."""
         return f"{COMPONENT_PREFIX}{self.role}.{self.name}" if self.component else ""
 
 

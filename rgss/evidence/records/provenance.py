@@ -66,7 +66,7 @@ def provenance_from_json(text: str) -> Provenance:
     """Read a provenance that `provenance_to_json` wrote, or an earlier rgss did.
 
     Raises:
-        EvidenceError: The text is no such provenance.
+        EvidenceError: The text is not such a provenance.
     """
     data = plain_json(text, "provenance")
     known_sets = (_FIRST_FIELDS, {*_FIRST_FIELDS, *_LATER_FIELDS} - {"numerics"})

@@ -62,7 +62,7 @@ def read_trial(row: tuple[object, ...]) -> StoredTrial:
     """Read a row that `trial_row` made.
 
     Raises:
-        EvidenceError: It is not as it was made; the message says what is wrong with it.
+        EvidenceError: It is not as it was made; the message names the problem.
     """
     key, variant, seed, fidelity, content, seal, packed_record, packed_provenance = row
     if not (is_digest(key) and isinstance(key, str)):
@@ -79,7 +79,7 @@ def read_trial(row: tuple[object, ...]) -> StoredTrial:
 
 
 def require_key(key: object) -> None:
-    """Make sure that something is the key of a trial.
+    """Check that a value is the key of a trial.
 
     Raises:
         EvidenceError: It is not.

@@ -44,7 +44,7 @@ def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[
         pending: Rows that were to be put.
     """
     try:
-        # The folder may have gone with the file; the one above it was never ours.
+        # The folder may have been removed with the file; the one above it is not the store's.
         path.parent.mkdir(exist_ok=True)
         target = _free_name(path)
         rows = copy_rows(_all(connection, pending), target)

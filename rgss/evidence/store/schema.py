@@ -100,7 +100,7 @@ def prepare(connection: sqlite3.Connection, name: str) -> None:
     Raises:
         EvidenceError: It is the database of something else, of a newer version, or has been
             given views, triggers or other tables.
-        sqlite3.Error: It is no database, is damaged, or cannot be written.
+        sqlite3.Error: It is not a database, is damaged, or cannot be written.
     """
     if _version(connection, name) != SCHEMA_VERSION:
         _migrate(connection, name)
@@ -113,7 +113,7 @@ def require_present(connection: sqlite3.Connection, name: str) -> None:
 
     Raises:
         EvidenceError: It is none, or one of another schema.
-        sqlite3.Error: It is no database, or damaged.
+        sqlite3.Error: It is not a database, or damaged.
     """
     version = _version(connection, name)
     if version != SCHEMA_VERSION:
@@ -133,13 +133,13 @@ def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
 
 
 def require_sound_pages(connection: sqlite3.Connection, name: str) -> None:
-    """Make sure that a file is whole before anything is written to it; some milliseconds for ten thousand trials.
+    """Check that a file is whole before anything is written to it; some milliseconds for ten thousand trials.
 
     Raises:
         EvidenceError: It is not.
         sqlite3.Error: It cannot be read.
     """
-    _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' tells what is left of it")
+    _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' shows what is left of it")
 
 
 def _make_tables(connection: sqlite3.Connection) -> None:

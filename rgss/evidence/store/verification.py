@@ -76,7 +76,7 @@ def verify(path: Path, *, label: str) -> Verification:
         label: Its name in messages.
 
     Raises:
-        EvidenceError: It is not there, is no store, or is one of a newer rgss.
+        EvidenceError: It is not there, is not a store, or is one of a newer rgss.
     """
     if not path.exists():
         raise EvidenceError(f"there is no evidence in {label}", hint="run the sweep first")

@@ -19,7 +19,7 @@ from rgss.requirements.requirement import Requirement
 def check_behaviours(
     documents: Sequence[LoadedDocument[ArchitectureFile]], requirements: Mapping[str, Requirement], hints: Hints
 ) -> Iterator[Finding]:
-    """Find what is wrong inside of behaviours.
+    """Findings inside of behaviours.
 
     Args:
         documents: The files of the architecture.

@@ -36,7 +36,7 @@ def unknown(
         at: Location of the id within it.
         named: The id.
         known: What it may name.
-        what: What that is, in the words of the message.
+        what: Name of its kind in messages.
         hints: Names what was probably meant.
     """
     if named not in known:

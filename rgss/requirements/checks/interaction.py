@@ -22,7 +22,7 @@ def check_interaction(
     requirements: Mapping[str, Requirement],
     hints: Hints,
 ) -> Iterator[Finding]:
-    """Find what is wrong with an interaction.
+    """Findings on an interaction.
 
     Args:
         declaration: The sequence.

@@ -16,7 +16,7 @@ from rgss.tasks import MoveKind
 
 
 class PlanningEntry(DocumentModel):
-    """How moves are planned."""
+    """Planning of moves."""
 
     clock: Literal["counted", "wall"] = "counted"
     charge_per_check: Seconds
@@ -34,7 +34,7 @@ class PlanningEntry(DocumentModel):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningChoice:
-    """How moves are planned.
+    """Planning of moves.
 
     Attributes:
         counted: Whether planning time is counted in validity checks; a wall clock otherwise.
@@ -77,7 +77,7 @@ class PlanningChoice:
 
 
 def read_planning(planning: PlanningEntry, document: Document, findings: list[Finding]) -> PlanningChoice:
-    """How moves are planned.
+    """Planning of moves.
 
     Args:
         planning: The section.

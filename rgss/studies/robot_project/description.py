@@ -54,7 +54,7 @@ def _misfit_findings(project: Project) -> Iterator[Finding]:
 
 
 def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
-    """Notes of the pairs of links that touch however the arm stands, and so are not checked against each other.
+    """Notes on the pairs of links that touch in every configuration, and so are not checked against each other.
 
     None without the engines, which find them.
 

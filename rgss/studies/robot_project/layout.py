@@ -90,7 +90,7 @@ class Layout:
     """Positions of the tables.
 
     Attributes:
-        reach_m: The arm's reach, by which everything is scaled.
+        reach_m: The arm's reach, the scale of the layout.
         x_m: x of the object and of its place in the world.
         y_m: y of the place; the object is on the other side.
         table_m: Height of the tables' tops over the floor.

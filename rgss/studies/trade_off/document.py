@@ -84,7 +84,7 @@ class SensitivityEntry(DocumentModel):
 
 
 class AimEntry(DocumentModel):
-    """A measure of which the best is wanted, and what of it may be given up."""
+    """Measure that is optimised, and how much of it may be given up."""
 
     measure: Identifier
     absolute: QuantityField | None = None

@@ -46,8 +46,8 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         message = f"tolerance must be from 0 to below 1, got {entry.tolerance:g}"
         places.report("tolerance", message, (*SECTION, "tolerance"), hint="a share of each threshold, such as 5 %")
     if entry.practical_margin < 0.0:
-        message = f"the practical margin is {entry.practical_margin:g}"
-        places.report("margin", message, (*SECTION, "practical_margin"), hint="give a value from 0 on, such as 0.01")
+        message = f"practical_margin must be at least 0, got {entry.practical_margin:g}"
+        places.report("margin", message, (*SECTION, "practical_margin"), hint="a difference of value, such as 0.01")
     if entry.practical_margin and name in ("lexicographic", "epsilon_constraint"):
         message = f"the {name} program compares quantities, not values"
         hint = "give its last measure a tolerance: what lies within it is listed as near"

@@ -40,7 +40,7 @@ class TradeOff:
         choose_levels: Whether levels of factors are chosen instead of variants.
         shown_feasible: Whether a choice must be shown to meet the requirements, by the end of the
             interval that a verdict needs; by its estimates otherwise.
-        portfolio: The portfolio; None if none is wanted.
+        portfolio: The portfolio; None if the study has none.
         elicited: The groups whose weights follow from pairwise answers.
         stakeholders: Stakeholders with weights of their own.
         accept_within: Distance from a stakeholder's best value up to which they accept a design.

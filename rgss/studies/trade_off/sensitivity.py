@@ -37,10 +37,10 @@ class SensitivityChoice:
     """Range of each kind of input for which none is stated.
 
     Attributes:
-        weights: Share of a weight by which it is moved.
-        anchors: Share of the range from worst to best by which an end of a value function is moved.
-        thresholds: Share of a threshold by which it is moved.
-        assumptions: Share of an assumed number by which it is moved.
+        weights: Change of a weight, as a share of it.
+        anchors: Change of an end of a value function, as a share of the range from worst to best.
+        thresholds: Change of a threshold, as a share of it.
+        assumptions: Change of an assumed number, as a share of it.
         risk_tolerance: The least risk tolerance, as a share of the range from worst to best, with which value
             functions are bent.
         keep_within: Distance from the best up to which a design is worth keeping; None for the practical margin.

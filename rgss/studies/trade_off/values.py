@@ -57,7 +57,7 @@ class ValueReader:
 
         Args:
             entries: Its members.
-            rank_rule: The rule by which ranks become weights.
+            rank_rule: The rule that turns ranks into weights.
             at: Path of the list of its members.
             top: Whether it is the outermost group.
 

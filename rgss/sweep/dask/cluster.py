@@ -30,7 +30,7 @@ class DaskCluster:
     """A cluster whose workers were found to run what this process runs."""
 
     def __init__(self, client: Any, order: Order, *, address: str, machine: str) -> None:
-        """Take note of what is known of it.
+        """Record its address and its state.
 
         Args:
             client: A client of the cluster.
@@ -51,7 +51,7 @@ class DaskCluster:
             without_workers_s: How long the cluster may be without any worker in the middle of it.
 
         Raises:
-            SimulationError: The scheduler has gone.
+            SimulationError: The scheduler has stopped.
         """
         return DaskWorkers(
             self._client,
@@ -78,7 +78,7 @@ def dask_cluster(
     Raises:
         DefinitionError: Dask is not installed, no scheduler answers, certificates are missing, it has no
             workers, or one of them runs other code or engines than this process.
-        SimulationError: An engine process cannot start there, or the scheduler has gone.
+        SimulationError: An engine process cannot start there, or the scheduler has stopped.
     """
     try:
         import distributed
@@ -87,7 +87,7 @@ def dask_cluster(
             "--dask needs the package distributed, which is not installed", hint="pip install 'rgss[dask]'"
         ) from error
     with _quiet():
-        # Certificates are in Dask's settings, if the address asks for them.
+        # Certificates are in Dask's settings, if the address requires them.
         security = distributed.Security()
         if address.startswith("tls://") and not security.get_connection_args("client").get("ssl_context"):
             raise DefinitionError(
@@ -148,7 +148,7 @@ def _inspected(client: Any, address: str, order: Order) -> str:
     try:
         answers = client.run(inspect, order, pickle.dumps((machine, ())), on_error="return")
     except OSError as error:
-        raise SimulationError(f"the Dask scheduler at {address} has gone") from error
+        raise SimulationError(f"the Dask scheduler at {address} has stopped") from error
     if not answers:
         raise DefinitionError(
             f"the Dask cluster at {address} has no workers",
@@ -171,7 +171,7 @@ def _machine_of(where: str, answer: object, expected: Mapping[str, str]) -> str:
             raise DefinitionError(difference(found, expected), hint=_ALIKE)
         return str(answer.result)
     if isinstance(answer, Ended) and answer.trouble and answer.trouble.kind is RunFailureKind.TIMED_OUT:
-        # A limit that is too short even for this is too short for every task, which then says so.
+        # A limit that is too short even for this is too short for every task, which then reports it.
         return ""
     why = (
         answer.trouble.detail if isinstance(answer, Ended) and answer.trouble else f"{type(answer).__name__}: {answer}"
@@ -181,7 +181,7 @@ def _machine_of(where: str, answer: object, expected: Mapping[str, str]) -> str:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep Dask from writing on standard error: what matters of it is said in our words."""
+    """Keep Dask from writing on standard error: our messages report what is relevant."""
     logger = logging.getLogger("distributed")
     before = logger.level
     logger.setLevel(logging.CRITICAL + 1)

@@ -60,7 +60,7 @@ class Differs:
 
 
 def make_alike(expected: Mapping[str, str], work: bytes) -> Any:
-    """Make a result if this process makes the same as the one that asks for it; runs in an engine process.
+    """Make a result if this process computes the same as the requesting one; runs in an engine process.
 
     Args:
         expected: What this process must run.
@@ -91,7 +91,7 @@ class Engines:
         """Begin with none.
 
         Args:
-            idle_s: How long a process may have nothing to do; who asked may have ended without a word.
+            idle_s: Longest time that a process may be idle; its client may have ended without notice.
         """
         self._idle_s = idle_s
         self._lock = threading.Lock()
@@ -198,9 +198,9 @@ class Engines:
 
     def _dismiss(self, unwanted: Callable[[_Idle], bool]) -> None:
         with self._lock:
-            gone = [idle for idle in self._idle if unwanted(idle)]
-            self._idle = [idle for idle in self._idle if idle not in gone]
-        for idle in gone:
+            expired = [idle for idle in self._idle if unwanted(idle)]
+            self._idle = [idle for idle in self._idle if idle not in expired]
+        for idle in expired:
             idle.pool.close()
 
 

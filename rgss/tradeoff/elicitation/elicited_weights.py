@@ -52,7 +52,7 @@ class ElicitedWeights:
 
     @property
     def digest(self) -> str:
-        """SHA-256 of the answers, by which a decision names them."""
+        """SHA-256 of the answers, which identifies them in a decision."""
         # As floats, so that 2 and 2.0 are one answer; JSON has no number for a bound that is not there.
         ends = ((one, float(one.most) if math.isfinite(one.most) else None) for one in self.answers)
         return digest([[one.swing_of, one.over, float(one.least), most] for one, most in ends])

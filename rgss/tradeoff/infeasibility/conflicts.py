@@ -1,4 +1,4 @@
-"""Why nothing is feasible, in the language of requirements."""
+"""Infeasibility explained by requirements."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ class ConflictSurvival:
     """Share of resamples of the replicates in which a conflict persists.
 
     Attributes:
-        resamples: How many draws were looked at.
+        resamples: Number of draws that were evaluated.
         exact: Whether these are all distinct draws, each with its probability, so that nothing is
             left to chance; otherwise they are a sample.
         nothing_feasible: The probability that nothing is feasible in a draw.
@@ -124,7 +124,7 @@ class ConflictSurvival:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Conflicts:
-    """Why no alternative is feasible.
+    """Explanation of infeasibility.
 
     Attributes:
         excluded_by: For each requirement how many alternatives it excludes, zero included.
@@ -138,7 +138,7 @@ class Conflicts:
         repairs: For each requirement, what its limit would have to become for something to be
             feasible if nothing else changes.
         joint_repairs: The same for each of the `corrections`, in their order.
-        survival: How the conflict stands up to the noise of the replicates; None where no measure
+        survival: Stability of the conflict under the noise of the replicates; None where no measure
             has more than one.
     """
 

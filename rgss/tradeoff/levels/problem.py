@@ -24,7 +24,7 @@ LARGEST_ENUMERATED = 5_000_000
 """Up to so many combinations are evaluated, block by block, to check each stage of the solver's answer."""
 
 LARGEST_TABULATED = 1_000_000
-"""Up to so many combinations are held in one table, by which the whole program is checked at once."""
+"""Largest number of combinations that are kept in one table, so that the whole program is checked at once."""
 
 MOST_ROUNDS = 3
 """So often a program is solved anew where a later stage finds better designs than an earlier one."""
@@ -282,6 +282,6 @@ def _check_table(space: LevelSpace, measure: str, table: Table) -> None:
             )
         if entry is not None and not math.isfinite(entry):
             raise TradeoffError(
-                f"{measure!r} at {', '.join(combination)} is {entry:g}",
-                hint="an entry is a finite number, or None where it is unknown",
+                f"{measure!r} at {', '.join(combination)} must be finite or None, got {entry:g}",
+                hint="give None where it is unknown",
             )

@@ -1,4 +1,4 @@
-"""Solver runs that end: each in a process of its own, with a limit of time beside the solver's own limits."""
+"""Solver runs with a hard time limit: each in its own process, which is ended if the solver ignores its limits."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class SolverRun:
 
 
 _COMMON = {
-    # HiGHS stops by default within 1e-4 of the optimum; here the optimum itself is wanted.
+    # HiGHS stops by default within 1e-4 of the optimum; here the optimum itself is needed.
     "mip_rel_gap": 0.0,
     "mip_abs_gap": 0.0,
     # Below 1e-6 HiGHS 1.15 proves wrong bounds: benchmarks/tradeoff_guard.py measures it.
@@ -66,7 +66,7 @@ THIRD_RUN = SolverRun(
         "mip_allow_restart": False,
     },
 )
-"""Asked where the first two do not agree."""
+"""Used where the first two do not agree."""
 
 RUNS = (FIRST_RUN, SECOND_RUN, THIRD_RUN)
 
@@ -125,7 +125,7 @@ class StageSolution:
     def chosen(self) -> Alternative:
         """The selected alternative of an optimal stage."""
         if self.alternative is None:
-            raise TradeoffError(f"stage {self.name!r} is infeasible", hint="look at its status first")
+            raise TradeoffError(f"stage {self.name!r} is infeasible", hint="check its status first")
         return self.alternative
 
 
@@ -227,7 +227,7 @@ def proven_gap(problem: Any) -> float:
     information = problem.solver_stats.extra_stats
     if isinstance(information, Mapping):
         if "gap" in information:
-            # SCIP in a process of its own.
+            # SCIP in its own process.
             return float(information["gap"])
         # SCIP minimises, and its model outlives the run.
         model = information["model"]

@@ -118,7 +118,7 @@ def _bounded(profits: Values, size: int, node: _Node, known: float, steps: int, 
 
 
 def _branches(profits: Values, size: int, node: _Node, known: float, tolerance: float) -> list[_Node]:
-    """The node without and with the member that counts most, the latter to be looked at first."""
+    """The nodes without and with the member that counts most, the latter to be examined first."""
     free = size - len(node.inside)
     if free == 0 or not len(node.open):
         return []

@@ -22,7 +22,7 @@ SEARCH_PARTS = 3
 """The primal search takes at most one such part of the work."""
 
 BOUND_WORK = 20
-"""The linear program of a bound counts as so many looks at every value."""
+"""Work of the linear program of a bound, in evaluations of every value."""
 
 
 class _Cover(Enum):
@@ -150,7 +150,7 @@ class _CoverSearch:
         reached: 1 where a member serves a task, shape (members, tasks).
         masks: The same as the bits of whole numbers.
         by_task: The members that serve each task.
-        bound: The weights by which covers are bounded.
+        bound: The task weights that bound covers.
         work: What is left of the work limit.
         failed: With how many members the tasks that are left cannot be covered, by their mask.
     """

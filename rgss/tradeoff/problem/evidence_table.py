@@ -196,7 +196,7 @@ def tabulated(alternatives: Sequence[Alternative]) -> EvidenceTable:
 
 
 def check_evidence(alternatives: Sequence[Alternative]) -> None:
-    """Make sure that there are alternatives, each given once, with finite quantities.
+    """Check that there are alternatives, each given once, with finite quantities.
 
     Raises:
         TradeoffError: It is not so.
@@ -236,11 +236,11 @@ def _or_none(quantity: float) -> float | None:
 
 
 def _given_twice(variant: int) -> TradeoffError:
-    return TradeoffError(f"variant {variant} is given twice", hint="give every alternative an id of its own")
+    return TradeoffError(f"variant {variant} is given twice", hint="give every alternative its own id")
 
 
 def _not_finite(measure: str, variant: int, quantity: float) -> TradeoffError:
     return TradeoffError(
-        f"{measure!r} of variant {variant} is {quantity:g}",
-        hint="a measure is a finite number, or None where it is unknown",
+        f"{measure!r} of variant {variant} must be finite or None, got {quantity:g}",
+        hint="give None where it is unknown",
     )

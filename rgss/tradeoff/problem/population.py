@@ -6,8 +6,8 @@ through noise that alternatives have in common as far as their trials do:
     θ = μ 1 + Σ_f Z_f a_f + r,   a_f ~ N(0, v_f I),   r ~ N(0, v_r I),   estimates ~ N(θ, C)
 
 (Gelman, "Analysis of variance", Annals of Statistics 33, 2005). What a factor does decides how far its
-levels are drawn together: a factor that separates designs is left alone, one that does nothing is
-pooled. Nobody says which.
+levels are drawn together: a factor that separates designs is hardly shrunk, one without an effect is
+pooled. The data decide which.
 """
 
 from __future__ import annotations

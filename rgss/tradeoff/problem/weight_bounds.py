@@ -106,7 +106,7 @@ class WeightBounds:
     orders: tuple[ElicitedOrder, ...] = ()
 
     def check(self, weights: Mapping[str, float]) -> None:
-        """Make sure that weights agree with the bounds.
+        """Check that weights agree with the bounds.
 
         Raises:
             TradeoffError: They do not, so weights and bounds contradict each other.

@@ -52,7 +52,7 @@ class StageCertificate:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Certificate:
-    """Why a decision can be trusted.
+    """Certificate of a decision: recomputed objective and constraints, agreement, gap.
 
     Attributes:
         status: What was proved; best found where a stage's optimality was not.
@@ -103,9 +103,9 @@ def certify(
     """Compare the solver's answer with the evidence and with enumeration.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated, or those that are known.
-        solutions: The solver's answers, stage by stage; of an infeasible problem the one that says so.
+        solutions: The solver's answers, stage by stage; of an infeasible problem the one that shows it.
         considered: How many alternatives the program held.
         whole: Whether the enumeration has every alternative.
 
@@ -206,7 +206,7 @@ def residuals_at(
     """Every constraint of a program recomputed at an alternative.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         choice: The alternative.
         selection_error: How far the solver's variables are from selecting exactly it.
     """

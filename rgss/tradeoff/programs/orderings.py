@@ -18,7 +18,7 @@ Rows = NDArray[np.intp]
 Column = NDArray[np.float64]
 
 MOST_COMPARED = 5_000_000
-"""So many alternatives are looked at in all to rank them one after another."""
+"""Largest number of alternatives that are evaluated in all to rank them one after another."""
 
 
 class Ordering(Protocol):

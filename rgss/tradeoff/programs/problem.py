@@ -1,4 +1,4 @@
-"""The trade-off as it is put: alternatives with their evidence, and what is wanted of a choice."""
+"""Trade-off problem: alternatives with their evidence, and the preferences of the choice."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class TradeProblem(Preferences):
             self.levels.check(self.alternatives)
 
     def is_feasible(self, alternative: Alternative) -> bool:
-        """Tell whether an alternative meets every condition and is known in every measure that decides."""
+        """True if an alternative meets every condition and is known in every measure that decides."""
         return all(
             condition.sense.holds(condition.statistic(alternative), condition.limit) for condition in self.conditions
         ) and all(

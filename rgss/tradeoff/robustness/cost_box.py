@@ -82,7 +82,7 @@ def box_range(problem: BoxProblem, chosen: int, *, most: float = 1.0) -> BoxRang
     Args:
         problem: The choice.
         chosen: The alternative that is best at the assumed numbers, alone or tied.
-        most: The largest factor that is looked at.
+        most: The largest factor that is examined.
 
     Raises:
         TradeoffError: An assumed number is negative, or the choice is not best to begin with.
@@ -100,7 +100,7 @@ def box_range(problem: BoxProblem, chosen: int, *, most: float = 1.0) -> BoxRang
         factor = _bisect(lambda x: _violation(problem, chosen, x), most)
     overtaken = False
     for rival in rivals:
-        # A rival that does not draw level before the nearest one so far need not be looked at closely.
+        # A rival that does not draw level before the nearest one so far need not be bisected.
         if _lead(problem, chosen, rival, factor)[0] < -TIE_TOLERANCE:
             factor = _bisect(lambda x, rival=rival: _lead(problem, chosen, rival, x)[0] < -TIE_TOLERANCE, factor)  # type: ignore[misc]
             overtaken = True

@@ -27,7 +27,7 @@ _SHARE_OF_MIXTURE = 1e-6
 
 
 class KeptFor(str, Enum):
-    """Why an alternative is kept, or not.
+    """Reason that an alternative is kept, or not.
 
     Attributes:
         BEST_AS_STATED: It is best at the weights of the study.

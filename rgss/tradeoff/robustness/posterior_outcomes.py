@@ -41,7 +41,7 @@ class PosteriorOutcomes:
     """Posterior draws of the evidence of n alternatives, and what they mean.
 
     Attributes:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         table: The evidence.
         drawn: Draws of each measure that is observed in trials, shape (b, n); NaN where unknown.
         outcomes: Values and feasibility in each draw.
@@ -68,7 +68,7 @@ class PosteriorOutcomes:
         Demands on replicates are judged by replicates that are drawn anew with replacement.
 
         Args:
-            preferences: What is wanted.
+            preferences: Preferences that the alternatives are compared by.
             table: The evidence.
             proportions: The measures that are shares of trials.
             generator: Where randomness comes from.
@@ -95,7 +95,7 @@ class PosteriorOutcomes:
         return np.asarray(self.outcomes.values @ weights, dtype=np.float64)
 
     def as_required(self, row: int) -> Array:
-        """Whether an alternative is feasible in each draw without the tolerances of thresholds, shape (b,).
+        """True where an alternative is feasible in each draw without the tolerances of thresholds, shape (b,).
 
         Args:
             row: Its row.

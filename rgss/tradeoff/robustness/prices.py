@@ -53,7 +53,7 @@ def price_list(
         totals: The weighted values, shape (n,); NaN only where not feasible.
         otherwise_feasible: Which alternatives meet everything else, shape (n,).
         at_least: Whether the threshold is a lower bound; an upper one otherwise.
-        best_of: Tells which of some alternatives are best, where it is not those of the highest
+        best_of: Callback that returns the best of some alternatives, where it is not those of the highest
             weighted value; the value then need not fall.
 
     Returns:

@@ -19,10 +19,10 @@ _LEVEL_STEP = 1.3
 
 
 def rivals_after_pilot(evidence: SequentialEvidence, slack: float) -> tuple[tuple[int, float], ...]:
-    """Alternatives of the highest value after the pilot, and those that could be best with better luck.
+    """Alternatives of the highest value after the pilot, and those that could be best if the pilot was unlucky.
 
-    The first group has the highest value, ties together. The second insures against what may befall
-    all of it: of those that share no trials with it, the group that would have the highest value if
+    The first group has the highest value, ties together. The second covers the case that
+    all of it fails: of those that share no trials with it, the group that would have the highest value if
     proportions were as high as the pilot leaves open (optimism in the face of uncertainty; Lai and
     Robbins, "Asymptotically efficient adaptive allocation rules", 1985).
 

@@ -71,7 +71,7 @@ class Observed:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Hopes:
-    """What n alternatives come to if their estimates err to their disadvantage.
+    """Values and shortfalls of n alternatives if their estimates err to their disadvantage.
 
     Attributes:
         values: Weighted value, shape (n,); NaN where a measure is unknown.
@@ -185,7 +185,7 @@ class SequentialEvidence:
     def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:
         """True if no replicate can show that an alternative is worth more than a rival by a margin.
 
-        So it is where both have the same trials whatever the seed, and no measure tells them apart in those that
+        So it is where both have the same trials whatever the seed, and no measure separates them in those that
         were run: then they differ by their designs alone, which are known.
 
         Args:
@@ -263,12 +263,12 @@ class SequentialEvidence:
 def _check(problem: TradeProblem) -> None:
     if problem.program.name != "additive":
         raise TradeoffError(
-            f"replication until decided knows no {problem.program.name} program",
+            f"replication until decided does not support the {problem.program.name} program",
             hint="decide by the weighted value, or run a fixed number of replicates",
         )
     if problem.risks:
         raise TradeoffError(
-            f"replication until decided knows no demand on replicates, such as {problem.risks[0].requirement}",
+            f"replication until decided does not support demands on replicates, such as {problem.risks[0].requirement}",
             hint="take the risks out, or run a fixed number of replicates",
         )
     for threshold in problem.thresholds:

@@ -16,7 +16,7 @@ without a difference two proportions differ by less than about ln(1/level)/n.
 The guarantee is one of good selection with tolerances, as procedures for ranking and selection
 give (Kim and Nelson, "A fully sequential procedure for indifference-zone selection in simulation",
 2001; Andradóttir and Kim, "Fully sequential procedures for comparing constrained systems via
-simulation", 2010): if it says decided, then with probability at least 1 - α the alternative chosen
+simulation", 2010): if the reason is decided, then with probability at least 1 - α the alternative chosen
 is worth no less than i* by more than the margin, and violates no threshold by more than the slack.
 """
 
@@ -36,10 +36,10 @@ from rgss.tradeoff.sequential.verdicts import has_open_threshold, settled_thresh
 
 
 class Reason(str, Enum):
-    """Why replication ends."""
+    """Reason for the end of replication."""
 
     DECIDED = "decided"
-    """The decision stands with the stated probability, and no verdict is worth more replicates."""
+    """The decision is right with the stated probability, and no verdict needs more replicates."""
     BUDGET = "budget"
     """The budget of trials has no room for what is still open."""
     CAP = "cap"
@@ -162,8 +162,8 @@ def _wanted(
 def _chosen(evidence: SequentialEvidence, contenders: tuple[int, ...], *, focused: bool) -> int | None:
     """The contender of the highest value that is feasible by its estimates; the smallest id of ties, or the largest.
 
-    Only those with the most replicates count: who was left alone is known too vaguely to lead. Under a budget
-    all count, for whoever leads is replicated first, and the assessment reads the same estimates.
+    Only those with the most replicates count: the estimate of an alternative with fewer is too uncertain. Under
+    a budget all count, because the leader is replicated first, and the assessment reads the same estimates.
     """
     rows = [row for row in map(evidence.table.row_of, contenders) if evidence.feasible[row]]
     most = max((evidence.replicates[row] for row in rows), default=0)

@@ -32,7 +32,7 @@ def walked_weights(polytope: Polytope, inside: Array, count: int, generator: np.
     under linear conditions (Tervonen et al., "Hit-And-Run enables efficient weight generation for
     simulation-based multiple criteria decision analysis", 2013). Long thin polytopes mix slowly, so
     the directions are those of a random orthonormal basis after the polytope was rounded by the
-    covariance of pilot walks. Every weight is the end of a walk of its own, so that standard errors
+    covariance of pilot walks. Every weight is the end of its own walk, so that standard errors
     of independent draws hold; that the walks have forgotten their start is tested and not proven.
 
     Args:

@@ -107,7 +107,7 @@ def never_best(values: Array, rivals: Array | None) -> Mask:
 
     Args:
         values: The single values of distinct alternatives, shape (n, m).
-        rivals: What `rivals_of` gives for them; of None nothing is said.
+        rivals: What `rivals_of` gives for them; no statement if None.
     """
     beaten = np.zeros(len(values), dtype=np.bool_)
     for rival in () if rivals is None else rivals:
@@ -125,7 +125,7 @@ def shared_region_keys(values: Array, rivals: Array | None) -> tuple[bytes | Non
 
     Args:
         values: The single values of distinct alternatives, shape (n, m).
-        rivals: What `rivals_of` gives for them; of None nothing is said.
+        rivals: What `rivals_of` gives for them; no statement if None.
 
     Returns:
         A key for each alternative; None where none is known.

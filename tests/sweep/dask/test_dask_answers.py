@@ -49,4 +49,4 @@ def test_a_wrong_answer_of_a_dask_worker_costs_the_task_and_not_the_sweep(answer
     (ended,) = workers.wait(60.0)
     assert (ended.key, ended.result) == ("k", None)
     assert ended.trouble.kind is RunFailureKind.WRONG_ANSWER
-    assert ended.trouble.detail == "a Dask worker answered something else than it was asked"
+    assert ended.trouble.detail == "the answer of a Dask worker belongs to another task"

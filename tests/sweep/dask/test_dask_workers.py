@@ -206,7 +206,7 @@ def test_a_scheduler_that_goes_is_an_error(doubles, carried_out):
                 carried_out(workers, {"never": ("who",)}, patience_s=20.0)
             workers.close()
     assert str(caught.value) == (
-        f"the Dask scheduler at {address} has gone or has dropped the sweep's tasks "
+        f"the Dask scheduler at {address} has stopped or has dropped the sweep's tasks "
         "(what was finished is kept; run the sweep again to go on)"
     )
 
