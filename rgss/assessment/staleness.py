@@ -58,7 +58,7 @@ class BasisReader:
     """Inputs of verdicts as the project is now; each digest is made once."""
 
     def __init__(self, project: Project) -> None:
-        """Take a project."""
+        """Digests of a project."""
         self._project = project
         self._measures: dict[str, str] = {}
         self._requirements: dict[str, str] = {}

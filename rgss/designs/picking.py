@@ -125,7 +125,7 @@ def _ids(space: DesignSpace, text: str, option: str) -> Filter:
         )
     if first == last and first not in known:
         why = f"repeats variant {repeats[first]}" if first in repeats else f"breaks rule {excluded[first][0]!r}"
-        raise DefinitionError(f"{option}: {first} is no variant: it {why}", hint="'rgss variants' lists all of them")
+        raise DefinitionError(f"{option}: {first} is not a variant: it {why}", hint="'rgss variants' lists all of them")
     return lambda variant: first <= variant.id <= last
 
 

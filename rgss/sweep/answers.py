@@ -37,7 +37,7 @@ def checked(ended: Ended, task: Task) -> Ended:
         ended: How the task ended, from whatever worker.
         task: The task.
     """
-    if ended.trouble is not None:
+    if ended.failure is not None:
         return ended
     problem = answer_problem(task, ended.result)
     if problem:
@@ -55,8 +55,8 @@ def wrong_answer(key: str, problem: str) -> Ended:
         key: The task's name.
         problem: What is wrong with the answer.
     """
-    trouble = TaskError(kind=RunFailureKind.WRONG_ANSWER, detail=problem, may_pass=True)
-    return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+    failure = TaskError(kind=RunFailureKind.WRONG_ANSWER, detail=problem, may_pass=True)
+    return Ended(key=key, result=None, failure=failure, took_s=0.0)
 
 
 def answer_problem(task: Task, result: object) -> str:
@@ -110,12 +110,12 @@ def is_end_of(ended: object, key: str) -> TypeGuard[Ended]:
         return False
     if not 0.0 <= ended.took_s < math.inf:
         return False
-    trouble = ended.trouble
-    return trouble is None or (
-        type(trouble) is TaskError
-        and isinstance(trouble.kind, RunFailureKind)
-        and type(trouble.detail) is str
-        and type(trouble.may_pass) is bool
+    failure = ended.failure
+    return failure is None or (
+        type(failure) is TaskError
+        and isinstance(failure.kind, RunFailureKind)
+        and type(failure.detail) is str
+        and type(failure.may_pass) is bool
     )
 
 

@@ -28,7 +28,7 @@ class InlineWorkers:
         """Number of tasks that can be begun now."""
         return 1 - len(self._ended)
 
-    def want(self, tasks: int) -> None:
+    def prepare_for(self, tasks: int) -> None:
         """There is one worker, whatever the demand."""
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:

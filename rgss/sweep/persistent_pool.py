@@ -75,8 +75,8 @@ class _PoolHandle:
     def free(self) -> int:
         return self._pool.free
 
-    def want(self, tasks: int) -> None:
-        self._pool.want(tasks)
+    def prepare_for(self, tasks: int) -> None:
+        self._pool.prepare_for(tasks)
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
         self._pool.begin(key, arguments)

@@ -141,7 +141,7 @@ class _Sweep:
         try:
             self._put_together()
             while self._work.left:
-                self._workers.want(self._work.ready + len(self._running))
+                self._workers.prepare_for(self._work.ready + len(self._running))
                 self._begin_tasks()
                 for ended in self._workers.wait(self._writer.due_s()):
                     # Others can begin what this one makes ready before it is written down.
@@ -181,8 +181,8 @@ class _Sweep:
     def _take_in(self, ended: Ended) -> None:
         task = self._running.pop(ended.key)
         ended = checked(ended, task)
-        if ended.trouble is not None:
-            self._handle_failure(task, ended.trouble)
+        if ended.failure is not None:
+            self._handle_failure(task, ended.failure)
             return
         del self._attempts[task.digest]
         self._busy_s += ended.took_s
@@ -224,15 +224,15 @@ class _Sweep:
         self._lose("trial", trial.key, RunFailureKind.WRONG_ANSWER, f"its pieces make no record: {problem}", (trial,))
         return None
 
-    def _handle_failure(self, task: Task, trouble: TaskError) -> None:
+    def _handle_failure(self, task: Task, failure: TaskError) -> None:
         attempts = self._attempts[task.digest]
-        if trouble.may_pass and attempts < MOST_ATTEMPTS:
+        if failure.may_pass and attempts < MOST_ATTEMPTS:
             self._work.give_back(task)
             return
         lost = self._work.give_up(task.digest)
         self._held = {digest: piece for digest, piece in self._held.items() if self._work.is_used(digest)}
         what = "trial" if isinstance(task, TrialTask) else task.kind.value
-        self._lose(what, task.digest, trouble.kind, trouble.detail, lost, attempts=attempts)
+        self._lose(what, task.digest, failure.kind, failure.detail, lost, attempts=attempts)
 
     def _lose(
         self, what: str, key: str, kind: RunFailureKind, detail: str, trials: Sequence[Trial], *, attempts: int = 1

@@ -102,7 +102,7 @@ class WorkerPool:
         """Number of tasks that can be begun now."""
         return sum(worker.ready and worker.key is None for worker in self._workers)
 
-    def want(self, tasks: int) -> None:
+    def prepare_for(self, tasks: int) -> None:
         """Have as many processes as there are tasks, up to the pool's size.
 
         Args:

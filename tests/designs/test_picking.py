@@ -85,7 +85,7 @@ def test_what_is_no_variant_is_passed_over_in_a_range_and_told_alone(project):
     project.space_text += "rules:\n  - {id: r, rationale: So., exclude: {d2: 3, d3: RRT}}\n"
     space = project.load()
     assert ids(space, "1-5") == [1, 2, 4, 5]
-    with pytest.raises(DefinitionError, match=r"^--only: 3 is no variant: it breaks rule 'r' \('rgss variants'"):
+    with pytest.raises(DefinitionError, match=r"^--only: 3 is not a variant: it breaks rule 'r' \('rgss variants'"):
         picked(space, ["3"])
 
 
@@ -93,7 +93,7 @@ def test_a_repeated_point_is_told(project):
     project.space_text += "sample: {method: sobol, size: 32, seed: 1}\n"
     space = project.load()
     repeat, first = next(iter(space.sample.repeats.items()))
-    with pytest.raises(DefinitionError, match=f"{repeat} is no variant: it repeats variant {first}"):
+    with pytest.raises(DefinitionError, match=f"{repeat} is not a variant: it repeats variant {first}"):
         picked(space, [str(repeat)])
     assert ids(space, "1-32") == [variant.id for variant in space.expand()]
 

@@ -122,7 +122,7 @@ class _Follower:
         if number.value == 0.0:
             return None, "it is assumed to be 0 and its effect is not linear"
 
-        def stand(value: float) -> Standing:
+        def evaluate(value: float) -> Standing:
             try:
                 table = self.remeasuring.table_with(number, value)
             except DefinitionError:
@@ -131,7 +131,7 @@ class _Follower:
             return self._standing(table, allowed(value))
 
         found = scanned_range(
-            stand,
+            evaluate,
             self.chosen,
             number.value,
             lowest=number.value / SCAN_FACTOR,

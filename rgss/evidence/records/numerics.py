@@ -61,5 +61,5 @@ def require_alike(what: str, there: Numerics, here: Numerics) -> None:
     if difference:
         raise EvidenceError(
             f"{what} was computed with other numerics ({difference})",
-            hint="go on where it was made, or keep another store; docs/determinism.md says what agrees with what",
+            hint="go on where it was made, or keep another store; docs/determinism.md lists what agrees",
         )

@@ -75,7 +75,7 @@ def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]
             column=1,
             rule="robot.unchecked-pair",
             severity=Severity.INFO,
-            message=f"{first} and {second} touch however the arm stands, and are not checked against each other",
+            message=f"{first} and {second} touch in every configuration, and are not checked against each other",
             hint="make the collision shape of one of them smaller if they should be",
         )
         for first, second in pairs

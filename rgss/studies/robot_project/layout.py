@@ -80,7 +80,7 @@ _PEDESTAL = """\
 """
 _CARRIED = """\
   - about: robot.base
-    rationale: What carries the arm above the tables is not modelled; it stands outside of where the tool goes.
+    rationale: What carries the arm above the tables is not modelled; it is outside of the tool's region.
 """
 _FREE_YAW = "  free_yaw: true # the cup is round: an arm of few joints turns the gripper as it can\n"
 

@@ -165,16 +165,16 @@ def _machine_of(where: str, answer: object, expected: Mapping[str, str]) -> str:
     if isinstance(answer, ImportError) or "ModuleNotFoundError" in str(answer):
         missing = " ".join(str(answer).split())
         raise DefinitionError(f"the Dask worker {where} has no rgss that can be used: {missing}", hint=_ALIKE)
-    if isinstance(answer, Ended) and answer.trouble is None:
+    if isinstance(answer, Ended) and answer.failure is None:
         if isinstance(answer.result, Differs):
             found = Differs(found=answer.result.found, why=answer.result.why, where=where)
             raise DefinitionError(difference(found, expected), hint=_ALIKE)
         return str(answer.result)
-    if isinstance(answer, Ended) and answer.trouble and answer.trouble.kind is RunFailureKind.TIMED_OUT:
+    if isinstance(answer, Ended) and answer.failure and answer.failure.kind is RunFailureKind.TIMED_OUT:
         # A limit that is too short even for this is too short for every task, which then reports it.
         return ""
     why = (
-        answer.trouble.detail if isinstance(answer, Ended) and answer.trouble else f"{type(answer).__name__}: {answer}"
+        answer.failure.detail if isinstance(answer, Ended) and answer.failure else f"{type(answer).__name__}: {answer}"
     )
     raise DefinitionError(f"the Dask worker {where} cannot run trials: {' '.join(why.split())}", hint=_ALIKE)
 

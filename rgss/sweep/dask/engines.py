@@ -162,7 +162,7 @@ class Engines:
         while not self._is_over(order):
             if not begun:
                 with self._lock, _free_to_have_children():
-                    pool.want(1)
+                    pool.prepare_for(1)
                 if pool.free:
                     pool.begin(key, (order.environment, work))
                     begun = True
@@ -205,8 +205,8 @@ class Engines:
 
 
 def _stopped(key: str) -> Ended:
-    trouble = TaskError(kind=RunFailureKind.CRASHED, detail="the sweep was stopped", may_pass=True)
-    return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+    failure = TaskError(kind=RunFailureKind.CRASHED, detail="the sweep was stopped", may_pass=True)
+    return Ended(key=key, result=None, failure=failure, took_s=0.0)
 
 
 @contextmanager

@@ -81,7 +81,7 @@ class DaskWorkers:
         """Number of tasks that can be begun now."""
         return max(0, IN_FLIGHT * self._threads - len(self._running))
 
-    def want(self, tasks: int) -> None:
+    def prepare_for(self, tasks: int) -> None:
         """The cluster has the workers that it has."""
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
@@ -150,8 +150,8 @@ class DaskWorkers:
             ended: object = future.result()
         except KilledWorker as error:
             detail = f"{error.allowed_failures + 1} Dask workers were lost at it"
-            trouble = TaskError(kind=RunFailureKind.CRASHED, detail=detail, may_pass=True)
-            return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+            failure = TaskError(kind=RunFailureKind.CRASHED, detail=detail, may_pass=True)
+            return Ended(key=key, result=None, failure=failure, took_s=0.0)
         except (CancelledError, OSError) as error:
             raise self._lost() from error
         except SimulationError:

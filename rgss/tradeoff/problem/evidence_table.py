@@ -79,7 +79,7 @@ class EvidenceTable(Sequence[Alternative]):
             variants: Ids, shape (n,), in any order.
             columns: The quantities of each measure, shape (n,).
             known: Where a measure is known, shape (n,); everywhere by default. What
-                stands elsewhere in the column is not looked at.
+                is elsewhere in the column is ignored.
 
         Raises:
             TradeoffError: An id is given twice, a column has another length, or a quantity that is

@@ -69,7 +69,7 @@ def drawn_with_population(
 def _alikeness(group: NDArray[np.intp], count: int, levels: NDArray[np.intp] | None) -> list[Array]:
     """Share of a level's effect that two distinct alternatives have in common, (count, count) for each factor.
 
-    An alternative that stands for several of other levels has their mean effect.
+    An alternative that represents several of other levels has their mean effect.
     """
     shares = []
     for column in () if levels is None else np.asarray(levels).T:

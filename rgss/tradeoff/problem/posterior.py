@@ -80,9 +80,9 @@ def posterior_means(
 def alike_groups(observed: Sequence[ObservedRows]) -> NDArray[np.intp]:
     """The group of each alternative, shape (n,), that shares the trials behind its proportions.
 
-    Alternatives are alike where no replicate of a proportion, and none of some mean, tells them
-    apart: planning limits that never bind, or tool speeds of the same plans. Equal proportions alone
-    say nothing, for they are often equal by chance.
+    Alternatives are alike where no replicate of a proportion, and none of some mean, separates
+    them: planning limits that never bind, or tool speeds of the same plans. Equal proportions alone
+    are not enough: they are often equal by chance.
     """
     count = len(observed[0].values)
     proportions = [one for one in observed if one.is_proportion]

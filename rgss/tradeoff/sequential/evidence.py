@@ -244,7 +244,7 @@ class SequentialEvidence:
         return Hopes(values=values, shortfalls=short)
 
     def is_nearly_feasible(self, row: int, slack: float) -> bool:
-        """Tell whether an alternative's estimates miss no threshold by more than a share of it.
+        """True if an alternative's estimates miss no threshold by more than a share of it.
 
         Args:
             row: The alternative.
