@@ -160,7 +160,7 @@ def read_study(
     findings.extend(physics_findings(entry.physics, document, fidelities=entry.fidelity))
     planning = read_planning(entry.planning, document, findings)
     motion = read_motion(entry.timing, entry.control, document, findings, rate_hz=entry.physics.rate)
-    screening = read_screening(entry, document, findings)
+    screening = read_screening(entry.fidelity, entry.promotion, document, findings, clock=entry.planning.clock)
     loaded_task = _task(project, entry, findings)
     if loaded_task is not None:
         findings.extend(step_control_findings(loaded_task, motion.controller, rate_hz=entry.physics.rate))

@@ -86,7 +86,7 @@ FINDINGS = [
     (
         "weight: 0.10",
         "weight: -0.10",
-        "28:30: error: weight of 't_p' must be at least 0, got -0.1 (a weight is a number from 0 to 1)",
+        "28:30: error: weight of 't_p' must be at least 0, got -0.1 (give a number from 0 to 1)",
     ),
     ("weight: 0.10", "weight: 0.20", "25:5: error: weights must sum to 1, got 1.1 (change them by -0.1 in all, or"),
     ("weight: 0.10", "weight: 10 kg", "28:30: error: weight: '10 kg' has a unit where a pure number"),
