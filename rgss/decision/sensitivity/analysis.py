@@ -131,7 +131,8 @@ def _refused(problem: TradeProblem, decision: Decision) -> str:
 
 def _tornado(standings: Standings, decision: Decision, found: Robustness) -> Tornado | DocumentError:
     """The tornado; an error in a stated range is returned, since it is the user's and leaves nothing to show."""
-    book = RangeBook(standings.project.study.trade_off.sensitivity)
+    trade_off = standings.project.study.trade_off
+    book = RangeBook(trade_off.sensitivity, trade_off.range_places)
     inputs = list(uncertain_inputs(standings, found, book))
     try:
         book.check(undecided_inputs(standings, found))

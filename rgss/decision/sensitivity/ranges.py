@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from rgss.decision.sensitivity.inputs import RangeBasis
@@ -20,9 +20,16 @@ class RangeBook:
         choice: How far inputs are moved where no range is stated.
     """
 
-    def __init__(self, choice: SensitivityChoice) -> None:
+    def __init__(self, choice: SensitivityChoice, places: Sequence[Finding]) -> None:
+        """Take the section of the study's file.
+
+        Args:
+            choice: The section.
+            places: For each stated range a finding at its place.
+        """
         self.choice = choice
         self._stated = {one.input: one for one in choice.ranges}
+        self._places = {one.input: place for one, place in zip(choice.ranges, places, strict=True)}
         self._findings: list[Finding] = []
         self._known: list[str] = []
 
@@ -95,4 +102,4 @@ class RangeBook:
             raise DocumentError(sorted(self._findings))
 
     def _report(self, one: StatedRange, message: str, hint: str) -> None:
-        self._findings.append(replace(one.place, severity=Severity.ERROR, message=message, hint=hint))
+        self._findings.append(replace(self._places[one.input], severity=Severity.ERROR, message=message, hint=hint))

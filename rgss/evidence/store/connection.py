@@ -14,6 +14,7 @@ from typing import Any
 
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import LARGEST_TEXT
+from rgss.evidence.store.transactions import transaction
 
 BUSY_TIMEOUT_S = 30.0
 """How long a connection waits for another process that is writing."""
@@ -90,16 +91,8 @@ class Database:
         Raises:
             EvidenceError: The database cannot be read or written.
         """
-        with self.in_our_words():
-            self.connection.execute(f"BEGIN {kind}")
-            try:
-                yield
-                self.connection.execute("COMMIT")
-            except BaseException:
-                # SQLite may have rolled back by itself, as it does when the disk is full.
-                if self.connection.in_transaction:
-                    self.connection.execute("ROLLBACK")
-                raise
+        with self.in_our_words(), transaction(self.connection, kind):
+            yield
 
     def close(self) -> None:
         """Close the file; a second time does nothing."""

@@ -10,6 +10,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence.store import connection as connecting
 from rgss.evidence.store.ledger import LEDGER_TABLE, write_ledger
 from rgss.evidence.store.migration import FIRST_TABLE, migrate_from_first
+from rgss.evidence.store.transactions import transaction
 
 APPLICATION_ID = 0x72677373
 """``rgss`` in ASCII, in the header of the file."""
@@ -77,16 +78,10 @@ def make(connection: sqlite3.Connection) -> None:
     Raises:
         sqlite3.Error: It cannot be written.
     """
-    connection.execute("BEGIN IMMEDIATE")
-    try:
+    with transaction(connection):
         connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
         _make_tables(connection)
         write_ledger(connection)
-        connection.execute("COMMIT")
-    except BaseException:
-        if connection.in_transaction:
-            connection.execute("ROLLBACK")
-        raise
     _log_ahead(connection)
 
 
@@ -150,8 +145,7 @@ def _make_tables(connection: sqlite3.Connection) -> None:
 
 def _migrate(connection: sqlite3.Connection, name: str) -> None:
     """Bring a store of an older schema to this one, all in one transaction."""
-    connection.execute("BEGIN IMMEDIATE")
-    try:
+    with transaction(connection):
         version = _version(connection, name)
         if version == _BEFORE_LEDGER:
             _check_schema(connection, name, _TABLES, [_INDEX])
@@ -165,11 +159,6 @@ def _migrate(connection: sqlite3.Connection, name: str) -> None:
             _require_sound(connection, name, "integrity_check(1)", "move the file away and run the sweep again")
             migrate_from_first(connection, _make_tables)
             write_ledger(connection)
-        connection.execute("COMMIT")
-    except BaseException:
-        if connection.in_transaction:
-            connection.execute("ROLLBACK")
-        raise
 
 
 def _version(connection: sqlite3.Connection, name: str) -> int:

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from rgss.documents import Dimensionless, DocumentModel, Identifier, Text
+from rgss.studies.trade_off.sensitivity import SensitivityChoice
 from rgss.tradeoff import AnchorField, PortfolioAim, QuantityField, RankRule, Scenarios, ShapeKeys
 
 
@@ -60,27 +61,6 @@ class StakeholderEntry(DocumentModel):
     points: dict[Identifier, Dimensionless] | None = None
     answers: Annotated[tuple[AnswerEntry, ...], Field(min_length=1)] | None = None
     rationale: Text | None = None
-
-
-class RangeEntry(DocumentModel):
-    """Range over which one input of the decision is moved."""
-
-    input: Text
-    low: QuantityField
-    high: QuantityField
-    rationale: Text | None = None
-
-
-class SensitivityEntry(DocumentModel):
-    """Ranges of the inputs of the decision, and the distance from the best within which a design is kept."""
-
-    weights: Dimensionless = 0.25
-    anchors: Dimensionless = 0.10
-    thresholds: Dimensionless = 0.10
-    assumptions: Dimensionless = 0.25
-    risk_tolerance: Dimensionless = 0.3
-    keep_within: Dimensionless | None = None
-    ranges: tuple[RangeEntry, ...] = ()
 
 
 class AimEntry(DocumentModel):
@@ -187,7 +167,7 @@ class TradeOffEntry(DocumentModel):
     elicitation: tuple[AnswerEntry, ...] = ()
     stakeholders: dict[Identifier, StakeholderEntry] = Field(default_factory=dict)
     accept_within: Dimensionless = 0.05
-    sensitivity: SensitivityEntry | None = None
+    sensitivity: SensitivityChoice | None = None
     decide_by: ProgramField = AdditiveEntry(program="additive")
     chance: tuple[ChanceEntry, ...] = ()
     tail: tuple[TailEntry, ...] = ()

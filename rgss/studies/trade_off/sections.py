@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rgss.findings import Finding
 from rgss.studies.trade_off.anchored_programs import StatedProgram
 from rgss.studies.trade_off.demands import RiskChoice
 from rgss.studies.trade_off.document import PortfolioEntry
@@ -45,6 +46,7 @@ class TradeOff:
         stakeholders: Stakeholders with weights of their own.
         accept_within: Distance from a stakeholder's best value up to which they accept a design.
         sensitivity: How far the inputs of the decision are moved.
+        range_places: For each stated range of the sensitivity a finding at its place, for messages on it.
     """
 
     valued: tuple[AnchoredValue, ...]
@@ -63,6 +65,7 @@ class TradeOff:
     stakeholders: tuple[Stakeholder, ...] = ()
     accept_within: float = 0.05
     sensitivity: SensitivityChoice = field(default_factory=SensitivityChoice)
+    range_places: tuple[Finding, ...] = ()
 
     @property
     def weighting(self) -> Weighting:

@@ -223,7 +223,7 @@ def test_variants_that_would_become_possible_have_no_trials(shipped):
         (["value.t_e.target=3 s"], "unknown input 'value.t_e.target'", "did you mean"),
         (["value.t_e.worst=5 s"], "has no range", ""),
         (["catalogue.kg-2.cost=3 USD"], "unknown input 'catalogue.kg-2.cost'", "did you mean catalogue.k"),
-        (["catalogue.ur10.cost=-3 USD"], "catalogue.ur10.cost is -3", "give a number from 0 on"),
+        (["catalogue.ur10.cost=-3 USD"], "catalogue.ur10.cost must be at least 0, got -3", "give a number such as 0"),
         (["measures.d_g=3 mm"], "unknown input 'measures.d_g'", "did you mean measures.d_f"),
         (["nonsense.of.all=3"], "unknown input 'nonsense.of.all'", "such as weight, value, catalogue"),
         (["nonsense"], "must be NAME=VALUE, got 'nonsense'", "write weight.t_p=0.4"),

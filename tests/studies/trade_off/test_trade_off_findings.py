@@ -173,7 +173,7 @@ FINDINGS = [
     ),
     (
         (*BOTH, "decide_by: {program: lexicographic, order: [{measure: t_e, relative: 120 %}]}"),
-        "5:47: error: relative tolerance of 't_e' must be at least 0, got 120 %",
+        "5:47: error: relative tolerance of 't_e' must be below 100 %, got 120 %",
     ),
     (
         (*BOTH, "decide_by: {program: lexicographic, order: [{measure: t_e, absolute: 1 kg}]}"),
@@ -215,9 +215,9 @@ FINDINGS = [
     # risks
     (
         (*BOTH, "chance: [{requirement: SYS-005, probability: 1}]"),
-        "5:48: error: probability is 1 (give a number between 0 and 1",
+        "5:48: error: probability must be between 0 and 1, got 1 (such as 0.9)",
     ),
-    ((*BOTH, "tail: [{requirement: SYS-005, worst_share: 0}]"), "5:46: error: worst_share is 0"),
+    ((*BOTH, "tail: [{requirement: SYS-005, worst_share: 0}]"), "5:46: error: worst_share must be between 0 and 1, got 0"),
     ((*BOTH, "chance: [{probability: 0.5}]"), "5:12: error: a chance is of a requirement or of a measure"),
     ((*BOTH, "tail: [{requirement: SYS-001, worst_share: 0.5}]"), "5:24: error: SYS-001 has no criterion"),
     (
