@@ -29,10 +29,10 @@ class VariantMeasures:
         variant: The variant.
         trials: The keys of its trials, in the order of their seeds.
         records: Their records.
-        missing: How many of its trials have no evidence.
+        missing: Number of its trials without evidence.
         estimates: The estimate of each measure by its id.
         verdicts: The verdict on each requirement with a criterion, by its id.
-        outdated: How many of the missing trials have evidence of an earlier model, code or engine.
+        outdated: Number of missing trials with evidence of an earlier model, code or engine.
         causes: For each requirement whose verdict is stale, what changed since its evidence.
         bases: What each verdict is a verdict on, by the requirement's id.
     """

@@ -90,7 +90,7 @@ def causes_since(recorded: RecordedVerdict | None, now: Basis) -> tuple[StaleCau
 
     Args:
         recorded: The recorded verdict.
-        now: What it would be a verdict on today.
+        now: Its inputs today.
     """
     if recorded is None:
         return ()

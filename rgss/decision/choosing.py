@@ -95,7 +95,7 @@ def choose(
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
-        problem: What `trade_problem` gives for them, where it is there already.
+        problem: Result of `trade_problem` for them, if it was computed already.
         independent: Runs of other solvers than HiGHS, as further checks.
         time_limit: Seconds for the runs of a solver over levels.
 

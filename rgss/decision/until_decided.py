@@ -33,14 +33,14 @@ class UntilDecided:
     """Result of replication until decided.
 
     Attributes:
-        reason: Why it ended.
+        reason: Reason for the end.
         variant: The variant that is chosen; None if none meets every requirement.
         contenders: The variants that may be the best one; if it is decided, by less than the margin.
         verdicts: By variant, the verdict on each requirement, valid in spite of the looks.
-        trials: How many trials each variant has.
+        trials: Number of trials of each variant.
         probability: Posterior probability that the choice is good; see
             `rgss.tradeoff.sequential.probability.probability_of_good_selection`.
-        looks: How often was looked.
+        looks: Number of looks.
         rule: The stopping rule.
         unsettled: The variants that may be worth more than the choice by the margin.
         forecast: The replicates that would settle what is open; None if the decision is settled, or nothing chosen.

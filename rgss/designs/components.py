@@ -20,8 +20,8 @@ class SourcedValue:
         value: The magnitude in SI (money in US dollars).
         unit: Its unit.
         assumption: Whether it is assumed rather than taken from a source.
-        rationale: Why this value; not empty where it is assumed.
-        source: Where it is from; not empty unless it is assumed.
+        rationale: Reason for this value; not empty where it is assumed.
+        source: Its source; not empty unless it is assumed.
     """
 
     value: float

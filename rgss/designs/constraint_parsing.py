@@ -49,8 +49,8 @@ class ConstraintProblem(Exception):  # noqa: N818 - it never leaves the room: it
 
     Attributes:
         rule: The id of the broken rule.
-        offset: Where it is, in characters from the start of the text.
-        message: What is wrong.
+        offset: Its position, in characters from the start of the text.
+        message: The problem.
         hint: How to resolve it.
     """
 

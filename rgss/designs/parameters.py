@@ -43,10 +43,10 @@ class DesignParameter:
         id: Its id, such as ``m_f``.
         name: Its name in columns, such as ``finger_mass``.
         symbol: Its symbol in equations.
-        kind: What its values are.
+        kind: Kind of its values.
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
         role: The role of the components that it names; empty unless it has names.
-        sets: What it sets: a quantity of `SETTABLE_QUANTITIES`, or ``catalogue.<role>``; may be empty.
+        sets: Quantity of `SETTABLE_QUANTITIES` that it sets, or ``catalogue.<role>``; may be empty.
         description: What it is, in a sentence.
         assumption: What is assumed about it and why; may be empty.
     """

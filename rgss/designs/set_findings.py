@@ -141,7 +141,7 @@ def value_findings(
 
     Args:
         document: The file.
-        place: Where the value is.
+        place: Place of the value.
         name: The key that gives it.
         setting: What it sets.
         value: The value in SI.

@@ -39,7 +39,7 @@ class DesignSpace:
         parameters: The design parameters.
         constants: The values of those that do not vary, in SI, by parameter id.
         factors: What varies, outermost first: the last factor varies fastest.
-        rules: Which combinations make a design.
+        rules: Rules for the combinations that make a design.
         catalogue: The components.
         selectors: The parameter values in SI that select each component, by component id.
         sample: The points that are tried; None if every combination of levels is.

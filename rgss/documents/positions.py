@@ -33,7 +33,7 @@ class ListPlaces:
     """Positions of a list and its entries.
 
     Attributes:
-        mark: Where it starts.
+        mark: Position of its start.
         inner: Positions of its entries.
     """
 
@@ -46,7 +46,7 @@ class MappingPlaces:
     """Positions of a mapping, its keys and their values.
 
     Attributes:
-        mark: Where it starts.
+        mark: Position of its start.
         keys: Position of each key.
         inner: Position of the value of each key.
     """

@@ -61,7 +61,7 @@ class Document:
 
         Args:
             rule: The id of the broken rule.
-            message: What is wrong.
+            message: The problem.
             location: Keys and indices from the top, such as ``("bodies", 2, "mass")``; parts
                 that the document does not have are passed over.
             hint: How to resolve it.

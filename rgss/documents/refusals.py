@@ -20,7 +20,7 @@ def refusal(label: str, rule: str, message: str, position: tuple[int, int] = (1,
     Args:
         label: The file's name in messages.
         rule: The broken rule, without ``document.``.
-        message: What is wrong.
+        message: The problem.
         position: Line and column.
         hint: How to resolve it.
     """

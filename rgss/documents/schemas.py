@@ -32,7 +32,7 @@ def json_schema(model: type[DocumentModel], *, title: str, texts: KeyTexts) -> d
     Args:
         model: The model of a whole document.
         title: Title of the document, in a few words.
-        texts: What each key means; a description of the model's own comes first.
+        texts: Description of each key; the model's own comes first.
 
     Returns:
         Plain data that can be written as JSON. What it refuses the model refuses too; the model also knows

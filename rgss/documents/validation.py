@@ -45,7 +45,7 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
 
     Args:
         path: The file.
-        model: What the file should be.
+        model: Type of the file.
         label: The file's name in messages; the path itself by default.
 
     Raises:

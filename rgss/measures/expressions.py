@@ -25,8 +25,8 @@ class ExpressionProblem:
 
     Attributes:
         rule: The id of the broken rule.
-        offset: Where it is, in characters from the start of the expression.
-        message: What is wrong.
+        offset: Its position, in characters from the start of the expression.
+        message: The problem.
         hint: How to resolve it; may be empty.
     """
 

@@ -32,7 +32,7 @@ def mean_limits(
     and Thomas, "An exact distribution-free test for means of nonnegative random variables", 2026.
 
     Args:
-        values: What was observed; not empty.
+        values: The observations; not empty.
         least: The least possible value; None where none is known.
         most: The greatest possible value; None where none is known.
         tail: Probability beyond each limit.

@@ -18,7 +18,7 @@ class Hints:
         """Begin with nothing compared.
 
         Args:
-            most_comparisons: How many ids may be compared in all.
+            most_comparisons: Largest number of compared ids.
         """
         self._left = most_comparisons
 

@@ -35,7 +35,7 @@ class FolderReader:
         Args:
             folder: The folder.
             label_root: Its name in messages.
-            findings: Where problems are put.
+            findings: Collects the problems.
         """
         self._folder = folder
         self._label_root = label_root
@@ -46,7 +46,7 @@ class FolderReader:
 
         Args:
             name: The part.
-            model: What each of its files should be.
+            model: Type of each of its files.
         """
         inner, file = self._folder / name, f"{name}.yaml"
         if not inner.is_dir():

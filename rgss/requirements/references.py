@@ -58,7 +58,7 @@ class Declaration:
         kind: What it names.
         document: The file.
         location: Keys and indices from the top of the file to the element.
-        references: What the element refers to.
+        references: References of the element.
         exempt: The rules that it is exempt from.
     """
 

@@ -45,7 +45,7 @@ class Place:
 
         Args:
             rule: The id of the broken rule.
-            message: What is wrong.
+            message: The problem.
             at: The part to point at, such as ``("criterion", "threshold")``.
             hint: How to resolve it.
             severity: Its severity.
@@ -66,11 +66,11 @@ class RequirementSet:
         stakeholder: The stakeholder requirements, in the file's order.
         system: The system requirements, in the file's order.
         architecture: The model of the system.
-        places: Where each element is declared, by its id.
+        places: Place of each element's declaration, by its id.
         reviews: The review of each element that was reviewed, by its id, which need not be there any more.
-        review_places: Where each review is.
+        review_places: Place of each review.
         settings: Settings of rules by id, which need not be that of a rule.
-        setting_places: Where each setting is.
+        setting_places: Place of each setting.
     """
 
     stakeholder: tuple[StakeholderNeed, ...]
@@ -149,7 +149,7 @@ class RequirementSet:
         Args:
             rule: The id of the broken rule.
             element_id: The element.
-            message: What is wrong.
+            message: The problem.
             at: The part of the element to point at, such as ``("criterion", "threshold")``.
             hint: How to resolve it.
             severity: Its severity.

@@ -43,7 +43,7 @@ def design_findings(
         document: Its file, for positions.
         grippers: The gripper file of each gripper component, by its name.
         robot: The robot, which gives values where no design does.
-        planning: How the study plans, which gives values too.
+        planning: The study's planning, which gives values too.
     """
     yield from _missing_findings(designs, document, grippers, default_values(robot, planning))
     yield from _planner_findings(designs, document, planning)
@@ -57,7 +57,7 @@ def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, Param
 
     Args:
         robot: The robot.
-        planning: How the study plans.
+        planning: The study's planning.
     """
     given = {_TOOL_SPEED: robot.tool_speed_m_s, PLANNER: planning.planner or None, TIME_LIMIT: planning.time_limit_s}
     return {name: value for name, value in given.items() if value is not None}

@@ -36,7 +36,7 @@ class DocumentKind:
     Attributes:
         id: Its name, such as ``design-space``.
         title: Title, in a few words.
-        model: What reads it.
+        model: Type that reads it.
         place: Location of such a document in a project.
     """
 

@@ -24,7 +24,7 @@ class Promotion:
     Attributes:
         requirements: The condition that always holds: every requirement may still be met.
         keep: How many of the others go on, the best by their value; None for no such bound.
-        within: How much less than the best value theirs may be; None for no such bound.
+        within: Largest difference to the best value; None for no such bound.
     """
 
     requirements: Literal["possible"] | None = field(default=None, compare=False)
@@ -45,8 +45,8 @@ class Screening:
     """The trials that come before those which decide.
 
     Attributes:
-        fidelity: How much physics they have.
-        promotion: Which designs go on from them.
+        fidelity: Their fidelity.
+        promotion: Rule for the designs that go on from them.
     """
 
     fidelity: Fidelity

@@ -27,7 +27,7 @@ class SceneCheck:
 
     Attributes:
         findings: What is wrong, by place.
-        skipped: Why the scene was not checked; empty where it was.
+        skipped: Reason that the scene was not checked; empty if it was.
     """
 
     findings: tuple[Finding, ...]

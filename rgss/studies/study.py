@@ -74,22 +74,22 @@ class StudyDefinition:
         seed: The master seed: replicate r of every variant has the seed ``seed + r``.
         replicates: Trials of each variant.
         fidelity: How much physics a trial has that decides.
-        planning: How moves are planned.
+        planning: Planning of moves.
         rate_hz: Physics steps a second.
         solver_iterations: Iterations of the constraint solver in a step.
         pads: Compliance of the fingers' pads.
-        values: What each measure is worth, with requirements' thresholds put in.
-        trade_off: How designs are compared.
+        values: Value function of each measure, with requirements' thresholds put in.
+        trade_off: Comparison of designs.
         screening: The trials that come first, and which designs go on from them; None if all do.
-        regression: Which metrics are guarded against a baseline; None if none are.
-        until_decided: When replication until decided goes on, and when it stops.
+        regression: Metrics that are guarded against a baseline; None if none are.
+        until_decided: Stopping rule of replication until decided.
         is_sequential: Whether the file states that rule, so that variants may have more replicates than `replicates`.
         uncertainty: Uncertainty from trial to trial; replaces that of the scene for the same quantities.
         workload: The objects that the trials carry.
         is_nominal: Whether neither is applied, nor the scene's uncertainty.
         assumptions: Assumptions that are questioned, with what they could be taken as instead.
         physics: Other physics settings than rate and iterations of the file, for a confirmation; None for the file's.
-        motion: How moves are timed and joints controlled.
+        motion: Timing of moves and control of joints.
     """
 
     id: str

@@ -110,7 +110,7 @@ def mounted(file: GripperFile, mounting: ParameterValue | None, variant: int) ->
 
     Args:
         file: The gripper.
-        mounting: What the design sets; None for the gripper's own.
+        mounting: Mounting that the design sets; None for the gripper's own.
         variant: Id of the design.
 
     Raises:

@@ -53,7 +53,7 @@ def wrong_answer(key: str, problem: str) -> Ended:
 
     Args:
         key: The task's name.
-        problem: What is wrong with the answer.
+        problem: Problem with the answer.
     """
     failure = TaskError(kind=RunFailureKind.WRONG_ANSWER, detail=problem, may_pass=True)
     return Ended(key=key, result=None, failure=failure, took_s=0.0)
@@ -64,7 +64,7 @@ def answer_problem(task: Task, result: object) -> str:
 
     Args:
         task: The task.
-        result: What the worker gave back.
+        result: Result of the worker.
     """
     try:
         return _piece_problem(task, result) if isinstance(task, PieceTask) else record_problem(task.spec, result)

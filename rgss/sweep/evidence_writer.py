@@ -64,7 +64,7 @@ class TrialWriter:
         """Begin with nothing.
 
         Args:
-            store: Where evidence is kept.
+            store: The evidence store.
             origin: Callback for the provenance of the trials; called once there is one.
             on_kept: Callback with the key and the record of each trial once it is on disk.
             numerics: Callback for the numerics of the processes that make the pieces; called once there is a trial.

@@ -36,7 +36,7 @@ class InlineWorkers:
 
         Args:
             key: A name for it.
-            arguments: What the function is called with.
+            arguments: Arguments of the function.
         """
         self._ended.append(ended_by(answer_to(self._function, arguments), key))
 

@@ -39,7 +39,7 @@ class PersistentWorkerPool:
         """Workers for the next sweep; those of the last one, if it has closed them with nothing left to do.
 
         Args:
-            function: What makes a result from a task's arguments; a function of a module.
+            function: Function of a module that makes a result from a task's arguments.
         """
         if self._pool is None or function is not self._function:
             self.close()

@@ -35,7 +35,7 @@ class Cause:
     """A reason with what shows it.
 
     Attributes:
-        reason: Why.
+        reason: The reason.
         name: Dotted name of the input, name of the engine or of the module, or the piece that failed; may be empty.
         then: What it was, or how it failed; may be empty.
         now: What it is; may be empty.
@@ -68,8 +68,8 @@ class PieceCount:
 
     Attributes:
         make: How many would be made.
-        stored: How many are there already.
-        uses: How many of those trials need one.
+        stored: Number that the store has already.
+        uses: Number of those trials that need one.
     """
 
     make: int
@@ -82,7 +82,7 @@ class DryRun:
     """Plan of a sweep.
 
     Attributes:
-        trials: How many trials the study has.
+        trials: Number of trials of the study.
         kept: How many of them have a record.
         pieces: The pieces that the others need, by kind.
         due: The others, by the causes.

@@ -58,7 +58,7 @@ def sweep(
 
     Args:
         specs: The trials.
-        store: Where evidence is kept.
+        store: The evidence store.
         jobs: Number of worker processes; with 0 everything is done in this process, nothing isolated.
         on_finished: Called for every trial that has a record, also for those that the store had.
         on_state: Called whenever something has ended.

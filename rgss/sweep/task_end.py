@@ -37,7 +37,7 @@ class Ended:
 
     Attributes:
         key: The name that it was given.
-        result: What it made; None if it failed.
+        result: Its result; None if it failed.
         failure: Why it failed; None if it did not.
         took_s: Its time by the wall clock; 0 if it failed.
     """

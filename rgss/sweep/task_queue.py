@@ -19,7 +19,7 @@ class Trial:
     """A trial of a study.
 
     Attributes:
-        key: What the store knows it by.
+        key: Its key in the store.
         spec: The trial.
         digests: The digests of its pieces.
     """

@@ -106,7 +106,7 @@ class WorkerPool:
         """Have as many processes as there are tasks, up to the pool's size.
 
         Args:
-            tasks: How many tasks are being done or could be.
+            tasks: Number of tasks that are running or ready.
 
         Raises:
             SimulationError: The system lets no process be started, and there is none.
@@ -126,7 +126,7 @@ class WorkerPool:
 
         Args:
             key: A name for it.
-            arguments: What the function is called with.
+            arguments: Arguments of the function.
         """
         worker = next(worker for worker in self._workers if worker.ready and worker.key is None)
         worker.key, worker.task = key, next(self._numbers)

@@ -53,7 +53,7 @@ def decide(
             the tolerance of their last measure instead.
         last_of_equals: Whether the largest id of tied alternatives is chosen; the smallest otherwise.
         seed: Seed of the draws that test a conflict against the noise of the replicates.
-        resamples: How many draws; 0 for none, 1,000 by default, fewer where alternatives are many.
+        resamples: Number of draws; 0 for none, 1,000 by default, fewer where alternatives are many.
         independent: Runs of other solvers than HiGHS; each solves the whole program as a further check.
         time_limit: Seconds for the runs of a solver over levels, in place of the limits of each run. One that
             exceeds it is a check that was not finished; the decision is then solved over the alternatives instead.

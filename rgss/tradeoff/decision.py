@@ -21,7 +21,7 @@ class RankedAlternative:
         variant: Its id.
         value: Its weighted value, from 0 to 1; None where a weighted measure is unknown that the
             program does not use.
-        objectives: What the program optimises, in turn.
+        objectives: Objectives of the program, in turn.
     """
 
     variant: int
@@ -110,7 +110,7 @@ class Decision:
 
     Attributes:
         program: The program that decided.
-        objectives: What it optimises, in turn.
+        objectives: Its objectives, in turn.
         status: Optimal, or infeasible when no alternative meets every requirement; then nothing
             is chosen and the conflicts say why.
         chosen: Among the tied best, the smallest id, or the largest if the study chooses the last of equals.

@@ -25,7 +25,7 @@ class AssumptionOutcome:
 
     Attributes:
         question: The assumption and its alternative.
-        taken_as: What the study takes it as.
+        taken_as: Its value in the study.
         chosen: The variant that is then chosen; None if none is, or that is not known.
         ties: All that are then as good.
         feasible: Number of variants that then meet every requirement by their estimates.

@@ -64,8 +64,8 @@ class NotComputed:
     """Reason that a part could not be computed.
 
     Attributes:
-        reason: What prevented it.
-        remedy: What to do; empty where nothing is known.
+        reason: The obstacle.
+        remedy: Remedy; empty if none is known.
     """
 
     reason: str
@@ -80,7 +80,7 @@ class PartComputer:
     """Computes parts one after the other and notes those that fail.
 
     Attributes:
-        missing: Why each part that failed was not computed.
+        missing: Reason for each part that was not computed.
     """
 
     missing: dict[Part, NotComputed] = field(default_factory=dict)

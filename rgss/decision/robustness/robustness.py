@@ -109,7 +109,7 @@ def analyse_robustness(
         project: The project with its study.
         measured: Every variant with its estimates and records, by ascending id.
         decision: What was decided.
-        problem: What `trade_problem` gives for them, where it is there already.
+        problem: Result of `trade_problem` for them, if it was computed already.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.

@@ -46,8 +46,8 @@ class Sensitivity:
         agreement: The choices of the stakeholders; None where the study names none.
         accept_within: Distance from a stakeholder's best value up to which a design is accepted.
         flat: The weights that separate nothing.
-        refused: Why the sensitivity to inputs is not analysed; empty where it is.
-        not_computed: Why a part could not be computed.
+        refused: Reason that the sensitivity to inputs is not analysed; empty where it is.
+        not_computed: Reason for each part that could not be computed.
     """
 
     variants: tuple[int, ...]

@@ -39,7 +39,7 @@ class FlatWeight:
         all_low: The least quantity among all designs; NaN where none is known.
         all_high: The greatest.
         among_feasible: Whether only the feasible designs do not differ.
-        remedy: What would let it separate.
+        remedy: Change that would let it separate designs.
         effective: The weights that decide, without it and all other flat ones; they sum to 1, or are empty
             where every weight is flat.
     """

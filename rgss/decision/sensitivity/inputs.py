@@ -70,7 +70,7 @@ class UncertainInput:
         basis: Where the range comes from.
         standing: Weighted values and feasibility of the designs at a value of the input.
         exact: Whether that value is the nearest for certain; a scan may miss a change that reverts within a step.
-        search: How the value is found at which the choice changes.
+        search: Search method for the value at which the choice changes.
         known_flips: Of KNOWN, the nearest changes below and above the base; None where there is none.
     """
 

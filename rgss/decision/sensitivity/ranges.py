@@ -65,7 +65,7 @@ class RangeBook:
             name: The input.
             unit: Its unit.
             base: Its value.
-            spread: How far it is moved to either side where no range is stated.
+            spread: Change to either side where no range is stated.
             least: The least that it can be.
             most: The most that it can be.
         """

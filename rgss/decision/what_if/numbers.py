@@ -21,7 +21,7 @@ class ModelNumber:
             ``measures.<constant>``.
         value: Its value in SI (money in US dollars).
         unit: The unit of that.
-        rationale: Why it is assumed; empty unless it is.
+        rationale: Reason for the assumption; empty unless it is assumed.
         component: The component; empty for a constant.
         role: The component's role; empty for a constant.
         name: The property, or the constant's symbol.

@@ -20,7 +20,7 @@ class Reading:
     Attributes:
         measure: The measure.
         alternative: Id of the alternative.
-        rationale: Why the source can be read so.
+        rationale: Reason for this reading of the source.
     """
 
     measure: str

@@ -65,7 +65,7 @@ def quantity_from(name: str, text: str, unit: str, *, above: float | None = None
     """A quantity of a supposition.
 
     Args:
-        name: What is supposed.
+        name: Name of the supposition.
         text: The value as it was written.
         unit: The SI unit.
         above: What it must exceed.

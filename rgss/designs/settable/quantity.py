@@ -23,7 +23,7 @@ class SettableQuantity:
 
     Attributes:
         name: Its name in files, such as ``robot.tool_speed``.
-        kind: What its values are.
+        kind: Kind of its values.
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
         meaning: What it is, in a sentence.
         field: The field of `rgss.trials.pieces.TrialSpec` that it sets, such as ``gripper.finger_mass_kg``.

@@ -69,7 +69,7 @@ def read_json(text: str, kind: type[Value], name: str) -> Value:
     Args:
         text: The text.
         kind: What it should be.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is something else.
@@ -95,7 +95,7 @@ def plain_json(text: str, name: str) -> Any:
 
     Args:
         text: The text.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is too long or no such JSON.

@@ -27,7 +27,7 @@ class Provenance:
         files: SHA-256 of each input file by its name in the project.
         revision: Revision of the code in its version control; empty if it is not known.
         machine: What it ran on: system, processor, Python; empty if it is not known.
-        numerics: What the mathematics of the process computed, part by part; empty if that was not recorded.
+        numerics: Numerics of the process, part by part; empty if not recorded.
     """
 
     inputs: Mapping[str, str]

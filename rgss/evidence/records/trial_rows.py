@@ -21,8 +21,8 @@ class StoredTrial:
     Attributes:
         key: SHA-256 of what went into the trial.
         content_digest: SHA-256 of the record's canonical JSON.
-        record: What came out of it.
-        provenance: Where it comes from.
+        record: Its record.
+        provenance: Its provenance.
     """
 
     key: str

@@ -15,8 +15,8 @@ class PhaseSpan:
     """Time span of a phase.
 
     Attributes:
-        phase: Which of the eight states.
-        start_s: When it began.
+        phase: The phase.
+        start_s: Time of its start.
         end_s: When it ended.
         last: Index of its last sample.
     """

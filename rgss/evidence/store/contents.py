@@ -19,7 +19,7 @@ class TrialName:
         key: SHA-256 of what went into it.
         variant: Id of the design variant.
         seed: Its seed.
-        fidelity: How much physics it had.
+        fidelity: Its fidelity.
         size_bytes: Bytes of what is kept of it.
     """
 

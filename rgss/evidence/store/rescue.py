@@ -24,7 +24,7 @@ class Rescue:
     Attributes:
         text: How much, and where.
         hint: What to do with it.
-        rows: How many rows.
+        rows: Number of rows.
     """
 
     text: str
@@ -40,7 +40,7 @@ def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[
 
     Args:
         connection: The open store.
-        path: Where it was.
+        path: Its path.
         pending: Rows that were to be put.
     """
     try:

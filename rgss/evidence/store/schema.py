@@ -90,7 +90,7 @@ def prepare(connection: sqlite3.Connection, name: str) -> None:
 
     Args:
         connection: An open database, in autocommit mode.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is the database of something else, of a newer version, or has been

@@ -85,7 +85,7 @@ class EvidenceWriter:
         """Transaction of changes, in the file that has the store's name.
 
         Args:
-            pending: What is to be put, which is saved elsewhere if the store was lost.
+            pending: Rows to be put, which are saved elsewhere if the store was lost.
 
         Raises:
             StorageError: The disk is full or fails; or the store was lost, and the message names where

@@ -48,7 +48,7 @@ def reached_from(starts: Iterable[str], ways: Iterable[tuple[str, str]]) -> froz
     """The ids that are reached from some others over any number of ways, with these others.
 
     Args:
-        starts: Where to begin.
+        starts: Start ids.
         ways: Source and target of each way.
     """
     onward: dict[str, list[str]] = {}

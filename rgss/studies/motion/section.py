@@ -93,7 +93,7 @@ def read_motion(
         timing: The section ``timing``.
         control: The section ``control``.
         document: The file, for positions.
-        findings: Where problems are put.
+        findings: Collects the problems.
         rate_hz: Physics steps a second, in which the control is stable.
     """
     found = [*_timing_findings(timing, document), *_control_findings(control, document)]

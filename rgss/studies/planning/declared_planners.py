@@ -73,7 +73,7 @@ def read_planners(
     Args:
         entries: The section ``planning.planners``.
         document: The file, for positions.
-        findings: Where problems are put.
+        findings: Collects the problems.
     """
     read = {}
     for name, entry in entries.items():

@@ -42,7 +42,7 @@ class PlanningChoice:
         resolution_rad: Greatest joint step between two states of a motion that a search checks.
         verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as
             the search if None.
-        on_unverified: What is done with a path that is not valid at that resolution.
+        on_unverified: Handling of a path that is not valid at that resolution.
         simplification_checks: Validity checks that may be spent on looking for shortcuts.
         simplification_limit_s: Longest time of simplifying a path by the planning clock.
         clearance_m: Distance that planned paths keep from everything.
@@ -82,7 +82,7 @@ def read_planning(planning: PlanningEntry, document: Document, findings: list[Fi
     Args:
         planning: The section.
         document: The file, for positions.
-        findings: Where problems are put.
+        findings: Collects the problems.
     """
     findings.extend(_value_findings(planning, document))
     findings.extend(_planning_findings(planning, document))

@@ -14,8 +14,8 @@ class WatchedRun:
 
     Attributes:
         id: Their name.
-        fidelity: How much physics they have.
-        variants: Which variants, as ``--only`` takes it.
+        fidelity: Their fidelity.
+        variants: The variants, as ``--only`` takes them.
         replicates: Seeds at the first look.
         batch: Seeds that each further look adds.
         cap: The most seeds.

@@ -77,7 +77,7 @@ class FittedCell:
     """A cell that suits an arm.
 
     Attributes:
-        layout: Where the tables are.
+        layout: Positions of the tables.
         home: Joint positions above the object, in rad or m.
         lower: Lower ends of ranges about the configurations at all waypoints.
         upper: Their upper ends.

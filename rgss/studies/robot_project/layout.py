@@ -130,7 +130,7 @@ def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
     """The text of a scene file.
 
     Args:
-        layout: Where the tables are.
+        layout: Positions of the tables.
         robot: Name of the robot file.
         is_yaw_free: Whether the gripper may be turned about the vertical as suits the arm.
     """

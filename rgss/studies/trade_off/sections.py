@@ -34,7 +34,7 @@ class TradeOff:
         intervals: Elicited bounds on weights.
         orders: Elicited orders of weights.
         program: The program that decides.
-        risks: What is demanded of the replicates.
+        risks: Demands on the replicates.
         practical_margin: Alternatives within it of the best are near-ties.
         tolerance: Share of a threshold by which the estimate of a measure from trials may miss it; verdicts have none.
         last_of_equals: Whether the last of the design space is chosen of designs of the same value, not the first.
@@ -45,7 +45,7 @@ class TradeOff:
         elicited: The groups whose weights follow from pairwise answers.
         stakeholders: Stakeholders with weights of their own.
         accept_within: Distance from a stakeholder's best value up to which they accept a design.
-        sensitivity: How far the inputs of the decision are moved.
+        sensitivity: Ranges of the inputs of the decision.
         range_places: For each stated range of the sensitivity a finding at its place, for messages on it.
     """
 

@@ -28,7 +28,7 @@ class StatedRange:
         input: Name of the input, as ``--what-if`` takes it, or ``shape.MEASURE``.
         low: The low end, with its unit.
         high: The high end, with its unit.
-        rationale: Why so.
+        rationale: The reason.
     """
 
     input: Text

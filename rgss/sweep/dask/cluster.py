@@ -34,7 +34,7 @@ class DaskCluster:
 
         Args:
             client: A client of the cluster.
-            order: What holds for all tasks.
+            order: Settings that all tasks of a sweep share.
             address: The scheduler's address, for messages.
             machine: The machines that its workers run on, in one line.
         """
@@ -47,8 +47,8 @@ class DaskCluster:
         """Workers for one sweep; engines that they load are kept for the next.
 
         Args:
-            function: What makes a result from a task's arguments; a function of a module.
-            without_workers_s: How long the cluster may be without any worker in the middle of it.
+            function: Function of a module that makes a result from a task's arguments.
+            without_workers_s: Longest time without any worker during the sweep.
 
         Raises:
             SimulationError: The scheduler has stopped.
@@ -73,7 +73,7 @@ def dask_cluster(
         address: The scheduler's address, such as ``tcp://head:8786``.
         time_limit_s: Greatest time of a task by the wall clock, from its beginning in its process.
         memory_limit_bytes: Greatest size of an engine process's data; 0 for no limit.
-        patience_s: How long to wait for the scheduler, and then for its first worker.
+        patience_s: Longest wait for the scheduler, and then for its first worker.
 
     Raises:
         DefinitionError: Dask is not installed, no scheduler answers, certificates are missing, it has no

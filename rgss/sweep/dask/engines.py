@@ -50,7 +50,7 @@ class Differs:
 
     Attributes:
         found: Its environment; empty if that is unknown.
-        why: Why it is unknown, in one line; empty if it is known.
+        why: Reason that it is unknown, in one line; empty if it is known.
         where: Address of the Dask worker that the process belongs to.
     """
 
@@ -104,7 +104,7 @@ class Engines:
         """Carry out a task in one of the processes.
 
         Args:
-            order: What holds for it.
+            order: Settings that all tasks of a sweep share.
             key: The task's name.
             work: A function and its arguments, pickled.
 

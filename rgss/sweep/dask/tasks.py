@@ -20,7 +20,7 @@ def carry_out(order: Order, key: str, work: bytes) -> Ended:
     """Carry out a task; runs in a thread of a Dask worker.
 
     Args:
-        order: What holds for it.
+        order: Settings that all tasks of a sweep share.
         key: The task's name.
         work: A function and its arguments, pickled.
 
@@ -43,7 +43,7 @@ async def inspect(order: Order, work: bytes, dask_worker: Any) -> Ended:
     """Do something in an engine process of a Dask worker without waiting for one of its threads.
 
     Args:
-        order: What holds for it.
+        order: Settings that all tasks of a sweep share.
         work: A function and its arguments, pickled.
         dask_worker: The Dask worker, which Dask itself gives.
 

@@ -53,10 +53,10 @@ class DaskWorkers:
             client: A client of the cluster.
             function: What makes a result from a task's arguments; a function of a module, since it is
                 imported there by its name.
-            order: What holds for all tasks.
+            order: Settings that all tasks of a sweep share.
             address: The scheduler's address, for messages.
             differs: Describes in what a worker differs.
-            without_workers_s: How long the cluster may be without any worker.
+            without_workers_s: Longest time without any worker.
         """
         self._client = client
         self._function = function
@@ -89,7 +89,7 @@ class DaskWorkers:
 
         Args:
             key: A name for it.
-            arguments: What the function is called with.
+            arguments: Arguments of the function.
         """
         # Pickled here, it stays as it is on its way: neither Dask nor its workers look into it.
         work = pickle.dumps((self._function, arguments))

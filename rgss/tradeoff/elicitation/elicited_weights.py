@@ -34,7 +34,7 @@ class ElicitedWeights:
     Attributes:
         answers: The answers.
         weights: The weight of each member; all are positive and they sum to 1.
-        method: How they were found.
+        method: Method that found them.
         factor: By how much the worst ratio is missed, at least 1.
         low: The least weight of each: over the weights that agree with all bounds, and with each ratio within
             `factor`, and over the fits without any one of the ratios.

@@ -34,7 +34,7 @@ class NearestAlternative:
 
     Attributes:
         variant: Its id.
-        requirements: What it violates.
+        requirements: Requirements that it violates.
     """
 
     variant: int
@@ -49,7 +49,7 @@ class LimitChange:
         requirement: The id of the requirement whose limit it is.
         demand: What is demanded now, such as ``P_max >= 0.8 kg``.
         limit: The limit now.
-        needed: What it would have to become.
+        needed: The value that it would need.
         unit: The unit of both.
     """
 
@@ -73,7 +73,7 @@ class Repair:
         requirement: Its id.
         changes: The limits that would have to move; empty if no change of this requirement alone
             helps.
-        unlocked: How many alternatives are then feasible.
+        unlocked: Number of alternatives that are then feasible.
         winner: The alternative that is then chosen; None if none.
     """
 
@@ -93,7 +93,7 @@ class JointRepair:
         requirements: The correction.
         changes: The limits that would have to move together; empty if no change of limits helps,
             because evidence is missing.
-        unlocked: How many alternatives are then feasible.
+        unlocked: Number of alternatives that are then feasible.
         winner: The alternative that is then chosen; None if none.
     """
 
@@ -206,7 +206,7 @@ def violation_sets(violated: NDArray[np.bool_]) -> list[tuple[int, ...]]:
     """Distinct sets of demands that alternatives violate, as columns in ascending order.
 
     Args:
-        violated: Which alternative violates which requirement, shape (n, r).
+        violated: True where an alternative violates a requirement, shape (n, r).
     """
     import numpy as np
 

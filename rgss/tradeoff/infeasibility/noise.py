@@ -30,7 +30,7 @@ def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Iterator[Evi
 
     Args:
         table: The evidence.
-        resamples: How often each replicate is in each draw.
+        resamples: Count of each replicate in each draw.
 
     Yields:
         A table for each draw.

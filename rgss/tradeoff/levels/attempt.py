@@ -28,11 +28,11 @@ class Attempt:
 
     Attributes:
         run: The options.
-        outcome: What it came to.
+        outcome: Its outcome.
         score: The objective of the selected design, recomputed; minus infinity if there is none.
         design: The selected design, shape (f,); None if there is none.
         gap: The gap that the solver proved.
-        selection_error: How far its variables are from the design.
+        selection_error: Distance of its variables from the design.
     """
 
     run: SolverRun

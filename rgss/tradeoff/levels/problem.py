@@ -41,11 +41,11 @@ class LevelProblem(Preferences):
         tables: For each measure the tables whose sum it is: each over the levels, or the
             combinations of levels, that the part depends on; None where a part is unknown. A cost,
             for instance, is the sum of one table for each component.
-        thresholds: What the requirements demand.
+        thresholds: Thresholds of the requirements.
         value_functions: One for every measure that has a weight, and for no other.
         weighting: The weights.
-        program: How is decided; by the highest weighted value by default.
-        weight_bounds: What is known of the weights beside their values.
+        program: Decision program; the highest weighted value by default.
+        weight_bounds: Bounds and orders of the weights.
         risks: None, because tables have no replicates.
 
     Raises:

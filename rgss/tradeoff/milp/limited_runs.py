@@ -32,7 +32,7 @@ class LimitedRuns:
     Args:
         time_limit: Seconds for all runs together; each may take half of what is left, or a quarter. None for the
             default limits.
-        process: Where the runs are made; by default a new process.
+        process: Process of the runs; a new one by default.
         clock: The clock of the time limit, in seconds.
 
     Raises:

@@ -76,10 +76,10 @@ class Stage:
     """One program: maximise the sum of the objective terms under all constraints.
 
     Attributes:
-        name: What is maximised or minimised, for people.
+        name: Name of the objective, for people.
         objective: The terms that are summed.
         constraints: The conditions beyond those of the trade-off itself.
-        scale: What the objective is multiplied by in the solver.
+        scale: Factor of the objective in the solver.
         sign: -1 where people read the objective with the other sign, for it is minimised.
         quantity: The measure whose quantity people read in place of the objective, which is then
             only its rank.
@@ -101,10 +101,10 @@ class StageSolution:
         name: The name of the stage.
         status: Optimal, best found or infeasible.
         alternative: The selected alternative; None if infeasible.
-        objective: What was optimised, as people read it; None if infeasible.
+        objective: The objective, as people read it; None if infeasible.
         gap: How far the bound that the solver proved is from its objective, in the objective's own
             unit (or ranks); None if infeasible.
-        selection_error: How far the solver's variables are from selecting exactly that
+        selection_error: Distance of the solver's variables from selecting exactly that
             alternative: the largest difference from 0 or 1; 0 if infeasible.
         checks: The independent checks of the answer.
         exhaustive: Whether one of them evaluated every alternative.

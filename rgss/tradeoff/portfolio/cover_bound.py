@@ -42,7 +42,7 @@ class CoverBound:
         the set-covering problem", 1979).
 
         Args:
-            reached: Which member serves which task.
+            reached: True where a member serves a task.
         """
         from rgss.tradeoff.milp import solve_linear
 

@@ -49,11 +49,11 @@ def best_mean(profits: Values, size: int, start: Rows, tolerance: float, work: W
     whose choice would bring the bound below the best known portfolio are left out.
 
     Args:
-        profits: What each member adds by serving each task, shape (members, tasks).
+        profits: Gain of each member in each task, shape (members, tasks).
         size: At most so many members.
         start: A portfolio to start from.
         tolerance: Differences up to it do not count.
-        work: What is left of the work limit.
+        work: The rest of the work limit.
     """
     best = search_portfolio(profits, size, (start,))
     known = merit(profits, best)

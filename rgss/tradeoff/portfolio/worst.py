@@ -44,7 +44,7 @@ def best_worst(values: Values, size: int, start: Rows, tolerance: float, work: W
         size: At most so many members.
         start: A portfolio to start from; empty if none is known.
         tolerance: Differences up to it do not count.
-        work: What is left of the work limit.
+        work: The rest of the work limit.
     """
     ideal = float(values.max(axis=0).min())
     best, known = start, worst_of(values, start)
@@ -151,7 +151,7 @@ class _CoverSearch:
         masks: The same as the bits of whole numbers.
         by_task: The members that serve each task.
         bound: The task weights that bound covers.
-        work: What is left of the work limit.
+        work: The rest of the work limit.
         failed: With how many members the tasks that are left cannot be covered, by their mask.
     """
 

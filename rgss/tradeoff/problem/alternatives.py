@@ -45,7 +45,7 @@ def checked_weights(weights: Array, size: int) -> Array:
 
     Args:
         weights: The weights.
-        size: How many there must be.
+        size: Required number.
 
     Raises:
         TradeoffError: Their number is another, one is negative, or they do not sum to 1.

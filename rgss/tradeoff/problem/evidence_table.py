@@ -22,7 +22,7 @@ class Alternative:
         variant: Id of the design variant.
         measures: What is known of it, in each measure's unit; None where it is
             unknown, for instance because no trial succeeded.
-        samples: What each replicate showed of a measure, in the order of their seeds, in the
+        samples: Values of each measure in each replicate, in the order of their seeds, in the
             measure's unit; None where a replicate lacks it. A measure that follows from the
             design alone needs none.
     """
@@ -42,7 +42,7 @@ class Samples:
 
     Attributes:
         values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
-        ran: Which replicates were run, shape (n, r).
+        ran: Mask of the replicates that were run, shape (n, r).
     """
 
     values: NDArray[np.float64]
@@ -56,7 +56,7 @@ class EvidenceTable(Sequence[Alternative]):
     Attributes:
         variants: Ids, shape (n,), ascending.
         measures: The m measures.
-        quantities: What is known, shape (n, m), in each measure's unit; NaN exactly where it is
+        quantities: Known quantities, shape (n, m), in each measure's unit; NaN exactly where it is
             unknown.
         samples: The replicates of each measure that has any.
     """

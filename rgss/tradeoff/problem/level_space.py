@@ -51,7 +51,7 @@ class LevelSpace:
 
     Attributes:
         factors: The factors; the last one varies fastest in `combinations`.
-        rules: What combinations the compatibility rules exclude.
+        rules: Combinations that the compatibility rules exclude.
 
     Raises:
         TradeoffError: A factor is given twice, or a rule names one that is not there.

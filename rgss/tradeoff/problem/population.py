@@ -51,7 +51,7 @@ def drawn_with_population(
         groups: The group of each alternative, shape (n,), whose draws are the same.
         levels: The level of each alternative in each factor, shape (n, f); None where it is unknown.
         seeds: Number of replicates that correlations of the noise were seen in.
-        generator: Where randomness comes from.
+        generator: Source of randomness.
 
     Returns:
         Draws that the population has its share in, shape (draws, n).

@@ -50,8 +50,8 @@ def posterior_means(
 
     Args:
         observed: The replicates of each measure, of the same n alternatives.
-        draws: How many draws.
-        generator: Where randomness comes from.
+        draws: Number of draws.
+        generator: Source of randomness.
         levels: The level of each alternative in each factor of its design, as numbers of any kind,
             shape (n, f); None where designs are not made of levels.
         apart: Whether any two alternatives may differ in seeds to come as in none so far. A seed in which one of

@@ -32,8 +32,8 @@ def proportion_population(
     Args:
         successes: Successes, shape (n,); of correlated trials their effective number.
         trials: Trials, shape (n,); all positive.
-        draws: How many draws.
-        generator: Where randomness comes from.
+        draws: Number of draws.
+        generator: Source of randomness.
 
     Returns:
         Means and strengths, shape (draws, n). A draw of the proportion has beta parameters

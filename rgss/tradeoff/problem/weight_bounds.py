@@ -99,7 +99,7 @@ class WeightBounds:
 
     Attributes:
         intervals: Intervals of weights.
-        orders: Which criterion weighs more than which.
+        orders: Orders of criteria by weight.
     """
 
     intervals: tuple[ElicitedInterval, ...] = ()

@@ -38,7 +38,7 @@ class StageCertificate:
     """Proof of the solver for one stage.
 
     Attributes:
-        name: What was optimised.
+        name: Name of the objective.
         variant: The alternative that it selected.
         objective: The objective, as people read it.
         gap: How far the bound that the solver proved is from it.
@@ -55,12 +55,12 @@ class Certificate:
     """Certificate of a decision: recomputed objective and constraints, agreement, gap.
 
     Attributes:
-        status: What was proved; best found where a stage's optimality was not.
+        status: Proven status; best found where a stage's optimality was not proven.
         solver: Which solver; where an independent one was run too, those that came to the answer.
-        program: Which program.
+        program: The program.
         alternatives: How many alternatives the problem has.
         considered: How many of them the program held after exact reduction.
-        stages: What was proved in turn; empty if infeasible.
+        stages: Proven results of the stages, in turn; empty if infeasible.
         solver_choice: The alternative that the solver selected last, one of the tied; None if
             infeasible.
         objective: The last stage's objective as the solver has it; None if infeasible.
@@ -208,7 +208,7 @@ def residuals_at(
     Args:
         preferences: Preferences that the alternatives are compared by.
         choice: The alternative.
-        selection_error: How far the solver's variables are from selecting exactly it.
+        selection_error: Distance of the solver's variables from selecting exactly it.
     """
     residuals = [ConstraintResidual(name="choose exactly one", residual=selection_error, margin=None)]
     for condition in preferences.conditions:

@@ -25,7 +25,7 @@ class Aim:
         measure: The measure.
         sense: At least if more of it is better, at most if less is.
         absolute: What may be given up, in the measure's unit.
-        relative: What may be given up, as a share of the best quantity.
+        relative: Tolerance, as a share of the best quantity.
 
     Raises:
         TradeoffError: The tolerances contradict each other or are out of range.

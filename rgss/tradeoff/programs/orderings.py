@@ -66,7 +66,7 @@ class ScoreOrdering:
     """By one score, of which more is better.
 
     Attributes:
-        name: What the score is.
+        name: Name of the score.
         scores: Scores, shape (n,); NaN where unknown.
         monotone: The criteria, shape (n, k).
         reported: 1, or -1 where people read the score with the other sign.
@@ -128,7 +128,7 @@ class Step:
         name: What it is.
         column: More is better, shape (n,); NaN where unknown.
         absolute: What may be given up.
-        relative: What may be given up, as a share of the best.
+        relative: Tolerance, as a share of the best.
         reported: 1, or -1 where people read the column with the other sign.
     """
 

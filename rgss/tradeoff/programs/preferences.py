@@ -77,12 +77,12 @@ class Preferences(ABC):
     ``evidence:<measure>`` does. Nothing is imputed.
 
     Attributes:
-        thresholds: What the requirements demand.
+        thresholds: Thresholds of the requirements.
         value_functions: One for every measure that has a weight, and for no other.
         weighting: The weights.
-        risks: What is demanded of the replicates.
-        program: How is decided.
-        weight_bounds: What is known of the weights beside their values.
+        risks: Demands on the replicates.
+        program: The decision program.
+        weight_bounds: Bounds and orders of the weights.
     """
 
     __slots__ = ()

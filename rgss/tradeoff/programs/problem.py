@@ -27,12 +27,12 @@ class TradeProblem(Preferences):
 
     Attributes:
         alternatives: What there is to choose from, in any order.
-        thresholds: What the requirements demand.
+        thresholds: Thresholds of the requirements.
         value_functions: One for every measure that has a weight, and for no other.
         weighting: The weights.
-        risks: What is demanded of the replicates.
-        program: How is decided; by the highest weighted value by default.
-        weight_bounds: What is known of the weights beside their values.
+        risks: Demands on the replicates.
+        program: Decision program; the highest weighted value by default.
+        weight_bounds: Bounds and orders of the weights.
         levels: The levels of factors that make each alternative, where levels are to be chosen
             instead of alternatives.
 

@@ -132,10 +132,10 @@ def smaa2(
     that misses a threshold in an outcome has no rank in it.
 
     Args:
-        outcomes: What the evidence may say.
+        outcomes: Possible outcomes.
         weights: The admitted weights; they are drawn uniformly.
         iterations: How many draws.
-        generator: Where randomness comes from.
+        generator: Source of randomness.
 
     Returns:
         The indices; the same for the same generator state, on any machine up to ties.

@@ -25,7 +25,7 @@ class Standing:
 
     Attributes:
         totals: Weighted values, shape (n,); NaN only where not feasible.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
     """
 
     totals: Array

@@ -50,7 +50,7 @@ class KeptAlternative:
 
     Attributes:
         row: The alternative.
-        reason: Why.
+        reason: The reason.
         shortfall: The least by which the best is worth more, over all admitted weights; of one that another
             dominates, the least lead of that one. At least 0.
         behind: What the best is worth more at the weights of the study.
@@ -83,7 +83,7 @@ def worth_keeping(
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
         weights: The weights of the decision, shape (m,).
         among: The admitted weights.
         margin: Difference in weighted value that counts as nothing; at least 0.

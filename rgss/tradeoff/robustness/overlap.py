@@ -31,7 +31,7 @@ class SharedPart:
     Attributes:
         first: The one measure.
         second: The other.
-        parts: What both contain.
+        parts: Parts that both contain.
     """
 
     first: str

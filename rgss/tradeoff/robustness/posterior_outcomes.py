@@ -71,7 +71,7 @@ class PosteriorOutcomes:
             preferences: Preferences that the alternatives are compared by.
             table: The evidence.
             proportions: The measures that are shares of trials.
-            generator: Where randomness comes from.
+            generator: Source of randomness.
             levels: The level of each alternative in each factor of its design, shape (n, f), in the
                 table's order; None where designs are not made of levels.
             draws: How many draws; fewer where their values would not fit in memory.
@@ -116,7 +116,7 @@ class PosteriorOutcomes:
 
         Args:
             weights: The admitted weights.
-            generator: Where randomness comes from.
+            generator: Source of randomness.
         """
         count = len(self.table)
         inner = max(FEWEST_DRAWS, min(_DRAWS_OF_A_STUDY, _MOST_VALUES // max(1, self.outcomes.shape[1])))

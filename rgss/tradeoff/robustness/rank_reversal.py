@@ -28,7 +28,7 @@ class RankReversal:
         removed: The alternative that is taken away.
         best_before: The best of the others while it was there; the first of equals.
         best_after: The best without it.
-        swapped: How many pairs of the others change their order; ties that open or close count.
+        swapped: Number of pairs of the others that change their order; ties that open or close count.
     """
 
     removed: int
@@ -47,7 +47,7 @@ def rank_reversals(count: int, score: Scoring) -> tuple[RankReversal, ...]:
 
     Args:
         count: The number of alternatives.
-        score: What orders them.
+        score: Score that orders them.
 
     Returns:
         The removals that change an order, by ascending alternative; empty where none does.

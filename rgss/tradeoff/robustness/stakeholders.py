@@ -22,7 +22,7 @@ class StakeholderView:
         best: The best alternatives, ascending.
         best_value: Their weighted value.
         accepted: The alternatives within the stated distance of the best, ascending.
-        regrets: What each alternative is worth less than the best, shape (n,); NaN where not feasible.
+        regrets: Difference in value of each alternative to the best, shape (n,); NaN where not feasible.
     """
 
     name: str

@@ -86,7 +86,7 @@ def is_beaten(
         rival: The rival.
         level: Error probability over all looks, for these two.
         after: So many first replicates are left out, because they chose the rival.
-        lead: How much more the alternative may be worth.
+        lead: Lead in value that the alternative may have.
         slack: As for `threshold_evidence`.
     """
     if not evidence.fixed_met[rival]:

@@ -77,7 +77,7 @@ def eliminated(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
     Args:
         evidence: The evidence so far.
         rule: The rule.
-        progress: What earlier looks found, and the rivals.
+        progress: Results of earlier looks, and the rivals.
     """
     ids = evidence.table.variants.tolist()
     level = rule.error_rate * _INFEASIBLE_SHARE

@@ -23,7 +23,7 @@ class Observed:
         values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
         weight: Its weight in the value; 0 if it has none.
         function: Its value function; None if it has no weight.
-        thresholds: What bounds it, by their place among all thresholds.
+        thresholds: Its thresholds, by their place among all thresholds.
     """
 
     measure: str
@@ -89,8 +89,8 @@ class SequentialEvidence:
 
     Attributes:
         table: The alternatives, by ascending id.
-        replicates: How many replicates of each were run, shape (n,).
-        thresholds: What the requirements demand.
+        replicates: Number of replicates of each that were run, shape (n,).
+        thresholds: Thresholds of the requirements.
         observed: The measures that are observed in trials and that decide.
         fixed_value: What the measures that follow from the design add to the value, shape (n,).
         fixed_met: Which alternatives meet every threshold on such measures, shape (n,).

@@ -45,7 +45,7 @@ def forecast(
     Args:
         evidence: The evidence.
         rule: The rule.
-        progress: What the looks found.
+        progress: Results of the looks.
         chosen: The choice.
         open_: The alternatives that may be worth more than it by the margin.
     """

@@ -52,7 +52,7 @@ class Allocation:
 
     Attributes:
         replicates: The number that each of some alternatives should have in all.
-        progress: What was found so far.
+        progress: Results so far.
     """
 
     replicates: Mapping[int, int] = field(hash=False)
@@ -64,12 +64,12 @@ class Decided:
     """No more replicates are added.
 
     Attributes:
-        reason: Why.
+        reason: The reason.
         variant: The alternative that is chosen; None if none meets every requirement.
         contenders: The alternatives that may be the best; if it is decided, those that the choice
             may fall short of, by less than the margin.
         verdicts: By alternative, the verdict on each requirement.
-        progress: What was found.
+        progress: Results of the looks.
         unsettled: The alternatives that may be worth more than the choice by the margin.
     """
 
@@ -86,8 +86,8 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
 
     Args:
         evidence: The evidence so far; replicate k of every alternative has the same seed.
-        rule: When to stop.
-        progress: What the last look gave; ``Progress()`` at first.
+        rule: The stopping rule.
+        progress: Result of the last look; ``Progress()`` at first.
 
     Returns:
         An allocation, or the end. The same arguments give the same answer.

@@ -23,7 +23,7 @@ class Progress:
     """Results of the looks so far; they only grow.
 
     Attributes:
-        looks: How often was looked.
+        looks: Number of looks.
         rivals: The alternatives that others are compared with, with their weights, which sum to 1.
         dropped: The alternatives that cannot be chosen, and why.
         settled: By alternative and place of a threshold, whether it is met, where that is proven.
@@ -43,7 +43,7 @@ def unsettled(
     Args:
         evidence: The evidence.
         rule: The rule.
-        progress: What earlier looks found.
+        progress: Results of earlier looks.
         chosen: The choice; None if nothing is feasible by the estimates.
         among: The alternatives that are compared with the choice.
     """
@@ -70,7 +70,7 @@ def is_accepted(evidence: SequentialEvidence, rule: SequentialRule, progress: Pr
     Args:
         evidence: The evidence.
         rule: The rule.
-        progress: What earlier looks found.
+        progress: Results of earlier looks.
         chosen: The choice.
     """
     rivals = dict(progress.rivals)
@@ -91,7 +91,7 @@ def beats(
         row: The row of the alternative.
         rival: The rival.
         level: Error probability over all looks, for these two.
-        lead: How much more the alternative may be worth.
+        lead: Lead in value that the alternative may have.
         after: So many first replicates are left out.
     """
     place = evidence.table.row_of(rival)

@@ -34,8 +34,8 @@ def proportion_evidence(successes: int, trials: int, limit: float, *, above: boo
     because the likelihood ratio of a Bernoulli variable is monotone.
 
     Args:
-        successes: How many trials succeeded.
-        trials: How many there were.
+        successes: Number of trials that succeeded.
+        trials: Number of trials.
         limit: The limit.
         above: Whether the hypothesis that is to be rejected is "at most the limit"; "at least" otherwise.
     """

@@ -20,7 +20,7 @@ def settled_thresholds(
     Args:
         evidence: The evidence so far.
         rule: The rule.
-        progress: What earlier looks found.
+        progress: Results of earlier looks.
     """
     settled = dict(progress.settled)
     needed = math.log(1.0 / rule.error_rate)
@@ -40,7 +40,7 @@ def has_open_threshold(evidence: SequentialEvidence, progress: Progress, row: in
 
     Args:
         evidence: The evidence so far.
-        progress: What was found so far.
+        progress: Results so far.
         row: The alternative.
     """
     variant = int(evidence.table.variants[row])
@@ -52,7 +52,7 @@ def verdicts_of(evidence: SequentialEvidence, progress: Progress) -> dict[int, d
 
     Args:
         evidence: The evidence.
-        progress: What was found.
+        progress: Results of the looks.
     """
     observed = {place for one in evidence.observed for place in one.thresholds}
     verdicts: dict[int, dict[str, Verdict]] = {}
