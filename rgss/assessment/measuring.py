@@ -34,7 +34,7 @@ class VariantMeasures:
         verdicts: The verdict on each requirement with a criterion, by its id.
         outdated: Number of missing trials with evidence of an earlier model, code or engine.
         causes: For each requirement whose verdict is stale, what changed since its evidence.
-        bases: What each verdict is a verdict on, by the requirement's id.
+        bases: Inputs of each verdict, by the requirement's id.
     """
 
     variant: DesignVariant

@@ -53,7 +53,7 @@ class RecordedVerdict:
 
     Attributes:
         verdict: The verdict.
-        basis: What it was a verdict on.
+        basis: Inputs of the verdict.
     """
 
     verdict: Verdict

@@ -35,8 +35,8 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
     Args:
         project: The project, under the suppositions that lead to the choice.
         measured: Every variant with its estimates and records under them.
-        chosen: What is chosen.
-        former: What was chosen without them.
+        chosen: The choice.
+        former: Choice without them.
 
     Returns:
         True too where the former is not among the variants, or the program is not the weighted value, which knows

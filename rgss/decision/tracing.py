@@ -30,7 +30,7 @@ def trace_evidence(
         measured: Every variant with its estimates.
         state: The verdicts of all variants, and what the tests say.
         variant: The variant to show; the one that the trade-off chooses by default.
-        decision: What the trade-off chooses, where it is there already.
+        decision: Decision of the trade-off, if it was computed already.
 
     Raises:
         DefinitionError: There is no such variant.

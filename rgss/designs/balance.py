@@ -39,7 +39,7 @@ def balanced_part(rows: Sequence[Sequence[int]], count: int) -> tuple[int, ...]:
 
     Args:
         rows: The level of each factor of each design, as a number.
-        count: How many to choose, from 0 to all.
+        count: Number to choose, from 0 to all.
 
     Returns:
         Their places in the rows, rising.

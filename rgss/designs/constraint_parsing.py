@@ -51,7 +51,7 @@ class ConstraintProblem(Exception):  # noqa: N818 - it never leaves the room: it
         rule: The id of the broken rule.
         offset: Its position, in characters from the start of the text.
         message: The problem.
-        hint: How to resolve it.
+        hint: Advice.
     """
 
     def __init__(self, rule: str, offset: int, message: str, hint: str) -> None:

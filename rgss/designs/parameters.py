@@ -47,8 +47,8 @@ class DesignParameter:
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
         role: The role of the components that it names; empty unless it has names.
         sets: Quantity of `SETTABLE_QUANTITIES` that it sets, or ``catalogue.<role>``; may be empty.
-        description: What it is, in a sentence.
-        assumption: What is assumed about it and why; may be empty.
+        description: Description, in a sentence.
+        assumption: Assumption about it, with the reason; may be empty.
     """
 
     id: str

@@ -38,7 +38,7 @@ class DesignSpace:
     Attributes:
         parameters: The design parameters.
         constants: The values of those that do not vary, in SI, by parameter id.
-        factors: What varies, outermost first: the last factor varies fastest.
+        factors: The factors, outermost first: the last factor varies fastest.
         rules: Rules for the combinations that make a design.
         catalogue: The components.
         selectors: The parameter values in SI that select each component, by component id.

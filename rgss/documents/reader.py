@@ -64,7 +64,7 @@ class Document:
             message: The problem.
             location: Keys and indices from the top, such as ``("bodies", 2, "mass")``; parts
                 that the document does not have are passed over.
-            hint: How to resolve it.
+            hint: Advice.
             severity: Its severity.
             at_key: Point at the key instead of its value.
         """

@@ -22,7 +22,7 @@ def refusal(label: str, rule: str, message: str, position: tuple[int, int] = (1,
         rule: The broken rule, without ``document.``.
         message: The problem.
         position: Line and column.
-        hint: How to resolve it.
+        hint: Advice.
     """
     line, column = position
     return Finding(

@@ -152,7 +152,7 @@ class Alternative:
     Attributes:
         id: Its name among the measure's alternatives.
         expression: The expression that it puts in the place of the measure's.
-        estimate: How trial values then become one; None where it follows from the design alone.
+        estimate: Estimate from trial values; None where it follows from the design alone.
         rationale: Reason for this reading of the source.
     """
 
@@ -175,10 +175,10 @@ class Measure:
         si_per_unit: What one of that unit is in SI.
         expression: Its value from constants, inputs and other measures.
         equation: The equation that it realises; None if none is published.
-        better: Which values are better.
+        better: Preferred direction.
         traces: Stakeholder needs that it measures.
         contributes_to: Measures of effectiveness that it contributes to.
-        estimate: How trial values become one; None when it follows from the design alone.
+        estimate: Estimate from trial values; None when it follows from the design alone.
         summary: Reduction of a row to one number; None for a single number.
         length: The number of its entries; None for a single number.
         simulated_as: The measure that a simulation shows of the same quantity; None where there is none.

@@ -27,7 +27,7 @@ class ExpressionProblem:
         rule: The id of the broken rule.
         offset: Its position, in characters from the start of the expression.
         message: The problem.
-        hint: How to resolve it; may be empty.
+        hint: Advice; may be empty.
     """
 
     rule: str

@@ -82,7 +82,7 @@ def check_references(
     Args:
         declarations: Everything declared, in the order of files and lines.
         known: The kinds whose files could all be read; a reference to another kind is not checked.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     first: dict[str, Declaration] = {}
     for declaration in declarations:

@@ -47,7 +47,7 @@ class Place:
             rule: The id of the broken rule.
             message: The problem.
             at: The part to point at, such as ``("criterion", "threshold")``.
-            hint: How to resolve it.
+            hint: Advice.
             severity: Its severity.
             at_key: Point at the key instead of its value.
         """
@@ -151,7 +151,7 @@ class RequirementSet:
             element_id: The element.
             message: The problem.
             at: The part of the element to point at, such as ``("criterion", "threshold")``.
-            hint: How to resolve it.
+            hint: Advice.
             severity: Its severity.
 
         Raises:

@@ -48,7 +48,7 @@ class StudyAssumption:
 
     Attributes:
         about: Its name, as ``--what-if`` takes it.
-        alternatives: What it could be taken as instead.
+        alternatives: Its other possible values.
         places: A finding at the place of each alternative, of which messages on it take the place.
     """
 

@@ -23,7 +23,7 @@ class Promotion:
 
     Attributes:
         requirements: The condition that always holds: every requirement may still be met.
-        keep: How many of the others go on, the best by their value; None for no such bound.
+        keep: Number of the others that go on, the best by their value; None for no such bound.
         within: Largest difference to the best value; None for no such bound.
     """
 
@@ -67,7 +67,7 @@ def read_screening(
         fidelities: One fidelity, or that which screens and that which decides.
         promotion: The section; None if there is none.
         document: The file.
-        findings: Takes what is wrong.
+        findings: Collects the problems.
         clock: Kind of the planning clock.
     """
     if len(fidelities) == 1:

@@ -26,7 +26,7 @@ class SceneCheck:
     """Result of a check of the scene.
 
     Attributes:
-        findings: What is wrong, by place.
+        findings: The findings.
         skipped: Reason that the scene was not checked; empty if it was.
     """
 

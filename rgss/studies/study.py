@@ -73,7 +73,7 @@ class StudyDefinition:
         scene: The scene file.
         seed: The master seed: replicate r of every variant has the seed ``seed + r``.
         replicates: Trials of each variant.
-        fidelity: How much physics a trial has that decides.
+        fidelity: Fidelity of the trials that decide.
         planning: Planning of moves.
         rate_hz: Physics steps a second.
         solver_iterations: Iterations of the constraint solver in a step.

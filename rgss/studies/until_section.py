@@ -44,7 +44,7 @@ def read_until_decided(
     Args:
         entry: The section of the file; None if there is none.
         document: The file.
-        findings: Takes what is wrong.
+        findings: Collects the problems.
         replicates: The study's replicates, which are read of every variant.
 
     Returns:

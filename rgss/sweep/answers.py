@@ -34,7 +34,7 @@ def checked(ended: Ended, task: Task) -> Ended:
     """The end of a task; one whose result does not fit the task has failed by a wrong answer.
 
     Args:
-        ended: How the task ended, from whatever worker.
+        ended: End of the task, from any worker.
         task: The task.
     """
     if ended.failure is not None:

@@ -40,7 +40,7 @@ def compute(function: Callable[..., Result], *arguments: Any) -> Result:
 
     Args:
         function: A function of a module, imported there by its name.
-        arguments: What it is called with; as its result, they must be picklable where another process is needed.
+        arguments: Its arguments; as its result, they must be picklable where another process is needed.
 
     Raises:
         DefinitionError: An engine is not installed.

@@ -30,7 +30,7 @@ class Origin:
     Attributes:
         files: SHA-256 of each input file by its name in the project.
         revision: Revision of the code; empty if it is not known.
-        machine: What it runs on; empty if it is not known.
+        machine: Its machine; empty if it is not known.
     """
 
     files: Mapping[str, str] = field(default_factory=dict)

@@ -18,7 +18,7 @@ class InlineWorkers:
         """Prepare to work.
 
         Args:
-            function: What makes a result from a task's arguments.
+            function: Function that makes a result from a task's arguments.
         """
         self._function = function
         self._ended: list[Ended] = []

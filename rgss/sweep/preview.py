@@ -52,7 +52,7 @@ class DueTrials:
     """Trials that would be run for the same causes.
 
     Attributes:
-        causes: Why.
+        causes: The causes.
         pieces: The kinds of pieces that would be made for them; empty if their records need only be put together.
         trials: Variant and seed of each.
     """
@@ -67,7 +67,7 @@ class PieceCount:
     """The pieces of one kind that the trials to be run need.
 
     Attributes:
-        make: How many would be made.
+        make: Number that would be made.
         stored: Number that the store has already.
         uses: Number of those trials that need one.
     """
@@ -83,7 +83,7 @@ class DryRun:
 
     Attributes:
         trials: Number of trials of the study.
-        kept: How many of them have a record.
+        kept: Number of them with a record.
         pieces: The pieces that the others need, by kind.
         due: The others, by the causes.
     """

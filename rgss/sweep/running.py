@@ -63,9 +63,9 @@ def sweep(
         on_finished: Called for every trial that has a record, also for those that the store had.
         on_state: Called whenever something has ended.
         share: Whether pieces are shared between trials and taken from the store.
-        limits: What a worker may use for one task.
+        limits: Limits of a worker for one task.
         origin: Callback for the provenance of the trials; called only if there are any to run.
-        maker: What carries out a task: a function of a module, which the workers import by its name.
+        maker: Function of a module that carries out a task, which the workers import by its name.
         workers_for: Gives the workers that carry out tasks by a maker, in place of `jobs` and `limits`;
             called only if there is anything to be made.
 

@@ -38,7 +38,7 @@ class Ended:
     Attributes:
         key: The name that it was given.
         result: Its result; None if it failed.
-        failure: Why it failed; None if it did not.
+        failure: Reason of its failure; None if it succeeded.
         took_s: Its time by the wall clock; 0 if it failed.
     """
 

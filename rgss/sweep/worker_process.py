@@ -33,7 +33,7 @@ class Ready:
     """The worker has started and takes tasks.
 
     Attributes:
-        error: Why it cannot, in one line; empty if it can.
+        error: Reason that it cannot, in one line; empty if it can.
     """
 
     error: str = ""
@@ -76,7 +76,7 @@ def serve(
     """Answer tasks until the other end is closed.
 
     Args:
-        function: What makes a result from a task's arguments, pickled by its name.
+        function: Function that makes a result from a task's arguments, pickled by its name.
         requests: Numbered arguments come in here, answers go out.
         memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
         output: File for what engines print, which is read to find why one has crashed.
@@ -131,8 +131,8 @@ def answer_to(make: Callable[..., Any], arguments: Sequence[Any], *, task: int =
     """Carry out one task.
 
     Args:
-        make: What makes a result.
-        arguments: What it is called with.
+        make: Function that makes a result.
+        arguments: Its arguments.
         task: The number that the task was given.
     """
     from time import perf_counter

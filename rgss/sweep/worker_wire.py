@@ -52,7 +52,7 @@ class FrameReader:
         """Add received bytes; returns the messages that are complete with them.
 
         Args:
-            data: What has arrived.
+            data: Received bytes.
 
         Raises:
             WireError: It is not a message.

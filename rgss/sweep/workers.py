@@ -66,7 +66,7 @@ class WorkerPool:
         """Prepare the pool; processes are started when they are needed.
 
         Args:
-            function: What makes a result from a task's arguments; a function of a module, since the
+            function: Function that makes a result from a task's arguments; a function of a module, since the
                 workers import it by its name.
             size: Greatest number of processes.
             time_limit_s: Greatest time of a task by the wall clock.

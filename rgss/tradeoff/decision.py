@@ -127,13 +127,13 @@ class Decision:
             one by more than a tie, by falling weighted value.
         deciding_requirements: The requirements that exclude these, with how many each excludes;
             empty if the choice would be the same without any requirement.
-        chosen_contributions: What each measure adds to the chosen alternative's value, in the
+        chosen_contributions: Contribution of each measure to the chosen alternative's value, in the
             order of the weights; empty if nothing is chosen.
         runner_up_contributions: The same for the runner-up.
-        conflicts: Why nothing is feasible; None if something is.
+        conflicts: Explanation of infeasibility; None if something is.
         flat_measures: Valued measures whose weight decides nothing.
         demands: Demand of each id, such as ``P_max >= 0.8 kg``.
-        counts: How many alternatives there are of each kind.
+        counts: Number of alternatives of each kind.
         certificate: The recomputation of all this.
     """
 

@@ -30,7 +30,7 @@ class RequirementPrice:
     """Price of a requirement.
 
     Attributes:
-        condition: What is demanded.
+        condition: The demand.
         steps: How the choice and the feasible set change with its limit, from loose to tight; rows
             are those of the analysis.
     """
@@ -77,7 +77,7 @@ class Robustness:
         measures: The measures with a weight above 0: the columns of weights.
         weights: Their weights.
         values: Values of each alternative in them, shape (n, m); NaN where unknown.
-        feasible: Which alternatives meet every demand.
+        feasible: Mask of the alternatives that meet every demand.
         front: The Pareto front of the feasible ones.
         weighting: Effects of other weights; None where `refused` has the reason.
         assumptions: Range of each assumed number that keeps the choice; empty where `refused` has the reason.
@@ -86,7 +86,7 @@ class Robustness:
         reversals: Removals of an alternative that change the order of the others, under the
             study's program; none for values that are anchored on requirements.
         stretched: The same had the values been stretched between the extremes of the sample.
-        effects: What each factor does to each measure.
+        effects: Effects of each factor on each measure.
         draws: Number of posterior draws of the noise; 0 without noise.
         resamples: Number of resamples of the replicates for the effects; 0 without noise.
         all_resamples: Whether these are all there are.

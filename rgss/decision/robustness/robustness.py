@@ -65,7 +65,7 @@ class _Posed:
     Attributes:
         problem: The trade-off.
         values: Single values, shape (n, m).
-        feasible: Which alternatives meet every demand, shape (n,).
+        feasible: Mask of the alternatives that meet every demand, shape (n,).
         weights: The weights, shape (m,).
         margin: The practical margin.
         replicates: Replicates of each alternative, shape (n,).
@@ -108,7 +108,7 @@ def analyse_robustness(
     Args:
         project: The project with its study.
         measured: Every variant with its estimates and records, by ascending id.
-        decision: What was decided.
+        decision: The decision.
         problem: Result of `trade_problem` for them, if it was computed already.
 
     Raises:

@@ -67,7 +67,7 @@ class UncertainInput:
         base: Its value in the study.
         low: The low end of its range.
         high: The high end.
-        basis: Where the range comes from.
+        basis: Source of the range.
         standing: Weighted values and feasibility of the designs at a value of the input.
         exact: Whether that value is the nearest for certain; a scan may miss a change that reverts within a step.
         search: Search method for the value at which the choice changes.

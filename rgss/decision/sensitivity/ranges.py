@@ -17,7 +17,7 @@ class RangeBook:
     """The ranges of a study; an input takes its own, and what is left over is a mistake.
 
     Attributes:
-        choice: How far inputs are moved where no range is stated.
+        choice: Ranges of inputs for which none is stated.
     """
 
     def __init__(self, choice: SensitivityChoice, places: Sequence[Finding]) -> None:

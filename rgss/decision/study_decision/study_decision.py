@@ -43,7 +43,7 @@ class StudyDecision:
         variants: Number of variants that were compared.
         trials: Number of their trials.
         decision: Choice, ranking, conflicts and certificate.
-        conclusion: What the verdicts show of every design.
+        conclusion: Conclusion from the verdicts on every design.
         comparison: The choice beside the runner-up; None if nothing is chosen.
         gains: The gains of the choice over the runner-up, in the order of the weights.
         closest_limits: The limits that the choice comes closest to.
@@ -62,7 +62,7 @@ class StudyDecision:
         gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
         readings: Decision under each reading of the source; empty if not analysed.
         assumptions: The choice under each alternative of each assumption; empty if not requested.
-        drivers: Which draws go with which failures; None if not analysed.
+        drivers: Draws that go with failures; None if not analysed.
         cases: The success of each case of the workload; empty without a workload.
         seeds: The seeds that were read, where variants may have different numbers; empty otherwise.
     """

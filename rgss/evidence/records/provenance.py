@@ -26,7 +26,7 @@ class Provenance:
             them changed; empty if they were not kept.
         files: SHA-256 of each input file by its name in the project.
         revision: Revision of the code in its version control; empty if it is not known.
-        machine: What it ran on: system, processor, Python; empty if it is not known.
+        machine: Its machine: system, processor, Python; empty if it is not known.
         numerics: Numerics of the process, part by part; empty if not recorded.
     """
 

@@ -31,9 +31,9 @@ class RunFailure:
     Attributes:
         key: Digest of the piece, or key of the trial.
         what: What it is, such as ``execution`` or ``trial``.
-        kind: How the run failed.
+        kind: Kind of the failure.
         detail: One line: the signal, the limit in seconds, the line of the exception; see `detail_line`.
-        attempts: How often it was tried.
+        attempts: Number of attempts.
     """
 
     key: str

@@ -47,7 +47,7 @@ class Collection:
     """Result of a collection.
 
     Attributes:
-        garbage: What was removed.
+        garbage: Removed rows.
         before_bytes: Bytes of the file before.
         after_bytes: Bytes of the file after.
         shrunk: Whether the file gave back what was freed; if not, it is used again by what comes.

@@ -23,7 +23,7 @@ class Rescue:
 
     Attributes:
         text: How much, and where.
-        hint: What to do with it.
+        hint: Advice.
         rows: Number of rows.
     """
 

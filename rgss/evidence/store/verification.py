@@ -51,7 +51,7 @@ class Verification:
     """Result of the check of a store.
 
     Attributes:
-        damages: What is wrong: pages first, then row by row.
+        damages: Damage: pages first, then row by row.
         sound: The number of sound rows of each kind.
         orphaned_pieces: Pieces that no trial refers to, such as those of a sweep that was interrupted.
         orphaned_inputs: Named inputs that no trial refers to.

@@ -24,7 +24,7 @@ def check_behaviours(
     Args:
         documents: The files of the architecture.
         requirements: The system requirements that could be read, by their ids.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     blocks = {block.id: block for loaded in documents for block in loaded.value.blocks}
     for loaded in documents:

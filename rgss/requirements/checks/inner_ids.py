@@ -37,7 +37,7 @@ def unknown(
         named: The id.
         known: What it may name.
         what: Name of its kind in messages.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     if named not in known:
         message = f"{at[-1]}: {named!r} is not a {what}"

@@ -21,7 +21,7 @@ def check_machine(declaration: Declaration, machine: StateMachine, hints: Hints)
     Args:
         declaration: The behaviour.
         machine: Its states.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     yield from repeated(declaration, _STATES, [state.id for state in machine.states])
     initial = [state.id for state in machine.states if state.kind is StateKind.INITIAL]

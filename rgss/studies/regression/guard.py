@@ -44,7 +44,7 @@ class GuardedMetric:
 
     Attributes:
         metric: Its name.
-        guard: How it may move.
+        guard: Its guard.
         runs: The runs in which it is compared.
         phases: The phases, or ``trial``.
         wherever: Whether it is compared in those of the phases alone that observe it.

@@ -23,7 +23,7 @@ def read_regression(
     Args:
         entry: The section of the file; None if there is none.
         document: The file.
-        findings: Takes what is wrong.
+        findings: Collects the problems.
         phases: Names of the steps of the task.
 
     Returns:

@@ -34,7 +34,7 @@ class RobotSummary:
         left_out: Pairs of links that touch in every configuration, and are not checked.
         at_home: Pairs of links that touch at the home.
         positions_m: Positions of the flange in sampled configurations, shape (k, 3).
-        findings: What is wrong or suspicious in the description.
+        findings: The findings.
     """
 
     robot: Robot

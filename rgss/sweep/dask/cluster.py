@@ -125,8 +125,8 @@ def difference(differs: Differs, here: Mapping[str, str]) -> str:
     """In what a Dask worker differs from this process, in one line.
 
     Args:
-        differs: What the worker runs.
-        here: What this process runs.
+        differs: Code and engines of the worker.
+        here: Code and engines of this process.
     """
     who = f"the Dask worker {differs.where}"
     if differs.why:

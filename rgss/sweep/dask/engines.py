@@ -33,7 +33,7 @@ class Order:
 
     Attributes:
         name: Its name, which no other has.
-        environment: What a process must run that carries out a task, as `environment` gives it.
+        environment: Code and engines that a process must have, as `environment` gives it.
         time_limit_s: Greatest time of a task by the wall clock, from its beginning in its process.
         memory_limit_bytes: Greatest size of an engine process's data; 0 for no limit.
     """

@@ -51,7 +51,7 @@ class DaskWorkers:
 
         Args:
             client: A client of the cluster.
-            function: What makes a result from a task's arguments; a function of a module, since it is
+            function: Function that makes a result from a task's arguments; a function of a module, since it is
                 imported there by its name.
             order: Settings that all tasks of a sweep share.
             address: The scheduler's address, for messages.

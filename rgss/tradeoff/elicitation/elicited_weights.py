@@ -39,7 +39,7 @@ class ElicitedWeights:
         low: The least weight of each: over the weights that agree with all bounds, and with each ratio within
             `factor`, and over the fits without any one of the ratios.
         high: The greatest such weight.
-        consistency: How far the ratios agree; None if no ratio was stated.
+        consistency: Consistency of the ratios; None if no ratio was stated.
     """
 
     answers: tuple[PairwiseAnswer, ...]

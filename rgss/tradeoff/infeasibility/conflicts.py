@@ -47,7 +47,7 @@ class LimitChange:
 
     Attributes:
         requirement: The id of the requirement whose limit it is.
-        demand: What is demanded now, such as ``P_max >= 0.8 kg``.
+        demand: The present demand, such as ``P_max >= 0.8 kg``.
         limit: The limit now.
         needed: The value that it would need.
         unit: The unit of both.
@@ -190,7 +190,7 @@ def excluded_counts(enumeration: Enumeration, among: NDArray[np.bool_]) -> tuple
 
     Args:
         enumeration: Every alternative evaluated.
-        among: Which alternatives count, shape (n,).
+        among: Mask of the alternatives that count, shape (n,).
 
     Returns:
         One count for each requirement, in the problem's order.

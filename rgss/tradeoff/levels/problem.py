@@ -148,8 +148,8 @@ class LevelDecision:
         levels: The level of each factor; empty if infeasible.
         variant: The number of the combination among all, from 1; None if infeasible.
         measures: What the design is in every measure; empty if infeasible.
-        combinations: How many combinations of levels there are, excluded ones included.
-        certificate: What was proved and by which checks, recomputed from the tables.
+        combinations: Number of combinations of levels, excluded ones included.
+        certificate: Certificate: proven results and checks, recomputed from the tables.
         enumerated: Whether each stage was compared with all combinations, which is done up to
             `LARGEST_ENUMERATED`.
     """

@@ -78,7 +78,7 @@ class SolverProcess:
 
         Args:
             request: The solver, its options and the program's arrays.
-            limit: When the run is ended.
+            limit: Limit of the run.
 
         Returns:
             What the solver answered.

@@ -102,7 +102,7 @@ class StageSolution:
         status: Optimal, best found or infeasible.
         alternative: The selected alternative; None if infeasible.
         objective: The objective, as people read it; None if infeasible.
-        gap: How far the bound that the solver proved is from its objective, in the objective's own
+        gap: Distance of the bound that the solver proved from its objective, in the objective's own
             unit (or ranks); None if infeasible.
         selection_error: Distance of the solver's variables from selecting exactly that
             alternative: the largest difference from 0 or 1; 0 if infeasible.

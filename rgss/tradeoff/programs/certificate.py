@@ -41,7 +41,7 @@ class StageCertificate:
         name: Name of the objective.
         variant: The alternative that it selected.
         objective: The objective, as people read it.
-        gap: How far the bound that the solver proved is from it.
+        gap: Distance of the bound that the solver proved from it.
     """
 
     name: str
@@ -58,8 +58,8 @@ class Certificate:
         status: Proven status; best found where a stage's optimality was not proven.
         solver: Which solver; where an independent one was run too, those that came to the answer.
         program: The program.
-        alternatives: How many alternatives the problem has.
-        considered: How many of them the program held after exact reduction.
+        alternatives: Number of alternatives of the problem.
+        considered: Number of them in the program after exact reduction.
         stages: Proven results of the stages, in turn; empty if infeasible.
         solver_choice: The alternative that the solver selected last, one of the tied; None if
             infeasible.
@@ -106,7 +106,7 @@ def certify(
         preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated, or those that are known.
         solutions: The solver's answers, stage by stage; of an infeasible problem the one that shows it.
-        considered: How many alternatives the program held.
+        considered: Number of alternatives in the program.
         whole: Whether the enumeration has every alternative.
 
     Returns:

@@ -27,7 +27,7 @@ class Enumeration:
             paper are equal here, in whatever order their terms were added.
         requirements: Ids of the r demands.
         violated: True where an alternative violates a demand, shape (n, r).
-        feasible: Which alternatives violate nothing, shape (n,).
+        feasible: Mask of the alternatives that violate nothing, shape (n,).
         tied: Mask of the feasible alternatives that are tied best, shape (n,).
         ordering: Order of the alternatives under the program.
     """

@@ -24,7 +24,7 @@ class Aim:
     Attributes:
         measure: The measure.
         sense: At least if more of it is better, at most if less is.
-        absolute: What may be given up, in the measure's unit.
+        absolute: Tolerance, in the measure's unit.
         relative: Tolerance, as a share of the best quantity.
 
     Raises:

@@ -127,7 +127,7 @@ class Step:
     Attributes:
         name: What it is.
         column: More is better, shape (n,); NaN where unknown.
-        absolute: What may be given up.
+        absolute: Tolerance.
         relative: Tolerance, as a share of the best.
         reported: 1, or -1 where people read the column with the other sign.
     """

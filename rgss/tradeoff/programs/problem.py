@@ -26,7 +26,7 @@ class TradeProblem(Preferences):
     """Choose one of several alternatives that meets every demand.
 
     Attributes:
-        alternatives: What there is to choose from, in any order.
+        alternatives: The alternatives, in any order.
         thresholds: Thresholds of the requirements.
         value_functions: One for every measure that has a weight, and for no other.
         weighting: The weights.

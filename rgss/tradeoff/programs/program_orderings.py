@@ -32,7 +32,7 @@ def ordering_of(program: Program, preferences: Preferences, table: EvidenceTable
         program: The program.
         preferences: Preferences that the alternatives are compared by.
         table: The alternatives.
-        feasible: Which of them meet every demand, shape (n,).
+        feasible: Mask of those that meet every demand, shape (n,).
 
     Raises:
         TradeoffError: There is no enumeration for the program.

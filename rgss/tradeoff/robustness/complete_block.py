@@ -19,7 +19,7 @@ def largest_complete_block(known: NDArray[np.bool_]) -> tuple[tuple[int, ...], .
     up for them; what is left is a smaller balanced design.
 
     Args:
-        known: Which designs have an estimate, one axis for each factor.
+        known: Mask of the designs with an estimate, one axis for each factor.
 
     Returns:
         The levels kept of each factor; of the largest blocks that which keeps most levels of the

@@ -28,14 +28,14 @@ class BoxProblem:
     prices c. Every other measure is as it is.
 
     Attributes:
-        base: What of the measure does not depend on the assumptions, shape (n,).
+        base: Part of the measure that does not depend on the assumptions, shape (n,).
         coefficients: Shape (n, p).
         assumed: The assumed numbers c, shape (p,); none is negative.
         points: The measure's value function as points (quantity, value) by rising quantity,
             level outside of them, shape (k, 2).
         weight: The measure's weight.
         rest: The weighted value of all other measures, shape (n,); NaN only where not feasible.
-        feasible: Which alternatives meet every threshold on other measures, shape (n,).
+        feasible: Mask of the alternatives that meet every threshold on other measures, shape (n,).
         at_least: The least quantity that the thresholds on the measure allow; -inf if any will do.
         at_most: The largest; inf if any will do.
     """

@@ -74,7 +74,7 @@ class PosteriorOutcomes:
             generator: Source of randomness.
             levels: The level of each alternative in each factor of its design, shape (n, f), in the
                 table's order; None where designs are not made of levels.
-            draws: How many draws; fewer where their values would not fit in memory.
+            draws: Number of draws; fewer where their values would not fit in memory.
             apart: As for `rgss.tradeoff.problem.posterior_means`.
         """
         size = max(1, len(table) * len(preferences.weighting.deciding_measures))

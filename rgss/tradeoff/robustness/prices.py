@@ -23,7 +23,7 @@ class PriceStep:
         tightest: The tightest, which is; infinite where nothing is feasible however tight.
         best: The best alternatives, ascending; empty where none is feasible.
         value: Their value; None where none is feasible.
-        feasible: How many alternatives are feasible.
+        feasible: Number of feasible alternatives.
         leaving: The alternatives that a tighter threshold than `tightest` excludes, ascending.
     """
 

@@ -69,7 +69,7 @@ def stakeholder_agreement(
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.
-        feasible: Which alternatives can be chosen, shape (n,); at least one.
+        feasible: Mask of the alternatives that can be chosen, shape (n,); at least one.
         stakeholders: Name and weights, shape (m,), of each; at least one.
         within: Distance from a stakeholder's best value up to which an alternative is accepted; at least 0.
 

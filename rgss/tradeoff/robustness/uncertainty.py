@@ -89,7 +89,7 @@ def choice_uncertainty(
         chosen: Row of the choice.
         margin: The practical margin of values.
         replicates: Replicates that the estimates of each alternative come from, shape (n,).
-        estimated: Which alternatives are feasible by their estimates, shape (n,).
+        estimated: Mask of the alternatives that are feasible by their estimates, shape (n,).
         single: Their single values by their estimates, shape (n, m).
         more: Numbers of more replicates that are valued.
     """

@@ -93,9 +93,9 @@ class SequentialEvidence:
         thresholds: Thresholds of the requirements.
         observed: The measures that are observed in trials and that decide.
         fixed_value: What the measures that follow from the design add to the value, shape (n,).
-        fixed_met: Which alternatives meet every threshold on such measures, shape (n,).
+        fixed_met: Mask of the alternatives that meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
-        feasible: Which alternatives meet everything by their estimates, but for the tolerance, shape (n,).
+        feasible: Mask of the alternatives that meet everything by their estimates, but for the tolerance, shape (n,).
         tolerance: Share of a threshold on what trials observe by which the choice may miss it.
         last_of_equals: Whether the largest id of equals is the choice; the smallest otherwise.
         twins: The group of alternatives with which each has all trials in common, whatever the seed, shape (n,).
