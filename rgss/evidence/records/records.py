@@ -13,7 +13,7 @@ Metric = float | int | None | tuple[float | int | None, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhaseRecord:
-    """One of the eight states as it was run.
+    """One step of the task as it was run.
 
     Attributes:
         phase: The phase.
@@ -57,12 +57,12 @@ class TrialRecord:
         variant: Id of the design variant.
         seed: The trial's seed.
         fidelity: Its fidelity.
-        success: All eight states complete and the object standing where it should.
+        success: True if all steps of the task are complete and the object is where it should be.
         failure: What ended it; None on success.
         failed_phase: The phase that failed; None on success.
         failure_detail: The numbers that show the failure, in one line; empty on success.
-        phases: The eight states in order.
-        planning: The five planned moves in order.
+        phases: The steps of the task in order.
+        planning: The planned moves in order.
         metrics: Metrics of the whole trial, by name with unit.
         workload: The case of the workload; empty where there is none.
         draws: What was drawn for it of each uncertain quantity, in SI; empty where everything is as the files say.

@@ -7,8 +7,8 @@ The columns, in their order; NAME is that of a metric, with its unit at its end:
 - ``workload``, ``drawn_QUANTITY``: case of the workload, and draws of uncertain quantities; only where there are any.
 - ``NAME``: a metric of the trial (but that of success, which has its own column). One
   that is a row has a column for each entry: ``item_1_NAME``, ``item_2_NAME`` and so on; a row of
-  planning or of paths has the five planned moves in their order.
-- ``PHASE_outcome``, ``PHASE_duration_s``, ``PHASE_NAME``: each of the eight states and its metrics.
+  planning or of paths has the planned moves in their order.
+- ``PHASE_outcome``, ``PHASE_duration_s``, ``PHASE_NAME``: each step of the task and its metrics.
 - ``planning_N_outcome``, ``_checks``, ``_simplification_checks``, ``_time_s``, ``_path_length_m``: the
   planning of each of the five moves.
 - ``input_NAME``, ``version_NAME``, ``file_NAME``: digests of the pieces, versions of code and engines,
