@@ -149,7 +149,7 @@ class _Sweep:
                     self._begin_tasks()
                 self._put_together()
                 self._writer.flush_if_due()
-                self._tell()
+                self._report_progress()
         except BaseException:
             self._workers.close()
             self._write_down()
@@ -260,7 +260,7 @@ class _Sweep:
         if not self._work.is_used(digest):
             self._held.pop(digest, None)
 
-    def _tell(self) -> None:
+    def _report_progress(self) -> None:
         if self._on_state is None:
             return
         left_s = self._work.remaining_s() / self._workers.size

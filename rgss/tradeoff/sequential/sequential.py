@@ -115,7 +115,7 @@ def next_batch(evidence: SequentialEvidence, rule: SequentialRule, progress: Pro
         wanted = dict.fromkeys(members, rule.cap)
         affordable = raised_together(evidence, rule, members)
     else:
-        wanted = _wanted(evidence, rule, progress, chosen=chosen, open_pairs=open_pairs, decided=decided)
+        wanted = _next_replicates(evidence, rule, progress, chosen=chosen, open_pairs=open_pairs, decided=decided)
         affordable = affordable_replicates(evidence, rule, wanted, first=chosen)
     if affordable and evidence.observed:
         return Allocation(replicates=affordable, progress=progress)
@@ -136,7 +136,7 @@ def _is_spent(evidence: SequentialEvidence, wanted: Mapping[int, int]) -> bool:
     return bool(evidence.observed) and any(ran[variant] < most for variant, most in wanted.items())
 
 
-def _wanted(
+def _next_replicates(
     evidence: SequentialEvidence,
     rule: SequentialRule,
     progress: Progress,

@@ -217,7 +217,10 @@ FINDINGS = [
         (*BOTH, "chance: [{requirement: SYS-005, probability: 1}]"),
         "5:48: error: probability must be between 0 and 1, got 1 (such as 0.9)",
     ),
-    ((*BOTH, "tail: [{requirement: SYS-005, worst_share: 0}]"), "5:46: error: worst_share must be between 0 and 1, got 0"),
+    (
+        (*BOTH, "tail: [{requirement: SYS-005, worst_share: 0}]"),
+        "5:46: error: worst_share must be between 0 and 1, got 0",
+    ),
     ((*BOTH, "chance: [{probability: 0.5}]"), "5:12: error: a chance is of a requirement or of a measure"),
     ((*BOTH, "tail: [{requirement: SYS-001, worst_share: 0.5}]"), "5:24: error: SYS-001 has no criterion"),
     (
