@@ -1,4 +1,4 @@
-"""What trials of kinematic fidelity prove about trials of the same designs with more physics.
+"""Bounds on estimates with more physics, proven by trials of the same designs at kinematic fidelity.
 
 The two have their plans and timings in common: a move that finds no path, or cannot be timed, fails
 both. Everything else that the kinematic model takes for granted - that a grasp holds, that nothing
@@ -45,7 +45,7 @@ IN_COMMON = frozenset(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EstimateBounds:
-    """What the estimate of a measure can be with more physics.
+    """Bounds on the estimate of a measure with more physics.
 
     Attributes:
         bounded: Whether anything is known of it.
@@ -61,7 +61,7 @@ UNBOUNDED = EstimateBounds(bounded=False)
 
 
 def bounds_by_measure(project: Project, entry: VariantMeasures) -> Mapping[str, EstimateBounds]:
-    """What every measure of a variant can be with more physics, by its id.
+    """Bounds on every measure of a variant with more physics, by its id.
 
     Args:
         project: The project.

@@ -34,7 +34,7 @@ def evidence_state(
     recorded: VerdictRecord | None = None,
     junit: Path | None = None,
 ) -> EvidenceState:
-    """What is known of each requirement.
+    """Evidence on each requirement.
 
     Args:
         project: The project with its study.
@@ -119,7 +119,7 @@ def project_tests(
     requirement_folder: str = REQUIREMENTS,
     junit: Path | None = None,
 ) -> MappingProxyType[str, SoftwareEvidence]:
-    """What a project's own tests say of each requirement that is verified by test.
+    """Results of a project's own tests for each requirement that is verified by test.
 
     Args:
         folder: The project's folder.

@@ -24,7 +24,7 @@ _CARRY = "carry"
 
 
 class Aspect(str, Enum):
-    """What of a draw is compared."""
+    """Part of a draw that is compared."""
 
     VALUE = "value"
     SIZE = "size"
@@ -58,7 +58,7 @@ class FailureDrivers:
         failure: The kind.
         stage: Where it ended them: ``carry`` for the moves with the object, else the phase; what drops an object in
             the hand is another thing than what drops it at its place.
-        trials: How many trials ended so.
+        trials: Number of trials that ended so.
         seeds: With how many seeds they did.
         drivers: Each quantity at its stronger aspect, the least adjusted p first, then the AUC farthest from 0.5.
     """
@@ -80,8 +80,8 @@ class DriversOfFailures:
     """All kinds of failure of some trials with their drivers.
 
     Attributes:
-        trials: How many trials there are.
-        seeds: How many seeds they have.
+        trials: Number of trials.
+        seeds: Number of their seeds.
         failures: The kinds that a draw could drive, the most frequent first.
         too_few: Kinds that occurred, at each stage, with fewer than three seeds or with all but so few.
     """
@@ -164,7 +164,7 @@ class _Table:
         self.columns = _columns({record.seed: record for record in records}, self.seeds)
 
     def failures(self, kind: _Kind) -> Array:
-        """How many trials of each seed ended so."""
+        """Number of trials of each seed that ended so."""
         return self._counted(lambda record: _kind(record, self._carried) == kind)
 
     def compared(self, failed: Array) -> Iterator[tuple[str, Aspect, float, float]]:

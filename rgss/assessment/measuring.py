@@ -23,18 +23,18 @@ _UNDECIDED = (Verdict.NOT_RUN, Verdict.STALE)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VariantMeasures:
-    """What is known of one variant.
+    """Estimates and verdicts of one variant.
 
     Attributes:
         variant: The variant.
-        trials: The keys of the trials that it stands on, in the order of their seeds.
+        trials: The keys of its trials, in the order of their seeds.
         records: Their records.
-        missing: How many of its trials have no evidence.
+        missing: Number of its trials without evidence.
         estimates: The estimate of each measure by its id.
         verdicts: The verdict on each requirement with a criterion, by its id.
-        outdated: How many of the missing trials have evidence of an earlier model, code or engine.
+        outdated: Number of missing trials with evidence of an earlier model, code or engine.
         causes: For each requirement whose verdict is stale, what changed since its evidence.
-        bases: What each verdict is a verdict on, by the requirement's id.
+        bases: Inputs of each verdict, by the requirement's id.
     """
 
     variant: DesignVariant
@@ -133,7 +133,7 @@ def record_of(
 
 
 def require_complete(measured: Sequence[VariantMeasures]) -> None:
-    """Make sure that every trial of the study has evidence.
+    """Check that every trial of the study has evidence.
 
     Raises:
         EvidenceError: Some have none.

@@ -1,6 +1,6 @@
 """The verdicts of a study as they were last recorded, with digests of what they were verdicts on.
 
-A verdict is computed from stored evidence whenever it is asked for, by the requirement and the
+A verdict is computed from stored evidence whenever it is needed, by the requirement and the
 measure as they are then. So that a change of either is not taken for what the evidence was made
 for, a verdict is recorded together with digests of the requirement, of its measure's definition
 down to the last constant, and of the design values behind it: by `rgss measure --record`, and by
@@ -34,7 +34,7 @@ _HINT = "remove it and run 'rgss measure --record'"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Basis:
-    """What a verdict is a verdict on, by SHA-256.
+    """Inputs of a verdict, by SHA-256.
 
     Attributes:
         requirement: The requirement: its sentence, its criterion, how it is verified.
@@ -53,7 +53,7 @@ class RecordedVerdict:
 
     Attributes:
         verdict: The verdict.
-        basis: What it was a verdict on.
+        basis: Inputs of the verdict.
     """
 
     verdict: Verdict
@@ -80,7 +80,7 @@ class VerdictRecord:
 
 
 def study_key(label: str, fidelity: str) -> str:
-    """What the record knows a study by: its file and how much physics its trials have."""
+    """Name of a study in the record: its file and the fidelity of its trials."""
     return f"{label} at fidelity {fidelity}"
 
 
@@ -109,7 +109,7 @@ def read_record(folder: Path) -> VerdictRecord:
             raise EvidenceError(f"{FILE} has schema {data['schema']!r}; this rgss reads {SCHEMA_VERSION}", hint=_HINT)
         studies = {str(key): _book(book) for key, book in data["studies"].items()}
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
-        raise EvidenceError(f"{FILE} is no record of verdicts", hint=_HINT) from error
+        raise EvidenceError(f"{FILE} is not a record of verdicts", hint=_HINT) from error
     return VerdictRecord(studies=MappingProxyType(studies))
 
 

@@ -1,4 +1,4 @@
-"""Recording the verdicts of a study: after its trials were run, or when somebody asks for it."""
+"""Recording the verdicts of a study: after its trials were run, or on request."""
 
 from __future__ import annotations
 

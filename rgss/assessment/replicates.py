@@ -1,4 +1,4 @@
-"""What each replicate of a variant showed of each measure."""
+"""Values of each measure in each replicate of a variant."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def replicates_of(measures: MeasureSet, variant: VariantMeasures) -> dict[str, t
         variant: The variant with its records, in the order of their seeds.
 
     Returns:
-        Values in the measure's unit, by measure; None where a trial does not tell.
+        Values in the measure's unit, by measure; None where a trial gives none.
 
     Raises:
         DefinitionError: A measure is not defined for the design.

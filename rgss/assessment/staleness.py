@@ -1,4 +1,4 @@
-"""What changed since the evidence: of each trial that is missing, and of each verdict."""
+"""Changes since the evidence: of each trial that is missing, and of each verdict."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _CAUSES: Mapping[Reason, StaleCause] = MappingProxyType(
         Reason.INPUT: StaleCause.MODEL,
         Reason.ENGINE: StaleCause.ENGINES,
         Reason.CODE: StaleCause.CODE,
-        # There is evidence under another key, so an input is another one, though nobody wrote down which.
+        # There is evidence under another key, so an input differs, but which one was not recorded.
         Reason.UNKNOWN: StaleCause.MODEL,
     }
 )
@@ -55,16 +55,16 @@ def outdated_trials(
 
 
 class BasisReader:
-    """What verdicts are verdicts on, as the project is now; each digest is made once."""
+    """Inputs of verdicts as the project is now; each digest is made once."""
 
     def __init__(self, project: Project) -> None:
-        """Take a project."""
+        """Digests of a project."""
         self._project = project
         self._measures: dict[str, str] = {}
         self._requirements: dict[str, str] = {}
 
     def basis(self, requirement: Requirement, criterion: Criterion, variant: DesignVariant) -> Basis:
-        """What a verdict on a requirement is a verdict on, for one variant.
+        """Inputs of the verdict on a requirement, for one variant.
 
         Args:
             requirement: The requirement.
@@ -86,11 +86,11 @@ class BasisReader:
 
 
 def causes_since(recorded: RecordedVerdict | None, now: Basis) -> tuple[StaleCause, ...]:
-    """What changed since a verdict was recorded; nothing if none was.
+    """Inputs that changed since a verdict was recorded; none if no verdict was.
 
     Args:
         recorded: The recorded verdict.
-        now: What it would be a verdict on today.
+        now: Its inputs today.
     """
     if recorded is None:
         return ()

@@ -20,8 +20,8 @@ class CaseSuccess:
 
     Attributes:
         case: Its name.
-        trials: How many there are.
-        successes: How many succeeded.
+        trials: Number of trials.
+        successes: Number of successes.
     """
 
     case: str

@@ -44,7 +44,7 @@ def trade_problem(
         EvidenceError: Trials of the study have no evidence.
         TradeoffError: The choice is ill posed, or there are too few replicates for it.
         DefinitionError: A criterion has a comparison that a program cannot have, or levels are to
-            be chosen of designs that are no combinations of levels.
+            be chosen of designs that are not combinations of levels.
     """
     require_complete(measured)
     criteria = {
@@ -95,7 +95,7 @@ def choose(
     Args:
         project: The project with its study.
         measured: Every variant with its estimates.
-        problem: What `trade_problem` gives for them, where it is there already.
+        problem: Result of `trade_problem` for them, if it was computed already.
         independent: Runs of other solvers than HiGHS, as further checks.
         time_limit: Seconds for the runs of a solver over levels.
 
@@ -147,7 +147,7 @@ def shared_measures(project: Project) -> tuple[SharedPart, ...]:
 
 
 def _demanded(project: Project, criterion: Criterion) -> Criterion:
-    """The criterion that a choice must keep: on the end of the interval that a verdict needs, if the study asks so."""
+    """The criterion of a choice: on the end of the interval that a verdict needs, if the study decides by verdicts."""
     from_trials = project.measures.measure(criterion.measure).from_trials
     if not project.study.trade_off.shown_feasible or criterion.statistic is not Statistic.VALUE or not from_trials:
         return criterion

@@ -25,7 +25,7 @@ def level_structure(designs: DesignSpace, variants: Sequence[DesignVariant]) -> 
         variants: Its variants.
 
     Raises:
-        DefinitionError: The designs are no combinations of levels.
+        DefinitionError: The designs are not combinations of levels.
     """
     factors = tuple(factor.id for factor in designs.factors)
     if designs.sample is not None or not factors or any(set(variant.levels) != set(factors) for variant in variants):

@@ -38,7 +38,7 @@ class NamingStudy:
     Attributes:
         file: Its file, relative to the project.
         project: The project with this study.
-        own: The trials that it asks for, at its fidelity and with its number of replicates; of a study that
+        own: The trials that it needs, at its fidelity and with its number of replicates; of a study that
             replicates until decided also all up to its cap as far as the evidence has the seeds.
         all: These, and what ``--fidelity`` and ``--replicates`` make of them as far as the
             evidence has the seeds.
@@ -78,7 +78,7 @@ def naming_studies(folder: Path, seeds: Mapping[str, Iterable[int]]) -> tuple[Na
 
 
 def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[str]:
-    """The keys of the trials that a sweep would see to: with a screening, no deciding ones of what it screens out.
+    """Keys of the trials that a sweep would run or reuse; a design that is screened out has no deciding ones.
 
     Args:
         study: The study.
@@ -94,11 +94,11 @@ def asked_trials(study: NamingStudy, store: EvidenceStore | None) -> frozenset[s
 
 
 def asked_of(project: Project, store: EvidenceStore) -> frozenset[str]:
-    """The keys of the trials that a sweep of a project would see to, without looking at its other studies.
+    """Keys of the trials that a sweep of a project would run or reuse, whatever its other studies need.
 
     Args:
         project: The project with its study, its number of replicates and its fidelity.
-        store: The evidence, which says what a screening screens out.
+        store: The evidence, on which a screening depends.
 
     Raises:
         EvidenceError: The store is damaged.

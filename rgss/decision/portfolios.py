@@ -13,7 +13,7 @@ from rgss.studies.trade_off import PortfolioEntry
 from rgss.tradeoff import PortfolioDecision, PortfolioProblem, PortfolioTask, SolverRun, decide_portfolio
 
 COMPONENT = "component."
-"""Begins the name of a role whose component counts as one member."""
+"""Prefix of the name of a role whose component counts as one member."""
 
 
 def portfolio_projects(project: Project) -> Mapping[str, Project]:
@@ -36,7 +36,7 @@ def choose_portfolio(
     """Choose the designs that together serve every study best.
 
     Args:
-        project: The project with the study that asks for the portfolio.
+        project: The project with the study of the portfolio.
         measured: For each of its studies the project with it and every variant with its estimates.
         time_limit: Seconds to prove the portfolio best, in place of a count of operations.
         independent: Runs of other solvers than HiGHS, as further checks.

@@ -100,7 +100,7 @@ def bound_of(project: Project, name: str, bound: BoundChoice | RequirementBound)
 
 
 def program_of(project: Project, functions: Sequence[ValueFunction]) -> Program:
-    """The program by which a study decides.
+    """Decision program of a study.
 
     Args:
         project: The project with its study.

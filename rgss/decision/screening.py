@@ -4,7 +4,7 @@ A design is screened out if what kinematic trials prove (see `rgss.assessment.es
 to meet a requirement, or if the study's promotion rule bounds how many go on and others are better.
 For that comparison every measure has the best value that is possible for it, and what kinematic
 fidelity cannot know (success in contact, slip, forces, times of motion) is taken at its best for every
-design alike; so nothing unknown speaks against a design.
+design alike; so a design is never excluded by what is unknown.
 """
 
 from __future__ import annotations
@@ -145,41 +145,41 @@ def _first_look(
     if entry.missing:
         reason = f"{entry.missing} of its trials at the screening fidelity have no evidence"
         return ScreenedVariant(variant=entry.variant.id, outcome=ScreeningOutcome.UNSCREENED, reason=reason)
-    outlook = bounds_by_measure(project, entry)
+    bounds = bounds_by_measure(project, entry)
     missed = {
         requirement.id: requirement.criterion
         for requirement in requirements_with_criteria(project)
-        if requirement.criterion is not None and not _possible(requirement.criterion, outlook)
+        if requirement.criterion is not None and not _possible(requirement.criterion, bounds)
     }
-    value = sum(weight * _best(function, outlook[measure]) for measure, (weight, function) in functions.items())
+    value = sum(weight * _best(function, bounds[measure]) for measure, (weight, function) in functions.items())
     return ScreenedVariant(
         variant=entry.variant.id,
         outcome=ScreeningOutcome.IMPOSSIBLE if missed else ScreeningOutcome.PROMOTED,
-        reason="; ".join(_why(name, criterion, outlook) for name, criterion in missed.items())
-        or "nothing that is known speaks against it",
+        reason="; ".join(_why(name, criterion, bounds) for name, criterion in missed.items())
+        or "no evidence excludes it",
         missed=tuple(missed),
         best_value=value,
     )
 
 
-def _possible(criterion: Criterion, outlook: Mapping[str, EstimateBounds]) -> bool:
+def _possible(criterion: Criterion, bounds: Mapping[str, EstimateBounds]) -> bool:
     """True if a verdict other than not met is possible.
 
-    A criterion compares with one threshold, so what the ends of an outlook cannot meet nothing between them can.
+    A criterion compares with one threshold, so if neither end of the bounds meets it, nothing between them does.
     """
-    found = outlook[criterion.measure]
+    found = bounds[criterion.measure]
     if not found.bounded or not found.estimates:
         return True
     return any(judge(criterion, estimate) is not Verdict.NOT_MET for estimate in found.estimates)
 
 
-def _why(requirement: str, criterion: Criterion, outlook: Mapping[str, EstimateBounds]) -> str:
-    estimates = outlook[criterion.measure].estimates
+def _why(requirement: str, criterion: Criterion, bounds: Mapping[str, EstimateBounds]) -> str:
+    estimates = bounds[criterion.measure].estimates
     values = [one.value for one in estimates if one.value is not None]
     unit = "" if estimates[0].unit == "1" else f" {estimates[0].unit}"
     low, high = min(values), max(values)
     between = f"{low:g}{unit}" if low == high else f"from {low:g} to {high:g}{unit}"
-    return f"{requirement} wants {criterion}, and {criterion.measure} is {between}"
+    return f"{requirement} requires {criterion}, and {criterion.measure} is {between}"
 
 
 def _value_functions(project: Project) -> dict[str, tuple[float, ValueFunction]]:
@@ -191,11 +191,11 @@ def _value_functions(project: Project) -> dict[str, tuple[float, ValueFunction]]
     return found
 
 
-def _best(function: ValueFunction, outlook: EstimateBounds) -> float:
-    """The greatest value of a quantity within an outlook; 1 where nothing is known, 0 where there is no quantity."""
-    if not outlook.bounded:
+def _best(function: ValueFunction, bounds: EstimateBounds) -> float:
+    """The greatest value of a quantity within bounds; 1 where nothing is known, 0 where there is no quantity."""
+    if not bounds.bounded:
         return 1.0
-    quantities = [one.value for one in outlook.estimates if one.value is not None]
+    quantities = [one.value for one in bounds.estimates if one.value is not None]
     if function.peak is not None and quantities and min(quantities) <= function.peak <= max(quantities):
         return 1.0
     return max((function.value_at(quantity) for quantity in quantities), default=0.0)

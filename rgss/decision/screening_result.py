@@ -56,7 +56,7 @@ class ScreeningResult:
     """Outcome of screening for every design.
 
     Attributes:
-        screening: What the study says.
+        screening: The study's screening.
         variants: The designs, in their order.
     """
 
@@ -75,7 +75,7 @@ class ScreeningResult:
 
 
 def screening_summary(result: ScreeningResult) -> str:
-    """Sentences on what was screened out, by which evidence and why."""
+    """Sentences on the designs that were screened out, the evidence and the reasons."""
     out = result.screened_out
     screening = result.screening
     trials = f"{screening.fidelity.value} trials ({screening.promotion})"

@@ -1,4 +1,4 @@
-"""Whether the evidence separates two designs, so that one in place of the other is a change of the choice.
+"""Separation of two designs by the evidence, so that one in place of the other is a change of the choice.
 
 Replicates are added where the choice is open, so that two designs seldom have the same seeds. They are compared on
 those that both have, by the posterior that names ties in the study itself; but a seed in which one of them alone
@@ -30,7 +30,7 @@ FEASIBILITY_DOUBT = 0.2
 
 
 def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: int, former: int) -> bool:
-    """Tell whether a choice is better than a former one by what the seeds that both have show.
+    """True if a choice is better than a former one by what the seeds that both have show.
 
     It is not where the former one meets every requirement and is within the practical margin by the estimates, nor
     where both are feasible and it is worth as much with a probability of at least 5 %
@@ -40,8 +40,8 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
     Args:
         project: The project, under the suppositions that lead to the choice.
         measured: Every variant with its estimates and records under them.
-        chosen: What is chosen.
-        former: What was chosen without them.
+        chosen: The choice.
+        former: Choice without them.
 
     Returns:
         True too where the former is not among the variants, or the program is not the weighted value, which knows
@@ -83,7 +83,7 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
         estimated=enumerate_alternatives(problem).feasible,
         single=single_values(problem, table),
     ).rivals
-    # What leads only where the choice is not feasible is no reason to keep it: by value it is behind.
+    # A lead only where the choice is not feasible does not keep it: by value it is behind.
     return all(rival.by_feasibility for rival in rivals)
 
 

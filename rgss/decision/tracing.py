@@ -30,7 +30,7 @@ def trace_evidence(
         measured: Every variant with its estimates.
         state: The verdicts of all variants, and what the tests say.
         variant: The variant to show; the one that the trade-off chooses by default.
-        decision: What the trade-off chooses, where it is there already.
+        decision: Decision of the trade-off, if it was computed already.
 
     Raises:
         DefinitionError: There is no such variant.
@@ -77,7 +77,7 @@ def _chosen(
     project: Project, measured: Sequence[VariantMeasures], variant: int | None, decision: Decision | None
 ) -> tuple[int | None, str]:
     if variant is not None:
-        return project.designs.variant(variant).id, f"variant {variant}, as asked for"
+        return project.designs.variant(variant).id, f"variant {variant}, as requested"
     try:
         decision = choose(project, measured) if decision is None else decision
     except RgssError as error:

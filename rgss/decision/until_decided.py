@@ -33,15 +33,15 @@ class UntilDecided:
     """Result of replication until decided.
 
     Attributes:
-        reason: Why it ended.
+        reason: Reason for the end.
         variant: The variant that is chosen; None if none meets every requirement.
         contenders: The variants that may be the best one; if it is decided, by less than the margin.
         verdicts: By variant, the verdict on each requirement, valid in spite of the looks.
-        trials: How many trials each variant has.
+        trials: Number of trials of each variant.
         probability: Posterior probability that the choice is good; see
             `rgss.tradeoff.sequential.probability.probability_of_good_selection`.
-        looks: How often was looked.
-        rule: By which rule.
+        looks: Number of looks.
+        rule: The stopping rule.
         unsettled: The variants that may be worth more than the choice by the margin.
         forecast: The replicates that would settle what is open; None if the decision is settled, or nothing chosen.
     """
@@ -77,17 +77,17 @@ def replicate_until_decided(
     rule: SequentialRule | None = None,
     on_look: Callable[[int, int], None] | None = None,
 ) -> UntilDecided:
-    """Add replicates until the decision stands or a cap is reached.
+    """Replication of a study until it is decided or a cap is reached.
 
     Replicate r of every variant has the study's seed + r, so that variants are compared on common
-    random numbers. Trials that the store has already are not run again; beyond what the rule asks
-    for they are not looked at, so that a sweep that was interrupted comes to the same end.
+    random numbers. Trials that the store has already are not run again; those beyond the
+    rule's numbers are ignored, so that an interrupted sweep ends in the same state.
 
     Args:
-        project: The project; its study's number of replicates is not looked at.
+        project: The project; its study's number of replicates is ignored.
         store: The evidence.
         run: Runs the trials that the store has not, and returns when their records are in it.
-        rule: When to stop; as the study says if None.
+        rule: The stopping rule; the study's if None.
         on_look: Callback after each look, with its number and that of the trials so far.
 
     Raises:
@@ -163,7 +163,7 @@ def trial_twins(project: Project, variants: Sequence[DesignVariant]) -> Mapping[
 
 
 class _Evidence:
-    """The records of the replicates that are wanted, read once each."""
+    """Records of the required replicates, each read once."""
 
     def __init__(self, project: Project, store: EvidenceStore, variants: Sequence[DesignVariant]) -> None:
         self._project = project
@@ -173,7 +173,7 @@ class _Evidence:
         self._measured: dict[int, VariantMeasures] = {}
 
     def missing(self, wanted: Mapping[int, int]) -> tuple[TrialSpec, ...]:
-        """The trials that are wanted and were not read yet."""
+        """Required trials that were not read yet."""
         first = self._project.study.seed
         alike: dict[tuple[int, int], list[DesignVariant]] = {}
         for variant in self._variants:

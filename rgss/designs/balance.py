@@ -39,7 +39,7 @@ def balanced_part(rows: Sequence[Sequence[int]], count: int) -> tuple[int, ...]:
 
     Args:
         rows: The level of each factor of each design, as a number.
-        count: How many to choose, from 0 to all.
+        count: Number to choose, from 0 to all.
 
     Returns:
         Their places in the rows, rising.
@@ -54,7 +54,7 @@ def balanced_part(rows: Sequence[Sequence[int]], count: int) -> tuple[int, ...]:
 
 
 def binned(share: float) -> int:
-    """The quarter of a range in which a value lies, which stands for its level.
+    """The quarter of a range in which a value lies, used as its level.
 
     Args:
         share: How far the value is from the low end, as a share of the range.

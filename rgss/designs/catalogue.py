@@ -123,7 +123,11 @@ class _CatalogueReader:
         cost = self._value("cost", model, "USD", *place)
         if cost.value < 0:
             self._report(
-                "value", f"cost: {shown(model.value)} is negative", *place, "value", hint="write what it costs"
+                "value",
+                f"cost must be at least 0, got {shown(model.value)}",
+                *place,
+                "value",
+                hint="write what it costs",
             )
         return cost
 

@@ -70,9 +70,9 @@ class Rule:
 
     Attributes:
         id: Its id.
-        rationale: Why it is so.
-        when: Where the rule applies; everywhere if it has no choices.
-        require: What must hold there; None where nothing that it applies to is a design.
+        rationale: The reason.
+        when: Condition of the rule; always true if it has no choices.
+        require: Condition that must hold there; None where nothing that it applies to is a design.
     """
 
     id: str

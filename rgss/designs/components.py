@@ -20,8 +20,8 @@ class SourcedValue:
         value: The magnitude in SI (money in US dollars).
         unit: Its unit.
         assumption: Whether it is assumed rather than taken from a source.
-        rationale: Why this value; not empty where it is assumed.
-        source: Where it is from; not empty unless it is assumed.
+        rationale: Reason for this value; not empty where it is assumed.
+        source: Its source; not empty unless it is assumed.
     """
 
     value: float
@@ -49,11 +49,11 @@ class Component:
         id: Its id, such as ``kg-3-light``.
         role: The id of its role.
         name: Its name.
-        manufacturer: Who makes it or publishes it.
+        manufacturer: Its manufacturer or publisher.
         matches: The parameter values that select it, as they are written in the catalogue;
             empty when it suits every design.
         geometry: The file with its geometry, relative to the project; empty if it has none.
-        cost: What it costs.
+        cost: Its cost.
         properties: Its other properties, by name.
         sets: The quantity of `SETTABLE_QUANTITIES` that a property sets, by property; the same for the whole role.
     """

@@ -49,9 +49,9 @@ class ConstraintProblem(Exception):  # noqa: N818 - it never leaves the room: it
 
     Attributes:
         rule: The id of the broken rule.
-        offset: Where it is, in characters from the start of the text.
-        message: What is wrong.
-        hint: How to resolve it.
+        offset: Its position, in characters from the start of the text.
+        message: The problem.
+        hint: Advice.
     """
 
     def __init__(self, rule: str, offset: int, message: str, hint: str) -> None:

@@ -27,7 +27,7 @@ COMPARISONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = MappingProxyTy
         ">": operator.gt,
     }
 )
-"""What each sign of comparison means; the longer signs stand first."""
+"""Comparison of each sign; the longer signs come first."""
 
 OPERATORS: Mapping[str, Callable[[Fraction, Fraction], Fraction]] = MappingProxyType(
     {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}

@@ -33,7 +33,7 @@ class Span:
         unit: Its SI unit.
         low: The least value, in SI.
         high: The greatest value, in SI.
-        steps: How many steps lie between them.
+        steps: Number of steps between them.
         counted: Whether the values are whole numbers.
     """
 

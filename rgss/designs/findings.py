@@ -18,9 +18,9 @@ def duplicate_findings(
 
     Args:
         document: The file.
-        section: Where the list stands.
+        section: Location of the list.
         entries: The entries.
-        key: The key that tells them apart.
+        key: The key that distinguishes them.
     """
     first: dict[str, int] = {}
     for index, entry in enumerate(entries):

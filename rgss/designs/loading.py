@@ -136,7 +136,7 @@ class _SpaceReader:
             message = f"{model.id} has names and a unit"
             self._report("unit", message, *place, "unit", hint="remove 'unit'", at_key=True)
         if model.role is None and model.sets is None:
-            hint = "add 'role': what its names stand for"
+            hint = "add 'role': that of the components it names"
             self._report("role", f"{model.id} has names of no role", *place, hint=hint)
         elif model.role is not None and model.role not in roles:
             hint = near_hint(model.role, roles, "known roles")

@@ -43,12 +43,12 @@ class DesignParameter:
         id: Its id, such as ``m_f``.
         name: Its name in columns, such as ``finger_mass``.
         symbol: Its symbol in equations.
-        kind: What its values are.
+        kind: Kind of its values.
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
-        role: The role of the components that its names stand for; empty unless it has names.
-        sets: What it sets: a quantity of `SETTABLE_QUANTITIES`, or ``catalogue.<role>``; may be empty.
-        description: What it is, in a sentence.
-        assumption: What is assumed about it and why; may be empty.
+        role: The role of the components that it names; empty unless it has names.
+        sets: Quantity of `SETTABLE_QUANTITIES` that it sets, or ``catalogue.<role>``; may be empty.
+        description: Description, in a sentence.
+        assumption: Assumption about it, with the reason; may be empty.
     """
 
     id: str
@@ -112,7 +112,7 @@ def is_si(unit: str) -> bool:
 
 
 def si_unit(unit: str) -> str:
-    """The SI unit (US dollars for money) that measures what a unit measures, as one writes it.
+    """The SI unit (US dollars for money) of the same dimension as a unit, as it is written.
 
     Raises:
         QuantityError: The unit is unknown, or measures what has no unit in SI.
@@ -127,7 +127,7 @@ def si_unit(unit: str) -> str:
 
 
 def unit_of(powers: Iterable[tuple[str, float]]) -> str:
-    """The SI unit of base dimensions with their exponents, as one writes it; ``"1"`` for none.
+    """The SI unit of base dimensions with their exponents, as it is written; ``"1"`` for none.
 
     Args:
         powers: Base dimensions as `rgss.quantities.dimension` names them.

@@ -44,7 +44,7 @@ def picked(space: DesignSpace, terms: Sequence[str], *, option: str = "--only") 
         option: What the user knows them by.
 
     Raises:
-        DefinitionError: A term says nothing that is known, or nothing is left.
+        DefinitionError: A term is unknown, or no variant is left.
     """
     variants = space.expand()
     for term in terms:
@@ -91,7 +91,7 @@ def _filter(space: DesignSpace, text: str, option: str) -> Filter:
         return _ids(space, text, option)
     if _FRACTION.fullmatch(text):
         raise DefinitionError(
-            f"{option}: the fraction {text!r} stands among others", hint=f"give it an {option} of its own"
+            f"{option}: the fraction {text!r} must be the only term", hint=f"give it its own {option}"
         )
     equals = _EQUALS.fullmatch(text)
     if equals is not None:
@@ -122,12 +122,12 @@ def _ids(space: DesignSpace, text: str, option: str) -> Filter:
     unknown = next((number for number in range(first, last + 1) if number not in looked_at), None)
     if unknown is not None or first > last:
         raise DefinitionError(
-            f"{option}: there is no variant {text if unknown is None else unknown}",
+            f"{option}: unknown variant {text if unknown is None else unknown}",
             hint=f"ids go from {min(known)} to {max(known)}",
         )
     if first == last and first not in known:
         why = f"repeats variant {repeats[first]}" if first in repeats else f"breaks rule {excluded[first][0]!r}"
-        raise DefinitionError(f"{option}: {first} is no variant: it {why}", hint="'rgss variants' lists all of them")
+        raise DefinitionError(f"{option}: {first} is not a variant: it {why}", hint="'rgss variants' lists all of them")
     return lambda variant: first <= variant.id <= last
 
 

@@ -24,8 +24,8 @@ def read_span(
 
     Args:
         document: The file.
-        place: Where the factor stands.
-        model: What the file says of it; it has a parameter and a range.
+        place: Location of the factor.
+        model: The entry of the file; it has a parameter and a range.
         parameters: The design parameters by id.
 
     Returns:
@@ -88,12 +88,12 @@ def sample_findings(document: Document, model: DesignSpaceModel) -> Iterator[Fin
     if model.sample is None:
         for index, factor in enumerate(model.factors):
             if factor.range is not None:
-                message = f"factor {factor.id!r} has a range, and nothing says how to sample it"
+                message = f"factor {factor.id!r} has a range, so the file needs 'sample'"
                 hint = "add 'sample: {method: sobol, size: 64, seed: 1}' to the file, or write levels"
                 yield document.finding("design.sample", message, ("factors", index, "range"), hint=hint, at_key=True)
         return
     if not model.factors:
-        message = "there is no factor to sample"
+        message = "the sample has no factor"
         hint = "add a factor, or remove 'sample'"
         yield document.finding("design.sample", message, ("sample",), hint=hint, at_key=True)
     size = model.sample.size

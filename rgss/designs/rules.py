@@ -70,7 +70,7 @@ class RuleReader:
         given = [key for key in ("exclude", "require", "limit", "constraint") if getattr(model, key) is not None]
         if len(given) != 1 or (model.exclude is not None and model.when is not None):
             hint = "write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when'"
-            self._report("rule", f"rule {model.id!r} does not say one thing", *place, hint=hint)
+            self._report("rule", f"rule {model.id!r} must have exactly one form", *place, hint=hint)
         when = self._condition(
             model.exclude or model.when or {}, *place, "when" if model.exclude is None else "exclude"
         )

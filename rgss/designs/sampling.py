@@ -30,9 +30,9 @@ class Sample:
     """The points of a design space that are tried.
 
     Attributes:
-        method: How they were spread.
-        size: How many there are, repeats included.
-        seed: What they were drawn from.
+        method: Sampling method.
+        size: Number of points, repeats included.
+        seed: Seed of the draws.
         points: The level of each factor at each point that no earlier point equals, by its number from 1.
         repeats: The number of the first point that equals another, by that other's number.
     """
@@ -48,10 +48,10 @@ def unit_points(method: SamplingMethod, *, dimensions: int, size: int, seed: int
     """Rows of numbers from 0 to below 1, the same for the same arguments.
 
     Args:
-        method: How they are spread.
+        method: Sampling method.
         dimensions: Numbers in a row.
         size: Rows; of a Sobol sample a power of two.
-        seed: What they are drawn from.
+        seed: Seed of the draws.
     """
     from scipy.stats import qmc
 
@@ -71,9 +71,9 @@ def sample_factors(factors: Sequence[Factor], *, method: SamplingMethod, size: i
 
     Args:
         factors: The factors, with levels or a range each.
-        method: How points are spread.
-        size: How many points; of a Sobol sample a power of two.
-        seed: What they are drawn from.
+        method: Sampling method.
+        size: Number of points; of a Sobol sample a power of two.
+        seed: Seed of the draws.
     """
     rows = unit_points(method, dimensions=len(factors), size=size, seed=seed)
     points: dict[int, tuple[Level, ...]] = {}

@@ -22,7 +22,7 @@ def selection_findings(space: DesignSpace, document: Document, model: DesignSpac
     Args:
         space: The sound part of a design space.
         document: Its file.
-        model: What the file says.
+        model: The entry of the file.
     """
     if len(space.rules) < len(model.rules):
         return

@@ -141,7 +141,7 @@ def value_findings(
 
     Args:
         document: The file.
-        place: Where the value is.
+        place: Place of the value.
         name: The key that gives it.
         setting: What it sets.
         value: The value in SI.
@@ -186,7 +186,7 @@ def _kind_problem(kind: ParameterKind, unit: str, setting: SettableQuantity) -> 
         if unit and dimension(unit) != dimension(setting.unit):
             return f"must be a quantity in {setting.unit!r} to set {setting.name}, not in {unit!r}", "correct the unit"
     except QuantityError:
-        return None  # An unknown unit is a finding of its own.
+        return None  # An unknown unit has its own finding.
     return None
 
 

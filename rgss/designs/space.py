@@ -38,8 +38,8 @@ class DesignSpace:
     Attributes:
         parameters: The design parameters.
         constants: The values of those that do not vary, in SI, by parameter id.
-        factors: What varies, outermost first: the last factor varies fastest.
-        rules: Which combinations make a design.
+        factors: The factors, outermost first: the last factor varies fastest.
+        rules: Rules for the combinations that make a design.
         catalogue: The components.
         selectors: The parameter values in SI that select each component, by component id.
         sample: The points that are tried; None if every combination of levels is.
@@ -87,14 +87,14 @@ class DesignSpace:
             if variant.id == number:
                 return variant
         known = f"from {variants[0].id} to {variants[-1].id}" if variants else "none"
-        raise DefinitionError(f"there is no variant {number}", hint=f"ids of variants: {known}")
+        raise DefinitionError(f"unknown variant {number}", hint=f"ids of variants: {known}")
 
     def source_units(self) -> Mapping[str, str]:
         """The SI unit of everything that `rgss.designs.design_values` gives, by name; empty for names."""
         return source_units(self.parameters, self.catalogue)
 
     def combinations(self) -> Iterator[tuple[int, Mapping[str, str], Mapping[str, ParameterValue]]]:
-        """Every combination of levels that is looked at: its number, its levels by factor, and its parameters.
+        """Every enumerated combination of levels: its number, its levels by factor, and its parameters.
 
         They are the full product, numbered from 1; or the points of the sample that repeat no other.
         """

@@ -47,7 +47,7 @@ class ValueReader:
 
         Args:
             document: The file.
-            location: Where the value or the list of values stands.
+            location: Location of the value or the list of values.
             name: The key: the parameter's id.
             written: The values as they are written.
 
@@ -62,7 +62,7 @@ class ValueReader:
         values: list[ParameterValue] = []
         findings = []
         for index, item in enumerate(written):
-            # A single value stands at the location itself: the index is then passed over.
+            # A single value is at the location itself: the index is then passed over.
             place = (*location, index)
             try:
                 value = parameter.read(item)

@@ -17,7 +17,6 @@ from rgss.documents.fields import (
     Metres,
     MetresPerSecond,
     MetresPerSecondSquared,
-    NewtonMetres,
     Newtons,
     NewtonSecondsPerMetre,
     NewtonsPerMetre,

@@ -28,7 +28,7 @@ from rgss.findings import Finding, shown
 DEEPEST_NESTING = 40
 MOST_VALUES = 250_000
 
-# What YAML counts as printable. A byte order mark may stand only at the start.
+# What YAML counts as printable. A byte order mark is allowed only at the start.
 _NOT_PRINTABLE = re.compile(r"[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]")
 _LONE_SURROGATE = re.compile(r"[\ud800-\udfff]")
 _INTEGER = re.compile(r"[+-]?(0|[1-9][0-9]{0,17})")
@@ -65,7 +65,7 @@ class Composer:
     """
 
     def __init__(self, text: str, label: str) -> None:
-        """Take a text.
+        """Composer of a text.
 
         Args:
             text: The text of a file.

@@ -98,7 +98,7 @@ def _plain_list(value: Sequence[Any], depth: int) -> list[Any]:
     items: list[Any] = []
     try:
         for item in value:
-            items.append(_plain(item, depth + 1))  # noqa: PERF401 - its length says where the trouble was
+            items.append(_plain(item, depth + 1))  # noqa: PERF401 - its length locates the problem
     except _NoCanonicalFormError as error:
         error.where = f"[{len(items)}]{error.where}"
         raise

@@ -17,7 +17,7 @@ from rgss.errors import DefinitionError
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SetKey:
-    """Give a key of a mapping a value; the key may be new.
+    """Set a key of a mapping; the key may be new.
 
     Attributes:
         location: The mapping.
@@ -34,7 +34,7 @@ class SetKey:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemoveKey:
-    """Take a key with its value out of a mapping.
+    """Remove a key with its value from a mapping.
 
     Attributes:
         location: The mapping.
@@ -60,7 +60,7 @@ class AppendEntry:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RemoveEntry:
-    """Take an entry out of a list.
+    """Remove an entry from a list.
 
     Attributes:
         location: The list.
@@ -214,7 +214,7 @@ class _Editor:
             return _Splice(self._end(around.value[index - 1][1]), self._end(value), "")
         if index:
             return _Splice(self._line_start(start), self._next_line(self._end(value)), "")
-        # The first key of a mapping stands behind a dash or a brace, which stays.
+        # The first key of a mapping is behind a dash or a brace, which stays.
         stop = self._end(value) if len(around.value) == 1 else around.value[1][0].start_mark.index
         return _Splice(start, stop, "")
 

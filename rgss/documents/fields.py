@@ -42,7 +42,7 @@ class JointQuantity:
 
 
 def _joint_reader_of(angular: str, linear: str) -> Callable[[Any], JointQuantity]:
-    """Reader of a quantity whose unit says whether the joint turns or slides."""
+    """Reader of a quantity whose unit shows whether the joint turns or slides."""
     read_angular, read_linear = _reader_of(angular), _reader_of(linear)
 
     def read(value: Any) -> JointQuantity:
@@ -77,16 +77,16 @@ _EXAMPLES = {
 
 def _schema(unit: str) -> WithJsonSchema:
     examples = _EXAMPLES.get(unit, (f"1 {unit}",))
-    told = f"write a number and a unit, such as {examples[0]}"
+    hint = f"write a number and a unit, such as {examples[0]}"
     return WithJsonSchema(
         {
             "type": "string",
             "pattern": QUANTITY_PATTERN,
             "description": f"A quantity in {unit} or a unit that converts to it.",
             "examples": list(examples),
-            # No keywords of JSON Schema: editors show these in place of their own words.
-            "errorMessage": told,
-            "patternErrorMessage": told,
+            # Not keywords of JSON Schema: editors show these in place of their own messages.
+            "errorMessage": hint,
+            "patternErrorMessage": hint,
         }
     )
 
@@ -113,7 +113,6 @@ Seconds = Annotated[float, BeforeValidator(_reader_of("s")), _schema("s")]
 NewtonsPerMetre = Annotated[float, BeforeValidator(_reader_of("N/m")), _schema("N/m")]
 NewtonSecondsPerMetre = Annotated[float, BeforeValidator(_reader_of("N*s/m")), _schema("N*s/m")]
 Newtons = Annotated[float, BeforeValidator(_reader_of("N")), _schema("N")]
-NewtonMetres = Annotated[float, BeforeValidator(_reader_of("N*m")), _schema("N*m")]
 Radians = Annotated[float, BeforeValidator(_reader_of("rad")), _schema("rad")]
 RadiansPerSecond = Annotated[float, BeforeValidator(_reader_of("rad/s")), _schema("rad/s")]
 RadiansPerSecondSquared = Annotated[float, BeforeValidator(_reader_of("rad/s**2")), _schema("rad/s**2")]

@@ -1,4 +1,4 @@
-"""Output files: one mechanism by which every verb writes a file.
+"""Output files: the one mechanism that writes files, for every verb.
 
 A regular file is replaced as a whole or not at all, and keeps its owner, permissions and extended attributes;
 one with several names (hard links), or whose owner cannot be kept, gets its content in place. A symbolic link is
@@ -52,7 +52,7 @@ class _Target:
 
 @contextmanager
 def replaced_file(path: Path, *, replace_source: bool = False) -> Iterator[Path]:
-    """Give a temporary file to write to; its content becomes that of the path if no exception leaves the block.
+    """Context of a temporary file; its content replaces that of the path unless the block raises.
 
     Args:
         path: The output file.
@@ -198,7 +198,7 @@ def _target(path: Path) -> _Target:
         return _Target(path=path, in_place=True, status=status)
     here = path
     for _ in range(_MOST_LINKS):
-        # A link there stands for an open descriptor; a file in its place would not be what is open.
+        # A link there is an open descriptor; a file in its place would not be what is open.
         if os.path.realpath(here.parent).startswith(_DESCRIPTORS):
             return _Target(path=path, in_place=True, status=status)
         if not here.is_symlink():
@@ -210,7 +210,7 @@ def _target(path: Path) -> _Target:
 @contextmanager
 def _swapped(target: _Target) -> Iterator[Path]:
     if target.status is not None and not os.access(target.path, os.W_OK):
-        # A rename needs the folder alone, but the owner has said that this file stays.
+        # A rename needs the folder alone, but the file itself is write-protected.
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     part = _new_part(target.path)
     try:
@@ -228,7 +228,7 @@ def _swapped(target: _Target) -> Iterator[Path]:
 
 
 def _made_alike(part: Path, old: Path, status: os.stat_result) -> bool:
-    """Give a file the owner, the permissions and the extended attributes of another; false if it may not have them."""
+    """Copy owner, permissions and extended attributes to a file; False if that is not permitted."""
     try:
         os.chown(part, status.st_uid, status.st_gid)
         # Access control lists are among them.

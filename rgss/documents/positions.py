@@ -33,7 +33,7 @@ class ListPlaces:
     """Positions of a list and its entries.
 
     Attributes:
-        mark: Where it starts.
+        mark: Position of its start.
         inner: Positions of its entries.
     """
 
@@ -46,7 +46,7 @@ class MappingPlaces:
     """Positions of a mapping, its keys and their values.
 
     Attributes:
-        mark: Where it starts.
+        mark: Position of its start.
         keys: Position of each key.
         inner: Position of the value of each key.
     """
@@ -64,7 +64,7 @@ class _Positions(Mapping[Location, Position]):
     """Positions of the parts of a file by their locations."""
 
     def __init__(self, places: Places, end: Callable[[], Position]) -> None:
-        """Take the places of a whole file.
+        """Positions of a whole file.
 
         Args:
             places: The places.

@@ -22,7 +22,7 @@ def first_problems(document: Document, model: type[BaseModel], error: Validation
 
     Args:
         document: The file.
-        model: What it should be.
+        model: Its type.
         error: What is wrong with the whole of it.
     """
     counted = error if error.error_count() <= _MOST_LISTED else _with_fewer(document.data, model, error)

@@ -22,7 +22,7 @@ def place_of(path: Path, project: Path) -> FilePlace:
     """Locate a file relative to a project, with every symbolic link of both paths resolved.
 
     A link whose target lies in the project is inside; one that leads out of it is outside, whether
-    or not the target exists, for what lies there is no part of the project and does not travel with it.
+    or not the target exists, because a file outside is not part of the project and is not copied with it.
 
     Args:
         path: The file, as it was named.

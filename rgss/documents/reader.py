@@ -61,10 +61,10 @@ class Document:
 
         Args:
             rule: The id of the broken rule.
-            message: What is wrong.
+            message: The problem.
             location: Keys and indices from the top, such as ``("bodies", 2, "mass")``; parts
                 that the document does not have are passed over.
-            hint: How to resolve it.
+            hint: Advice.
             severity: Its severity.
             at_key: Point at the key instead of its value.
         """

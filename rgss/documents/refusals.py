@@ -10,7 +10,7 @@ from rgss.findings import Finding, Severity
 MOST_PROBLEMS = 1_000
 """Number of problems that are reported of one file; a hostile file may have millions."""
 
-# What YAML counts as one line break.
+# A line break in YAML.
 _LINE_BREAK = re.compile(r"\r\n|[\n\r\x85\u2028\u2029]")
 
 
@@ -20,9 +20,9 @@ def refusal(label: str, rule: str, message: str, position: tuple[int, int] = (1,
     Args:
         label: The file's name in messages.
         rule: The broken rule, without ``document.``.
-        message: What is wrong.
+        message: The problem.
         position: Line and column.
-        hint: How to resolve it.
+        hint: Advice.
     """
     line, column = position
     return Finding(

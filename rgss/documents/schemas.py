@@ -1,8 +1,8 @@
-"""The JSON Schema of a typed model, as editors want it.
+"""JSON Schema of a typed model, as editors need it.
 
 Editors check YAML against draft 7 and show the descriptions that they find. The schema that pydantic derives from a
 model is converted: names of classes are left out, fixed rows become what draft 7
-calls them, and every key gets the sentence that says what it means.
+calls them, and every key gets its description.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ def json_schema(model: type[DocumentModel], *, title: str, texts: KeyTexts) -> d
 
     Args:
         model: The model of a whole document.
-        title: What the document is, in a few words.
-        texts: What each key means; a description of the model's own comes first.
+        title: Title of the document, in a few words.
+        texts: Description of each key; the model's own comes first.
 
     Returns:
         Plain data that can be written as JSON. What it refuses the model refuses too; the model also knows
@@ -56,8 +56,8 @@ def _describe(definition: _Schema, texts: Mapping[str, str]) -> None:
     for key, inner in definition.get("properties", {}).items():
         # A field may carry its text itself, which the texts then repeat.
         if key in texts and inner.get("description") != texts[key]:
-            said = [inner["description"]] if "description" in inner else []
-            inner["description"] = " ".join([texts[key], *said])
+            own = [inner["description"]] if "description" in inner else []
+            inner["description"] = " ".join([texts[key], *own])
 
 
 def _plain_names(definitions: Mapping[str, Any]) -> dict[str, str]:

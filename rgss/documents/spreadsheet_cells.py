@@ -28,7 +28,7 @@ def starts_like_a_formula(text: str) -> bool:
 def neutralised(text: str) -> str:
     """A text that no spreadsheet takes for a formula: with an apostrophe before what one might.
 
-    What stands behind apostrophes already gets one more, so that `restored` gives back every text.
+    A text that begins with apostrophes gets one more, so that `restored` gives back every text.
     """
     return f"'{text}" if starts_like_a_formula(text.lstrip("'")) else text
 
@@ -47,7 +47,7 @@ def printable(text: str) -> str:
 
 
 def without_clock(workbook: bytes) -> bytes:
-    """The same Excel file without the time at which it was made, which stands in it twice."""
+    """The same Excel file without its time of creation, which it contains twice."""
     import zipfile
 
     out = io.BytesIO()

@@ -45,7 +45,7 @@ def load_document(path: Path, model: type[Model], *, label: str | None = None) -
 
     Args:
         path: The file.
-        model: What the file should be.
+        model: Type of the file.
         label: The file's name in messages; the path itself by default.
 
     Raises:
@@ -190,7 +190,7 @@ def _siblings(location: tuple[str | int, ...], model: type[BaseModel]) -> list[s
     """The keys that the mapping around an unknown key may have."""
     kinds: list[Any] = [model]
     for part in location[:-1]:
-        # A part that leads nowhere is the tag of a union, which is no level of its own.
+        # A part without a position is the tag of a union, which is not a level.
         kinds = _alternatives([inner for kind in kinds for inner in _inside(kind, part)]) or kinds
     return sorted({field.alias or name for kind in kinds for name, field in _fields_of(kind).items()})
 

@@ -20,10 +20,10 @@ def value_lines(value: Any, indent: int, used: int = 0) -> list[str]:
     Args:
         value: Texts, numbers, truth values, None, lists and mappings of these.
         indent: The column of the key.
-        used: How much of the key's line is taken.
+        used: Characters of the key's line that are taken.
 
     Returns:
-        What stands behind the colon, empty if nothing does; then whole lines.
+        The text behind the colon, which may be empty; then whole lines.
     """
     inline = inline_text(value)
     fits = used + 1 + len(inline) <= WIDEST_LINE

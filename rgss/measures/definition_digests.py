@@ -12,7 +12,7 @@ def definition_digest(measures: MeasureSet, id: str) -> str:  # noqa: A002 - the
     """The SHA-256 of a measure's definition and of the definitions of all that it is computed from.
 
     It changes with an expression, a constant, the source of an input, a unit, the estimator, or
-    what a definition says in words, anywhere below the measure. It does not change with names,
+    texts of definitions anywhere below the measure. It does not change with names,
     with who traces to the measure, with its order in the file, nor with measures beside it.
 
     Args:

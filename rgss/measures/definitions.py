@@ -69,8 +69,8 @@ class Constant:
         id: Its symbol.
         value: Its value in SI.
         unit: The unit it is shown in.
-        definition: What it is.
-        source: Where it is from; empty when it is an assumption.
+        definition: Its definition.
+        source: Its source; empty when it is an assumption.
     """
 
     id: str
@@ -122,7 +122,7 @@ class Equation(DocumentModel):
 
 
 def _as_text(value: Any) -> Any:
-    """A pure number may stand without quotes; its unit decides later whether it may."""
+    """A pure number may be unquoted; its unit decides later whether it is valid."""
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 
@@ -152,8 +152,8 @@ class Alternative:
     Attributes:
         id: Its name among the measure's alternatives.
         expression: The expression that it puts in the place of the measure's.
-        estimate: How trial values then become one; None where it follows from the design alone.
-        rationale: Why the source can be read so.
+        estimate: Estimate from trial values; None where it follows from the design alone.
+        rationale: Reason for this reading of the source.
     """
 
     id: str
@@ -164,22 +164,22 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measure:
-    """A quantity by which designs are compared.
+    """Quantity that designs are compared by.
 
     Attributes:
         id: Its id, which is also its symbol in expressions.
         kind: What it is for.
         name: Its name.
-        definition: What it is.
+        definition: Its definition.
         unit: The unit that it is given in.
         si_per_unit: What one of that unit is in SI.
         expression: Its value from constants, inputs and other measures.
         equation: The equation that it realises; None if none is published.
-        better: Which values are better.
-        traces: Stakeholder needs that it stands for.
+        better: Preferred direction.
+        traces: Stakeholder needs that it measures.
         contributes_to: Measures of effectiveness that it contributes to.
-        estimate: How trial values become one; None when it follows from the design alone.
-        summary: How a row becomes one number; None for a single number.
+        estimate: Estimate from trial values; None when it follows from the design alone.
+        summary: Reduction of a row to one number; None for a single number.
         length: The number of its entries; None for a single number.
         simulated_as: The measure that a simulation shows of the same quantity; None where there is none.
         alternatives: Other readings of its source.

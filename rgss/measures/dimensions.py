@@ -62,7 +62,7 @@ def si_unit(dimension: Dimension) -> str:
 def kind_of(
     expression: Expression, kinds: Mapping[str, Kind | None]
 ) -> tuple[Kind | None, tuple[ExpressionProblem, ...]]:
-    """Find out what an expression gives, from what its symbols are.
+    """Kind of an expression's value, from the kinds of its symbols.
 
     Args:
         expression: The expression.

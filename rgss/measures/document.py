@@ -39,7 +39,7 @@ class AlternativeEntry(DocumentModel):
 
 
 class MeasureEntry(DocumentModel):
-    """A quantity by which designs are compared."""
+    """Quantity that designs are compared by."""
 
     id: Identifier
     kind: MeasureKind

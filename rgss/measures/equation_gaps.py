@@ -9,7 +9,7 @@ from rgss.measures.definitions import MeasureSet
 from rgss.measures.estimates import Estimate
 
 NOTABLE = 0.10
-"""Relative difference from which an equation is no stand-in for the simulation."""
+"""Relative difference from which an equation cannot replace the simulation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -73,7 +73,7 @@ def proportion_estimate(successes: int, trials: int) -> Estimate:
     """A proportion with the interval of Clopper and Pearson (1934), which is known for one trial too.
 
     Its ends are quantiles of two posteriors, Beta(k, n - k + 1) and Beta(k + 1, n - k): each has the
-    prior that is least favourable to its end, so that neither is wrong more often than it says.
+    prior that is least favourable to its end, so that the coverage of each is at least its level.
     Jeffreys's and Wilson's intervals are shorter, and wrong more often for some proportions.
 
     Args:

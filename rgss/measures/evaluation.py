@@ -74,7 +74,7 @@ def evaluate(
 
 
 def _is_of_design(measure_set: MeasureSet, measure: Measure) -> bool:
-    """Whether all that trials contribute to a measure follows from the design alone, by its declaration."""
+    """True if all that trials contribute to a measure follows from the design alone, by its declaration."""
     below = measure_set.used[measure.id]
     return all(symbol.of_design for symbol in measure_set.inputs if symbol.from_trial and symbol.id in below)
 

@@ -25,9 +25,9 @@ class ExpressionProblem:
 
     Attributes:
         rule: The id of the broken rule.
-        offset: Where it is, in characters from the start of the expression.
-        message: What is wrong.
-        hint: How to resolve it; may be empty.
+        offset: Its position, in characters from the start of the expression.
+        message: The problem.
+        hint: Advice; may be empty.
     """
 
     rule: str

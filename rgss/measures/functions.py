@@ -1,4 +1,4 @@
-"""The functions that an expression may call; there is no way to add one from a file."""
+"""The functions that an expression may call; a file cannot add one."""
 
 from __future__ import annotations
 

@@ -28,11 +28,11 @@ def mean_limits(
     hypothesis on the mean of a nonnegative variable", 2005; Learned-Miller and Thomas, "A new
     confidence interval for the mean of a bounded random variable", 2019): the Bayesian bootstrap
     with one more observation at the bound. The lower limit mirrors it. Of values that are all 0 or 1
-    it is the limit of Clopper and Pearson. That it errs no more often than it says is proven in Vlassis
+    it is the limit of Clopper and Pearson. Its coverage is proven in Vlassis
     and Thomas, "An exact distribution-free test for means of nonnegative random variables", 2026.
 
     Args:
-        values: What was observed; not empty.
+        values: The observations; not empty.
         least: The least possible value; None where none is known.
         most: The greatest possible value; None where none is known.
         tail: Probability beyond each limit.

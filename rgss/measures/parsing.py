@@ -119,8 +119,8 @@ class _Reader:
             return self._binary(node, depth)
         if isinstance(node, ast.Call):
             return self._call(node, depth)
-        words = next((words for kind, words in _REFUSED if isinstance(node, kind)), f"'{type(node).__name__}'")
-        self._refuse(node, f"{words} is not allowed in an expression", f"write {_ALLOWED}")
+        name = next((name for kind, name in _REFUSED if isinstance(node, kind)), f"'{type(node).__name__}'")
+        self._refuse(node, f"{name} is not allowed in an expression", f"write {_ALLOWED}")
         return None
 
     def _number(self, node: ast.Constant) -> float | None:

@@ -8,7 +8,7 @@ from rgss.motion.planner_settings import Objective, OnUnverified, PlannerSetting
 from rgss.motion.planner_table import OmplPlanner, ParameterType, PlannerParameter, ompl_planners
 from rgss.motion.planners import SOURCE_PLANNERS, available_planners, refusal_of, takes_objective
 from rgss.motion.planning import plan
-from rgss.motion.problem import PlanningProblem, PlanResult, outcome_within
+from rgss.motion.problem import PlanningProblem, PlanResult
 from rgss.motion.profiles import time_move_by_joint_waypoints, time_move_by_trapezoids, trapezoidal_trajectory
 from rgss.motion.roadmap import SearchGraph
 from rgss.motion.timing import TimedMove, TimingOutcome, time_blended, time_move

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 from functools import lru_cache
@@ -27,11 +26,6 @@ class JointPath:
         points = np.array(self.points_rad, dtype=float)
         points.setflags(write=False)
         object.__setattr__(self, "points_rad", points)
-
-    @property
-    def length_rad(self) -> float:
-        """Its Euclidean length in joint space."""
-        return path_length(self.points_rad)
 
 
 def path_length(positions: ArrayLike) -> float:
@@ -75,16 +69,3 @@ def coarse_to_fine(count: int) -> tuple[int, ...]:
             order.append(middle)
             gaps.extend(((low, middle), (middle, high)))
     return tuple(order)
-
-
-def path_states(points: Vector, resolution_rad: float, *, density: int = 1) -> Vector:
-    """The states along a polyline at which it is checked, from its first corner to its last, shape (n, joints).
-
-    Args:
-        points: Corners, shape (corners, joints).
-        resolution_rad: Greatest Euclidean distance between neighbours, at density 1.
-        density: How many times as many states to give.
-    """
-    segments = itertools.pairwise(points)
-    states = [segment_states(start, end, resolution_rad, density=density) for start, end in segments]
-    return np.vstack([points[:1], *states])

@@ -96,18 +96,6 @@ class PlanResult:
     simplification_unlimited_from: int | None = 0
 
 
-def outcome_within(result: PlanResult, budget_checks: int) -> PlanOutcome:
-    """The outcome that the same search has with a smaller budget.
-
-    Args:
-        result: The result with the larger budget.
-        budget_checks: The smaller budget.
-    """
-    if result.outcome in (PlanOutcome.SOLVED, PlanOutcome.NOT_VERIFIED) and result.checks > budget_checks:
-        return PlanOutcome.BUDGET_SPENT
-    return result.outcome
-
-
 def spent(checks: int, time_s: float) -> PlanResult:
     """The result of a search that was ended before it found a path."""
     return PlanResult(

@@ -63,7 +63,6 @@ class SuctionSeal:
         self._point, self._gripper, self._suction, self._step_s = point, gripper, suction, step_s
         cup = gripper.geometry.cup
         self._radius_m = 0.0 if cup is None else cup.radius_m
-        self._half_length_m = 0.0 if cup is None else cup.half_height_m
         self._loads: deque[tuple[float, ...]] = deque(maxlen=max(1, round(_WINDOW_S / step_s)))
         self._bond: int | None = None
         self._on_s: float | None = None

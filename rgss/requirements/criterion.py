@@ -26,7 +26,7 @@ class Criterion:
 
     Attributes:
         measure: Id of the measure, such as ``P_max``.
-        statistic: Which number of the measure's estimate is compared.
+        statistic: Number of the measure's estimate that is compared.
         comparison: Relation that the statistic must have to the threshold.
         threshold: The bound, in ``unit``.
         unit: The unit in which the file gives the bound; ``"1"`` for a pure number.

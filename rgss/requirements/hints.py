@@ -18,12 +18,12 @@ class Hints:
         """Begin with nothing compared.
 
         Args:
-            most_comparisons: How many ids may be compared in all.
+            most_comparisons: Largest number of compared ids.
         """
         self._left = most_comparisons
 
     def nearest(self, name: str, names: Collection[str]) -> str:
-        """A hint that names the id most like a wrong one; empty if none is like it or it takes too long.
+        """A hint with the id most similar to an unknown one; empty if none is similar or the search takes too long.
 
         Args:
             name: The wrong id.

@@ -30,7 +30,7 @@ def load_requirements(folder: Path, *, label_root: str = "requirements") -> Requ
     Raises:
         DocumentError: A file cannot be used, an id is declared twice or names nothing, an element depends on itself,
             or a behaviour's detail is broken; with every problem of all
-            files. References into a part that cannot be read are left alone.
+            files. References into a part that cannot be read are not checked.
     """
     findings: list[Finding] = []
     reader = FolderReader(folder, label_root, findings)

@@ -30,12 +30,12 @@ class FolderReader:
     """Reads files of one folder; what is wrong with them goes into one list."""
 
     def __init__(self, folder: Path, label_root: str, findings: list[Finding]) -> None:
-        """Take a folder.
+        """Reader of a folder.
 
         Args:
             folder: The folder.
             label_root: Its name in messages.
-            findings: Where problems are put.
+            findings: Collects the problems.
         """
         self._folder = folder
         self._label_root = label_root
@@ -46,7 +46,7 @@ class FolderReader:
 
         Args:
             name: The part.
-            model: What each of its files should be.
+            model: Type of each of its files.
         """
         inner, file = self._folder / name, f"{name}.yaml"
         if not inner.is_dir():

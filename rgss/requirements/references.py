@@ -14,7 +14,7 @@ _LONGEST_CHAIN = 10
 
 
 class ElementKind(Enum):
-    """Kind of the element that an id names, in the words of messages."""
+    """Kind of the element that an id names, as messages name it."""
 
     NEED = "stakeholder requirement"
     REQUIREMENT = "system requirement"
@@ -51,14 +51,14 @@ class Reference:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Declaration:
-    """An id, what it names, where it is declared, and what the element says of others and of rules.
+    """An id, what it names, where it is declared, and its references to other elements and to rules.
 
     Attributes:
         id: The id.
         kind: What it names.
         document: The file.
         location: Keys and indices from the top of the file to the element.
-        references: What the element refers to.
+        references: References of the element.
         exempt: The rules that it is exempt from.
     """
 
@@ -81,8 +81,8 @@ def check_references(
 
     Args:
         declarations: Everything declared, in the order of files and lines.
-        known: The kinds whose files could all be read; a reference to another kind is left alone.
-        hints: Names what was probably meant.
+        known: The kinds whose files could all be read; a reference to another kind is not checked.
+        hints: Suggests the id that was probably meant.
     """
     first: dict[str, Declaration] = {}
     for declaration in declarations:

@@ -45,10 +45,10 @@ class Place:
 
         Args:
             rule: The id of the broken rule.
-            message: What is wrong.
+            message: The problem.
             at: The part to point at, such as ``("criterion", "threshold")``.
-            hint: How to resolve it.
-            severity: How much it matters.
+            hint: Advice.
+            severity: Its severity.
             at_key: Point at the key instead of its value.
         """
         location = (*self.location, *at)
@@ -66,11 +66,11 @@ class RequirementSet:
         stakeholder: The stakeholder requirements, in the file's order.
         system: The system requirements, in the file's order.
         architecture: The model of the system.
-        places: Where each element is declared, by its id.
+        places: Place of each element's declaration, by its id.
         reviews: The review of each element that was reviewed, by its id, which need not be there any more.
-        review_places: Where each review is.
-        settings: How the project wants rules to be applied, by the rule's id, which need not be a rule's.
-        setting_places: Where each setting is.
+        review_places: Place of each review.
+        settings: Settings of rules by id, which need not be that of a rule.
+        setting_places: Place of each setting.
     """
 
     stakeholder: tuple[StakeholderNeed, ...]
@@ -97,7 +97,7 @@ class RequirementSet:
         """Every link that an element states, in the order of `elements`.
 
         A requirement states who satisfies it, so that link's source is another element. Behaviours
-        that run as part of others, and criteria, which measures verify, are no links of this list.
+        that run as part of others, and criteria, which measures verify, are not links of this list.
         """
         return tuple(link for element in self.elements for link in _links_of(element))
 
@@ -149,10 +149,10 @@ class RequirementSet:
         Args:
             rule: The id of the broken rule.
             element_id: The element.
-            message: What is wrong.
+            message: The problem.
             at: The part of the element to point at, such as ``("criterion", "threshold")``.
-            hint: How to resolve it.
-            severity: How much it matters.
+            hint: Advice.
+            severity: Its severity.
 
         Raises:
             DefinitionError: The set has no such element.
@@ -168,7 +168,7 @@ class RequirementSet:
 
 
 def nearest(name: str, names: Collection[str]) -> str:
-    """A hint that names the id most like a wrong one; empty if none is like it."""
+    """A hint with the id most similar to an unknown one; empty if none is similar."""
     return Hints().nearest(name, names)
 
 

@@ -15,7 +15,7 @@ ASSUMPTIONS = "assumptions"
 
 
 def _as_text(value: Any) -> Any:
-    """A flag and a number may stand without quotes."""
+    """A flag and a number may be unquoted."""
     if isinstance(value, bool):
         return str(value).lower()
     return repr(value) if isinstance(value, (int, float)) else value
@@ -48,7 +48,7 @@ class StudyAssumption:
 
     Attributes:
         about: Its name, as ``--what-if`` takes it.
-        alternatives: What it could be taken as instead.
+        alternatives: Its other possible values.
         places: A finding at the place of each alternative, of which messages on it take the place.
     """
 

@@ -36,14 +36,14 @@ def design_findings(
     robot: Robot,
     planning: PlanningChoice,
 ) -> Iterator[Finding]:
-    """Find what would keep a trial of a design from being run.
+    """Findings on designs whose trials cannot be run.
 
     Args:
         designs: The design space.
         document: Its file, for positions.
         grippers: The gripper file of each gripper component, by its name.
         robot: The robot, which gives values where no design does.
-        planning: How the study plans, which gives values too.
+        planning: The study's planning, which gives values too.
     """
     yield from _missing_findings(designs, document, grippers, default_values(robot, planning))
     yield from _planner_findings(designs, document, planning)
@@ -57,7 +57,7 @@ def default_values(robot: Robot, planning: PlanningChoice) -> Mapping[str, Param
 
     Args:
         robot: The robot.
-        planning: How the study plans.
+        planning: The study's planning.
     """
     given = {_TOOL_SPEED: robot.tool_speed_m_s, PLANNER: planning.planner or None, TIME_LIMIT: planning.time_limit_s}
     return {name: value for name, value in given.items() if value is not None}
@@ -116,7 +116,7 @@ def _planner_parameter_findings(
     for (planner, name, value), number in found.items():
         algorithm = planning.planner_settings(planner).algorithm
         if algorithm not in available_planners():
-            continue  # a finding of its own
+            continue  # it has its own finding
         try:
             require_value(available_planners()[algorithm], name.removeprefix(PLANNER_PREFIX), value)
         except QuantityError as error:

@@ -8,7 +8,6 @@ from pydantic import Field, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from rgss.documents import (
-    Dimensionless,
     DocumentModel,
     Identifier,
     Text,
@@ -18,6 +17,7 @@ from rgss.scenes.uncertainty import CaseEntry, CorrelationEntry, DistributionEnt
 from rgss.studies.assumptions_section import StudyAssumptionEntry
 from rgss.studies.motion import ControlEntry, PhysicsEntry, TimingEntry
 from rgss.studies.planning import PlanningEntry
+from rgss.studies.promotion import Promotion
 from rgss.studies.regression import RegressionEntry
 from rgss.studies.trade_off import TradeOffEntry
 from rgss.studies.until_section import UntilDecidedEntry
@@ -61,14 +61,6 @@ FidelityField = Annotated[
 MoveName = Literal["planned", "straight", "joint"]
 
 
-class PromotionEntry(DocumentModel):
-    """Rule for the designs that go on from screening; one that cannot meet a requirement never does."""
-
-    requirements: Literal["possible"] | None = None
-    keep: Annotated[int, Field(ge=1)] | None = None
-    within: Dimensionless | None = None
-
-
 class StudyDocument(DocumentModel):
     """A study file; other files are named relative to the project."""
 
@@ -81,7 +73,7 @@ class StudyDocument(DocumentModel):
     seed: Annotated[int, Field(ge=0, le=2**31 - 1)]
     replicates: Annotated[int, Field(ge=1, le=MOST_REPLICATES)]
     fidelity: FidelityField = ("contact",)
-    promotion: PromotionEntry | None = None
+    promotion: Promotion | None = None
     until_decided: UntilDecidedEntry | None = None
     planning: PlanningEntry
     moves: dict[Text, MoveName] = Field(default_factory=dict)

@@ -36,9 +36,9 @@ class DocumentKind:
 
     Attributes:
         id: Its name, such as ``design-space``.
-        title: What it is, in a few words.
-        model: What reads it.
-        place: Where in a project such a document stands.
+        title: Title, in a few words.
+        model: Type that reads it.
+        place: Location of such a document in a project.
     """
 
     id: str
@@ -138,11 +138,11 @@ def kind_of(name: str, data: Any) -> DocumentKind | None:
 
     Args:
         name: The file relative to the project, such as ``scenes/kitchen.yaml``.
-        data: Its content as plain data, by which the kinds of one folder are distinguished.
+        data: Its content as plain data, which distinguishes the kinds of one folder.
     """
     folder, *rest = PurePosixPath(name).parts
     if folder == "requirements" and rest:
-        # A file of a set of its own, as requirements/NAME/system.yaml, is what it would be in the default set.
+        # A file of a named set, such as requirements/NAME/system.yaml, is what it would be in the default set.
         inner = rest[1:] if len(rest) > 1 and rest[0] not in REQUIREMENT_PARTS else rest
         part = inner[0].removesuffix(".yaml")
         return document_kind(part) if part in _OF_REQUIREMENTS else None

@@ -32,7 +32,7 @@ def without_consequences(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     """The findings, each once and in order, without those that may only follow from another.
 
     Args:
-        findings: What was found in all files of a project.
+        findings: Findings in all files of a project.
     """
     found = sorted(set(findings))
     rules = {finding.rule for finding in found}

@@ -51,7 +51,7 @@ def _inputs_of(spec: TrialSpec) -> NamedInputs:
     del inputs["scene"]["robot"]["calibration"]  # where the control uses it, the controller has it
     for name in ("timing", "controller"):
         settings = getattr(spec.settings, name)
-        if settings == type(settings)():  # as in `digests_of`, the default is no input
+        if settings == type(settings)():  # as in `digests_of`, the default is not an input
             del inputs["settings"][name]
     values = {**inputs, CODE: code_of_trials()}
     return NamedInputs(digest=inputs_digest(values), values=values)

@@ -72,7 +72,7 @@ class Project:
         """The same project with another fidelity for every design, and so without screening.
 
         Raises:
-            DefinitionError: There is no such fidelity.
+            DefinitionError: The fidelity is unknown.
         """
         known = [choice.value for choice in Fidelity]
         if fidelity not in known:
@@ -138,7 +138,7 @@ class _Reader:
         try:
             named_set = requirements_named(folder, read_document(path, label=label).data)
         except DocumentError:
-            named_set = REQUIREMENTS  # so that what is wrong with those is told, too
+            named_set = REQUIREMENTS  # so that findings on those are reported, too
         requirements, measures = None, None
         if named_set is not None:
             requirements = self._try(lambda: load_requirements(folder / named_set, label_root=named_set))

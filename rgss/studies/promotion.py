@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
 
-from rgss.documents import Document
+from pydantic import Field
+from pydantic.dataclasses import dataclass as document_dataclass
+
+from rgss.documents import STRICT, Dimensionless, Document
 from rgss.evidence import Fidelity
 from rgss.findings import Finding
-from rgss.studies.document import StudyDocument
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@document_dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)
 class Promotion:
     """Rule for the designs that are tried again at a higher fidelity.
 
-    A design that provably misses a requirement is never among them, whatever else is said; with
+    A design that provably misses a requirement is never among them, whatever the bounds; with
     neither of the two bounds every other design is.
 
     Attributes:
-        keep: How many of the others go on, the best by their value; None for no such bound.
-        within: How much less than the best value theirs may be; None for no such bound.
+        requirements: The condition that always holds: every requirement may still be met.
+        keep: Number of the others that go on, the best by their value; None for no such bound.
+        within: Largest difference to the best value; None for no such bound.
     """
 
-    keep: int | None = None
-    within: float | None = None
+    requirements: Literal["possible"] | None = field(default=None, compare=False)
+    keep: Annotated[int, Field(ge=1)] | None = None
+    within: Dimensionless | None = None
 
     def __str__(self) -> str:
         parts = ["requirements: possible"]
@@ -39,24 +45,33 @@ class Screening:
     """The trials that come before those which decide.
 
     Attributes:
-        fidelity: How much physics they have.
-        promotion: Which designs go on from them.
+        fidelity: Their fidelity.
+        promotion: Rule for the designs that go on from them.
     """
 
     fidelity: Fidelity
     promotion: Promotion
 
 
-def read_screening(entry: StudyDocument, document: Document, findings: list[Finding]) -> Screening | None:
+def read_screening(
+    fidelities: Sequence[str],
+    promotion: Promotion | None,
+    document: Document,
+    findings: list[Finding],
+    *,
+    clock: str,
+) -> Screening | None:
     """Screening as the study's file states it; None if all its designs are tried at one fidelity.
 
     Args:
-        entry: What the file says.
+        fidelities: One fidelity, or that which screens and that which decides.
+        promotion: The section; None if there is none.
         document: The file.
-        findings: Takes what is wrong.
+        findings: Collects the problems.
+        clock: Kind of the planning clock.
     """
-    if len(entry.fidelity) == 1:
-        if entry.promotion is not None:
+    if len(fidelities) == 1:
+        if promotion is not None:
             findings.append(
                 document.finding(
                     "study.promotion",
@@ -67,7 +82,7 @@ def read_screening(entry: StudyDocument, document: Document, findings: list[Find
                 )
             )
         return None
-    if entry.planning.clock != "counted":
+    if clock != "counted":
         findings.append(
             document.finding(
                 "study.promotion",
@@ -76,7 +91,8 @@ def read_screening(entry: StudyDocument, document: Document, findings: list[Find
                 hint="write 'clock: counted', or one fidelity",
             )
         )
-    within = None if entry.promotion is None else entry.promotion.within
+    promotion = Promotion() if promotion is None else promotion
+    within = promotion.within
     if within is not None and not 0.0 <= within <= 1.0:
         findings.append(
             document.finding(
@@ -86,7 +102,4 @@ def read_screening(entry: StudyDocument, document: Document, findings: list[Find
                 hint="write a number such as 0.05",
             )
         )
-    return Screening(
-        fidelity=Fidelity(entry.fidelity[0]),
-        promotion=Promotion(keep=None if entry.promotion is None else entry.promotion.keep, within=within),
-    )
+    return Screening(fidelity=Fidelity(fidelities[0]), promotion=promotion)

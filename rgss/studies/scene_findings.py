@@ -26,8 +26,8 @@ class SceneCheck:
     """Result of a check of the scene.
 
     Attributes:
-        findings: What is wrong, by place.
-        skipped: Why the scene was not checked; empty where it was.
+        findings: The findings.
+        skipped: Reason that the scene was not checked; empty if it was.
     """
 
     findings: tuple[Finding, ...]

@@ -15,10 +15,10 @@ def task_of_scene(project: Path, scene: str, findings: list[Finding]) -> str | N
     Args:
         project: The project's folder.
         scene: Name of the scene file, relative to it.
-        findings: Where problems are put.
+        findings: Collects the problems.
 
     Returns:
-        None for a scene that names no task, or that cannot be read, which has findings of its own.
+        None for a scene that names no task, or that cannot be read, which has its own findings.
     """
     try:
         document = read_document(project / scene, label=scene)

@@ -69,7 +69,7 @@ def write_headers(project: Path, schemas: Path) -> tuple[Path, ...]:
         schemas: The folder that has the schemas.
 
     Returns:
-        The files that were changed; what has the right line already is left alone.
+        The files that were changed; a file that has the line already is not changed.
 
     Raises:
         DocumentError: A file cannot be read as YAML; then none is changed.

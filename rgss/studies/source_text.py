@@ -41,7 +41,7 @@ def _of_file(path: Path, project: Path) -> Iterator[Finding]:
     try:
         text = b"".join(chunks_of(path, largest=LARGEST_FILE_BYTES)).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError):
-        return  # whoever needs the file says so
+        return  # reported where the file is needed
     found = [(place, text[place]) for place in invisible_places(text)]
     found += _escaped(path, label, text)
     if not found:

@@ -62,7 +62,7 @@ class ValueAnchors:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StudyDefinition:
-    """A study as its file says.
+    """Definition of a study.
 
     Attributes:
         id: Its name.
@@ -73,23 +73,23 @@ class StudyDefinition:
         scene: The scene file.
         seed: The master seed: replicate r of every variant has the seed ``seed + r``.
         replicates: Trials of each variant.
-        fidelity: How much physics a trial has that decides.
-        planning: How moves are planned.
+        fidelity: Fidelity of the trials that decide.
+        planning: Planning of moves.
         rate_hz: Physics steps a second.
         solver_iterations: Iterations of the constraint solver in a step.
         pads: Compliance of the fingers' pads.
-        values: What each measure is worth, with requirements' thresholds put in.
-        trade_off: How designs are compared.
+        values: Value function of each measure, with requirements' thresholds put in.
+        trade_off: Comparison of designs.
         screening: The trials that come first, and which designs go on from them; None if all do.
-        regression: Which metrics are guarded against a baseline; None if none are.
-        until_decided: When replication until decided goes on, and when it stops.
+        regression: Metrics that are guarded against a baseline; None if none are.
+        until_decided: Stopping rule of replication until decided.
         is_sequential: Whether the file states that rule, so that variants may have more replicates than `replicates`.
-        uncertainty: What differs from trial to trial, in place of what the scene says of the same quantities.
+        uncertainty: Uncertainty from trial to trial; replaces that of the scene for the same quantities.
         workload: The objects that the trials carry.
         is_nominal: Whether neither is applied, nor the scene's uncertainty.
         assumptions: Assumptions that are questioned, with what they could be taken as instead.
-        physics: Other physics settings than rate and iterations of the file, for a confirmation; None as the file says.
-        motion: How moves are timed and joints controlled.
+        physics: Other physics settings than rate and iterations of the file, for a confirmation; None for the file's.
+        motion: Timing of moves and control of joints.
     """
 
     id: str
@@ -145,7 +145,7 @@ def read_study(
     Args:
         path: The file.
         measures: The project's measures, which the file names; None if they could not be read,
-            and then what it says of them is not looked at.
+            and then its use of them is not checked.
         project: The project's folder, which the files that it names are relative to.
         label: The file's name in messages.
         requirements: The requirements that it verifies; read from their folder if the file names one and
@@ -160,7 +160,7 @@ def read_study(
     findings.extend(physics_findings(entry.physics, document, fidelities=entry.fidelity))
     planning = read_planning(entry.planning, document, findings)
     motion = read_motion(entry.timing, entry.control, document, findings, rate_hz=entry.physics.rate)
-    screening = read_screening(entry, document, findings)
+    screening = read_screening(entry.fidelity, entry.promotion, document, findings, clock=entry.planning.clock)
     loaded_task = _task(project, entry, findings)
     if loaded_task is not None:
         findings.extend(step_control_findings(loaded_task, motion.controller, rate_hz=entry.physics.rate))
@@ -248,7 +248,7 @@ def _file_findings(document: Document, entry: StudyDocument, project: Path) -> l
 
 
 def _requirements(folder: Path) -> RequirementSet | None:
-    """The requirements of a folder; None if they cannot be read, which has a finding of its own."""
+    """The requirements of a folder; None if they cannot be read, which has its own finding."""
     try:
         return load_requirements(folder)
     except DocumentError:

@@ -57,8 +57,8 @@ def with_values(spec: TrialSpec, values: Mapping[str, ParameterValue]) -> TrialS
                 )
             continue
         if isinstance(value, str) != (quantity.kind is ParameterKind.NAME):
-            wanted = "a name" if quantity.kind is ParameterKind.NAME else "a number"
-            raise DefinitionError(f"{quantity.name} of variant {spec.variant} must be {wanted}, got {value!r}")
+            kind = "a name" if quantity.kind is ParameterKind.NAME else "a number"
+            raise DefinitionError(f"{quantity.name} of variant {spec.variant} must be {kind}, got {value!r}")
         spec = _applied(spec, quantity, value)
     return spec
 
@@ -110,7 +110,7 @@ def mounted(file: GripperFile, mounting: ParameterValue | None, variant: int) ->
 
     Args:
         file: The gripper.
-        mounting: What the design sets; None for the gripper's own.
+        mounting: Mounting that the design sets; None for the gripper's own.
         variant: Id of the design.
 
     Raises:

@@ -76,7 +76,7 @@ def _of_requirements(project: Path) -> Iterator[Finding]:
     for path in _documents(default):
         folder = project / next((name for name in sets if path.is_relative_to(project / name)), REQUIREMENTS)
         if _is_read(folder, path):
-            continue  # `rgss.requirements` reads it, or says why not
+            continue  # `rgss.requirements` reads it, or reports why not
         above = default / path.relative_to(default).parts[0]
         meant = _meant(project, folder, path)
         if folder == default and _is_set(above, path) and meant.count("/") < 2:
@@ -88,14 +88,14 @@ def _of_requirements(project: Path) -> Iterator[Finding]:
 
 
 def _is_read(folder: Path, path: Path) -> bool:
-    """Whether a document is one of a set of requirements, by where it lies."""
+    """True if a document is one of a set of requirements, by its location."""
     first, *rest = path.relative_to(folder).parts
     is_part = first in REQUIREMENT_PARTS and bool(rest) and (folder / first).is_dir()
     return is_part or (not rest and path.suffix == ".yaml" and path.stem in (*REQUIREMENT_PARTS, *SINGLE_FILES))
 
 
 def _is_set(above: Path, path: Path) -> bool:
-    """Whether a document lies in a folder that could be a set of its own, were there a study that names it."""
+    """True if a document lies in a folder that would be a set of requirements if a study named it."""
     return above.is_dir() and above != path and above.name not in REQUIREMENT_PARTS and _is_read(above, path)
 
 
@@ -166,7 +166,7 @@ def _irregularity(path: Path) -> str:
 
 
 def _unopened(path: Path) -> str:
-    """Why the content of a file cannot be read; empty if it can."""
+    """Reason that the content of a file cannot be read; empty if it can."""
     try:
         with open_regular(path) as file:
             too_large = os.fstat(file.fileno()).st_size > LARGEST_FILE_BYTES

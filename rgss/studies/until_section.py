@@ -11,7 +11,7 @@ from rgss.findings import Finding
 from rgss.tradeoff.sequential import SequentialRule
 
 MOST_TRIALS = 10_000
-"""Trials of a variant that replication until decided may ask for."""
+"""Largest number of trials of a variant in replication until decided."""
 
 _DEFAULT = SequentialRule()
 FEWEST_PILOT = 2
@@ -42,9 +42,9 @@ def read_until_decided(
     A pilot that is left out has the study's replicates, and without a budget at least those of the default rule.
 
     Args:
-        entry: The section as it stands in the file; None if there is none.
+        entry: The section of the file; None if there is none.
         document: The file.
-        findings: Takes what is wrong.
+        findings: Collects the problems.
         replicates: The study's replicates, which are read of every variant.
 
     Returns:
@@ -56,7 +56,7 @@ def read_until_decided(
     pilot = max(fewest, replicates) if entry.pilot is None else entry.pilot
     found = list(_problems(entry, pilot, replicates))
     for key, message, hint in found:
-        # What is left away has no place of its own.
+        # A key that is left out has no place in the file.
         place = ("until_decided", key) if key in entry.model_fields_set else ("until_decided",)
         findings.append(document.finding("study.until-decided", message, place, hint=hint))
     return _DEFAULT if found else SequentialRule(**{**entry.model_dump(), "pilot": pilot})
@@ -69,18 +69,20 @@ def _problems(entry: UntilDecidedEntry, pilot: int, replicates: int) -> list[tup
         message = f"error rate must be between 0 and 0.5, got {entry.error_rate:g}"
         found.append(("error_rate", message, "give a share between 0 and 0.5, such as 5 %"))
     if not 0.0 <= entry.margin < 1.0:
-        message = f"a margin of {entry.margin:g} is no difference of values, which lie between 0 and 1"
-        found.append(("margin", message, "give one such as 0.05"))
+        message = f"margin must be from 0 to below 1, got {entry.margin:g}"
+        found.append(("margin", message, "a difference of value, such as 0.05"))
     if not 0.0 <= entry.slack < 1.0:
-        found.append(("slack", f"a slack of {entry.slack:g} is no share of a threshold", "give one such as 10 %"))
+        found.append(
+            ("slack", f"slack must be from 0 to below 1, got {entry.slack:g}", "a share of a threshold, such as 10 %")
+        )
     for key, count in (("pilot", pilot), ("verdict_cap", entry.verdict_cap)):
         if count > entry.cap:
-            message = f"{key} is {count} trials of a variant, and the cap {entry.cap}"
+            message = f"{key} must be at most the cap of {entry.cap}, got {count}"
             found.append(
                 (key if key in entry.model_fields_set else "cap", message, "raise the cap, or lower the other")
             )
     if entry.finalists is not None and entry.budget is None:
-        found.append(("finalists", "finalists are those that a budget is spent on", "give a budget too"))
+        found.append(("finalists", "finalists needs a budget", "give a budget too"))
     if pilot < replicates:
         message = f"pilot must be at least the study's replicates, {replicates}, got {pilot}"
         found.append(("pilot", message, "raise it, or lower the replicates"))

@@ -36,7 +36,7 @@ def deviation(change: Change) -> float | None:
     """By how much a number differs; None if what differs is not a number.
 
     Args:
-        change: What differs.
+        change: The difference.
     """
     try:
         then, now = float(change.then), float(change.now)
@@ -49,7 +49,7 @@ def beyond_tolerance(changes: Iterable[Change]) -> tuple[Change, ...]:
     """Those of the differences that other numerics do not explain: an outcome, a count, too great a deviation.
 
     Args:
-        changes: Where two records differ.
+        changes: Differences of two records.
     """
     return tuple(change for change in changes if not _is_within(change))
 
@@ -64,5 +64,5 @@ def _is_within(change: Change) -> bool:
 
 
 def _is_float(text: str) -> bool:
-    """Tell a measured number from a count, which other numerics do not change without another course of the trial."""
+    """True for a measured number; False for a count, which other numerics change only if the trial runs otherwise."""
     return any(sign in text for sign in ".e")

@@ -31,20 +31,20 @@ _READERS: Mapping[PieceKind, Callable[[str], object]] = {
 
 
 def checked(ended: Ended, task: Task) -> Ended:
-    """The end of a task; one whose result is not what was asked for has failed by a wrong answer.
+    """The end of a task; one whose result does not fit the task has failed by a wrong answer.
 
     Args:
-        ended: How the task ended, from whatever worker.
+        ended: End of the task, from any worker.
         task: The task.
     """
-    if ended.trouble is not None:
+    if ended.failure is not None:
         return ended
     problem = answer_problem(task, ended.result)
     if problem:
         return wrong_answer(ended.key, problem)
     if isinstance(task, PieceTask):
         return ended
-    # As it will be read: a text may have stood for a member of an enumeration.
+    # As it will be read: a text may replace a member of an enumeration.
     return replace(ended, result=record_from_json(record_to_json(ended.result)))
 
 
@@ -53,10 +53,10 @@ def wrong_answer(key: str, problem: str) -> Ended:
 
     Args:
         key: The task's name.
-        problem: What is wrong with the answer.
+        problem: Problem with the answer.
     """
-    trouble = TaskError(kind=RunFailureKind.WRONG_ANSWER, detail=problem, may_pass=True)
-    return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+    failure = TaskError(kind=RunFailureKind.WRONG_ANSWER, detail=problem, may_pass=True)
+    return Ended(key=key, result=None, failure=failure, took_s=0.0)
 
 
 def answer_problem(task: Task, result: object) -> str:
@@ -64,7 +64,7 @@ def answer_problem(task: Task, result: object) -> str:
 
     Args:
         task: The task.
-        result: What the worker gave back.
+        result: Result of the worker.
     """
     try:
         return _piece_problem(task, result) if isinstance(task, PieceTask) else record_problem(task.spec, result)
@@ -86,7 +86,7 @@ def record_problem(spec: TrialSpec, record: object) -> str:
         EvidenceError: A part of it is of a wrong type, or is not finite.
     """
     if type(record) is not TrialRecord:
-        return f"a record was asked for, and it is a {type(record).__name__}"
+        return f"expected a record, got a {type(record).__name__}"
     record_to_json(record)
     if (record.variant, record.seed, record.fidelity) != (spec.variant, spec.seed, spec.fidelity):
         return "it is the record of another trial"
@@ -110,23 +110,23 @@ def is_end_of(ended: object, key: str) -> TypeGuard[Ended]:
         return False
     if not 0.0 <= ended.took_s < math.inf:
         return False
-    trouble = ended.trouble
-    return trouble is None or (
-        type(trouble) is TaskError
-        and isinstance(trouble.kind, RunFailureKind)
-        and type(trouble.detail) is str
-        and type(trouble.may_pass) is bool
+    failure = ended.failure
+    return failure is None or (
+        type(failure) is TaskError
+        and isinstance(failure.kind, RunFailureKind)
+        and type(failure.detail) is str
+        and type(failure.may_pass) is bool
     )
 
 
 def _piece_problem(task: PieceTask, result: object) -> str:
     if type(result) is not Piece:
-        return f"a piece was asked for, and it is a {type(result).__name__}"
+        return f"expected a piece, got a {type(result).__name__}"
     if result.kind is not task.kind:
-        return f"a piece of kind {task.kind.value} was asked for, and it is {shown(result.kind)}"
+        return f"expected a piece of kind {task.kind.value}, got {shown(result.kind)}"
     if result.digest != task.digest:
-        return f"piece {task.digest[:12]} was asked for, and it is {shown(result.digest)}"
-    # Its row is what is kept, and what will be read is what it says.
+        return f"expected piece {task.digest[:12]}, got {shown(result.digest)}"
+    # The row is what the store keeps and reads back.
     piece_row(result)
     _READERS[task.kind](result.text)
     return ""

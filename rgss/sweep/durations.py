@@ -51,7 +51,7 @@ class Durations:
         return sum_s / weight
 
     def learn(self, tasks: TaskClass, took_s: float) -> None:
-        """Take note of how long a task took.
+        """Record the duration of a task.
 
         Args:
             tasks: Its class.

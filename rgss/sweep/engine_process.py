@@ -40,7 +40,7 @@ def compute(function: Callable[..., Result], *arguments: Any) -> Result:
 
     Args:
         function: A function of a module, imported there by its name.
-        arguments: What it is called with; as its result, they must be picklable where another process is needed.
+        arguments: Its arguments; as its result, they must be picklable where another process is needed.
 
     Raises:
         DefinitionError: An engine is not installed.
@@ -98,7 +98,7 @@ class _Child:
         self.pipe, there = Pipe()
         self._output = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the process
         with there:
-            self._process = subprocess.Popen(  # noqa: S603 - our own words
+            self._process = subprocess.Popen(  # noqa: S603 - our own command
                 [sys.executable, "-c", _BEGIN.format(descriptor=there.fileno())],
                 env=numeric_environment(os.environ),
                 pass_fds=[there.fileno()],
@@ -111,18 +111,18 @@ class _Child:
         self._finalizer = weakref.finalize(self, _kill, self._process, self.pipe)
 
     def end(self) -> str:
-        """End it; returns how it had ended, in words."""
+        """End it; returns how it had ended."""
         try:
             status: int | None = self._process.wait(0.5)
         except subprocess.TimeoutExpired:
             status = None
         self._finalizer()
-        words = self._stderr_tail()
+        tail = self._stderr_tail()
         self._output.close()
         if status is not None and status < 0:
             with contextlib.suppress(ValueError):
-                return f"was killed by {signal.Signals(-status).name}{words}"
-        return f"ended with status {status}{words}"
+                return f"was killed by {signal.Signals(-status).name}{tail}"
+        return f"ended with status {status}{tail}"
 
     def _stderr_tail(self) -> str:
         size = self._output.seek(0, os.SEEK_END)

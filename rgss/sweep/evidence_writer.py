@@ -30,7 +30,7 @@ class Origin:
     Attributes:
         files: SHA-256 of each input file by its name in the project.
         revision: Revision of the code; empty if it is not known.
-        machine: What it runs on; empty if it is not known.
+        machine: Its machine; empty if it is not known.
     """
 
     files: Mapping[str, str] = field(default_factory=dict)
@@ -64,10 +64,10 @@ class TrialWriter:
         """Begin with nothing.
 
         Args:
-            store: Where evidence is kept.
-            origin: Tells where the trials come from; asked once there is one.
-            on_kept: Told the key and the record of each trial once it is on disk.
-            numerics: Tells what the processes compute with that make the pieces; asked once there is a trial.
+            store: The evidence store.
+            origin: Callback for the provenance of the trials; called once there is one.
+            on_kept: Callback with the key and the record of each trial once it is on disk.
+            numerics: Callback for the numerics of the processes that make the pieces; called once there is a trial.
         """
         self._store = store
         self._origin = lru_cache(maxsize=1)(origin)
@@ -144,7 +144,7 @@ class TrialWriter:
             self._on_kept(key, record)
 
     def _explain_by_numerics(self, error: EvidenceError) -> None:
-        """Say of another result for the same inputs that it comes from other numerics, if such are in the store.
+        """Attribute another result for the same inputs to other numerics, if the store has such.
 
         Another sweep may have written it while this one ran; a piece does not say what it was computed with, but
         the trials beside it do.

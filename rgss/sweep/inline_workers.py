@@ -18,7 +18,7 @@ class InlineWorkers:
         """Prepare to work.
 
         Args:
-            function: What makes a result from a task's arguments.
+            function: Function that makes a result from a task's arguments.
         """
         self._function = function
         self._ended: list[Ended] = []
@@ -28,15 +28,15 @@ class InlineWorkers:
         """Number of tasks that can be begun now."""
         return 1 - len(self._ended)
 
-    def want(self, tasks: int) -> None:
-        """There is one worker, whatever is wanted."""
+    def prepare_for(self, tasks: int) -> None:
+        """There is one worker, whatever the demand."""
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
         """Carry out a task, from its beginning to its end.
 
         Args:
             key: A name for it.
-            arguments: What the function is called with.
+            arguments: Arguments of the function.
         """
         self._ended.append(ended_by(answer_to(self._function, arguments), key))
 

@@ -17,7 +17,7 @@ class Change:
     Attributes:
         name: What it is.
         then: What it was, as text.
-        now: What it is.
+        now: Its present value.
     """
 
     name: str

@@ -39,7 +39,7 @@ class PersistentWorkerPool:
         """Workers for the next sweep; those of the last one, if it has closed them with nothing left to do.
 
         Args:
-            function: What makes a result from a task's arguments; a function of a module.
+            function: Function of a module that makes a result from a task's arguments.
         """
         if self._pool is None or function is not self._function:
             self.close()
@@ -75,8 +75,8 @@ class _PoolHandle:
     def free(self) -> int:
         return self._pool.free
 
-    def want(self, tasks: int) -> None:
-        self._pool.want(tasks)
+    def prepare_for(self, tasks: int) -> None:
+        self._pool.prepare_for(tasks)
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
         self._pool.begin(key, arguments)

@@ -87,7 +87,7 @@ def compared_planners(
         on_plan: Callback after each task that was planned: their number so far, and how many there are.
 
     Raises:
-        DefinitionError: There is no planner of a name, no move is planned, or an engine is not installed.
+        DefinitionError: A planner is unknown, no move is planned, or an engine is not installed.
     """
     chosen = _chosen(project, names)
     if not has_searches(project):

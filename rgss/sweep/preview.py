@@ -35,7 +35,7 @@ class Cause:
     """A reason with what shows it.
 
     Attributes:
-        reason: Why.
+        reason: The reason.
         name: Dotted name of the input, name of the engine or of the module, or the piece that failed; may be empty.
         then: What it was, or how it failed; may be empty.
         now: What it is; may be empty.
@@ -52,7 +52,7 @@ class DueTrials:
     """Trials that would be run for the same causes.
 
     Attributes:
-        causes: Why.
+        causes: The causes.
         pieces: The kinds of pieces that would be made for them; empty if their records need only be put together.
         trials: Variant and seed of each.
     """
@@ -67,9 +67,9 @@ class PieceCount:
     """The pieces of one kind that the trials to be run need.
 
     Attributes:
-        make: How many would be made.
-        stored: How many are there already.
-        uses: How many of those trials need one.
+        make: Number that would be made.
+        stored: Number that the store has already.
+        uses: Number of those trials that need one.
     """
 
     make: int
@@ -82,8 +82,8 @@ class DryRun:
     """Plan of a sweep.
 
     Attributes:
-        trials: How many trials the study has.
-        kept: How many of them have a record.
+        trials: Number of trials of the study.
+        kept: Number of them with a record.
         pieces: The pieces that the others need, by kind.
         due: The others, by the causes.
     """
@@ -100,7 +100,7 @@ class DryRun:
 
 
 def dry_run(specs: Sequence[TrialSpec], store: EvidenceStore | None, *, share: bool = True) -> DryRun:
-    """Find out what a sweep would make, and why, without making anything.
+    """Dry run: what a sweep would make, and why, without making anything.
 
     Args:
         specs: The trials.

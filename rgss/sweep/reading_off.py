@@ -42,7 +42,7 @@ class StoredSearches:
 
         Args:
             store: The evidence.
-            settings: How the searches were made.
+            settings: Settings of the searches.
         """
         self._store = store
         self._settings = settings

@@ -32,9 +32,9 @@ class Replay:
         record: The record of the new run.
         versions: Versions of code and engines that differ.
         inputs: Pieces whose inputs differ beyond the versions, such as ``plan``.
-        changes: The inputs that differ, by name, as far as the store says what they were.
+        changes: The inputs that differ, by name, as far as the store has them.
         differences: Where the records differ, in their order; empty if every bit is the same.
-        numerics: What the mathematics of the process that ran it now computes.
+        numerics: Numerics of the process that ran it now.
     """
 
     stored: StoredTrial

@@ -28,8 +28,8 @@ class FinishedTrial:
     """A trial that was run or read.
 
     Attributes:
-        key: What the store knows it by.
-        record: What came out of it.
+        key: Its key in the store.
+        record: Its record.
         fresh: Whether it was put together now; the store had it otherwise.
     """
 
@@ -43,7 +43,7 @@ class LostTrials:
     """A failure of the run, and the trials that have no record for it.
 
     Attributes:
-        failure: What could not be made, and why.
+        failure: Task that could not be done, and the reason.
         trials: Variant and seed of each trial that needed it.
     """
 
@@ -58,10 +58,10 @@ class SweepState:
     Attributes:
         elapsed_s: Time since it began.
         remaining_s: Time that what is left is expected to take; None before anything is known.
-        tasks_left: How many pieces (or trials, if nothing is shared) are still to be made.
-        made: How many pieces of each kind were made.
-        reused: How many pieces of each kind came from the store.
-        saved: How many pieces more the trials that are done would have needed without sharing.
+        tasks_left: Number of pieces (or trials, if nothing is shared) still to be made.
+        made: Number of pieces of each kind that were made.
+        reused: Number of pieces of each kind that came from the store.
+        saved: Number of further pieces that the finished trials would have needed without sharing.
     """
 
     elapsed_s: float
@@ -77,9 +77,9 @@ class SweepResult:
     """Result of a sweep.
 
     Attributes:
-        made: How many pieces of each kind were made; ``trial`` where nothing was shared.
-        reused: How many pieces of each kind came from the store.
-        lost: What could not be made; empty if all trials have records.
+        made: Number of pieces of each kind that were made; ``trial`` where nothing was shared.
+        reused: Number of pieces of each kind that came from the store.
+        lost: Trials and pieces that could not be made; empty if all trials have records.
         elapsed_s: Time from the first task to the last, workers' start included.
         busy_s: Time that the workers spent on tasks, summed over them.
     """

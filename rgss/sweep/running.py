@@ -54,26 +54,26 @@ def sweep(
     pieces are shared. When it is interrupted, what was finished is kept, and the next sweep goes on
     from there. A task whose worker crashes, hangs or runs out of memory is tried once more; then it
     is recorded as a failure of the run, and the sweep goes on without it; so it is with a task whose answer
-    is not what was asked for.
+    does not fit its task.
 
     Args:
         specs: The trials.
-        store: Where evidence is kept.
+        store: The evidence store.
         jobs: Number of worker processes; with 0 everything is done in this process, nothing isolated.
         on_finished: Called for every trial that has a record, also for those that the store had.
         on_state: Called whenever something has ended.
         share: Whether pieces are shared between trials and taken from the store.
-        limits: What a worker may use for one task.
-        origin: Tells where the trials come from, for their provenance; asked only if there are any to run.
-        maker: What carries out a task: a function of a module, which the workers import by its name.
+        limits: Limits of a worker for one task.
+        origin: Callback for the provenance of the trials; called only if there are any to run.
+        maker: Function of a module that carries out a task, which the workers import by its name.
         workers_for: Gives the workers that carry out tasks by a maker, in place of `jobs` and `limits`;
-            asked only if there is anything to be made.
+            called only if there is anything to be made.
 
     Raises:
         DefinitionError: A planning limit is longer than the search, or an engine is not installed.
         EvidenceError: The store cannot be read or written, or had another result for the same inputs.
         StorageError: The disk is full; or the store was removed, replaced or damaged meanwhile, and the
-            message says where what could be saved is.
+            message names the file with what could be saved.
         SimulationError: Worker processes cannot be started, or the workers are lost.
     """
     require_engines("a sweep")
@@ -141,7 +141,7 @@ class _Sweep:
         try:
             self._put_together()
             while self._work.left:
-                self._workers.want(self._work.ready + len(self._running))
+                self._workers.prepare_for(self._work.ready + len(self._running))
                 self._begin_tasks()
                 for ended in self._workers.wait(self._writer.due_s()):
                     # Others can begin what this one makes ready before it is written down.
@@ -149,7 +149,7 @@ class _Sweep:
                     self._begin_tasks()
                 self._put_together()
                 self._writer.flush_if_due()
-                self._tell()
+                self._report_progress()
         except BaseException:
             self._workers.close()
             self._write_down()
@@ -181,8 +181,8 @@ class _Sweep:
     def _take_in(self, ended: Ended) -> None:
         task = self._running.pop(ended.key)
         ended = checked(ended, task)
-        if ended.trouble is not None:
-            self._handle_failure(task, ended.trouble)
+        if ended.failure is not None:
+            self._handle_failure(task, ended.failure)
             return
         del self._attempts[task.digest]
         self._busy_s += ended.took_s
@@ -224,15 +224,15 @@ class _Sweep:
         self._lose("trial", trial.key, RunFailureKind.WRONG_ANSWER, f"its pieces make no record: {problem}", (trial,))
         return None
 
-    def _handle_failure(self, task: Task, trouble: TaskError) -> None:
+    def _handle_failure(self, task: Task, failure: TaskError) -> None:
         attempts = self._attempts[task.digest]
-        if trouble.may_pass and attempts < MOST_ATTEMPTS:
+        if failure.may_pass and attempts < MOST_ATTEMPTS:
             self._work.give_back(task)
             return
         lost = self._work.give_up(task.digest)
         self._held = {digest: piece for digest, piece in self._held.items() if self._work.is_used(digest)}
         what = "trial" if isinstance(task, TrialTask) else task.kind.value
-        self._lose(what, task.digest, trouble.kind, trouble.detail, lost, attempts=attempts)
+        self._lose(what, task.digest, failure.kind, failure.detail, lost, attempts=attempts)
 
     def _lose(
         self, what: str, key: str, kind: RunFailureKind, detail: str, trials: Sequence[Trial], *, attempts: int = 1
@@ -249,7 +249,7 @@ class _Sweep:
             piece = self._store.piece(digest)
             if piece is None:
                 raise EvidenceError(
-                    f"piece {digest[:12]} has gone from the store during the sweep", hint="run the sweep again"
+                    f"piece {digest[:12]} was removed from the store during the sweep", hint="run the sweep again"
                 )
             self._held[digest] = piece
             self._reused[piece.kind.value] += 1
@@ -260,7 +260,7 @@ class _Sweep:
         if not self._work.is_used(digest):
             self._held.pop(digest, None)
 
-    def _tell(self) -> None:
+    def _report_progress(self) -> None:
         if self._on_state is None:
             return
         left_s = self._work.remaining_s() / self._workers.size

@@ -37,14 +37,14 @@ class Ended:
 
     Attributes:
         key: The name that it was given.
-        result: What it made; None if it failed.
-        trouble: Why it failed; None if it did not.
+        result: Its result; None if it failed.
+        failure: Reason of its failure; None if it succeeded.
         took_s: Its time by the wall clock; 0 if it failed.
     """
 
     key: str
     result: Any
-    trouble: TaskError | None
+    failure: TaskError | None
     took_s: float
 
 
@@ -59,7 +59,7 @@ class Workers(Protocol):
     def free(self) -> int:
         """Number of tasks that can be begun now."""
 
-    def want(self, tasks: int) -> None:
+    def prepare_for(self, tasks: int) -> None:
         """Be ready for this many tasks, as far as that is possible."""
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
@@ -76,18 +76,18 @@ def ended_by(answer: Answer, key: str) -> Ended:
     """The end of a task that a worker has answered.
 
     Args:
-        answer: What the worker said.
+        answer: The worker's answer.
         key: The task's name.
     """
     if not answer.error:
-        return Ended(key=key, result=answer.result, trouble=None, took_s=answer.took_s)
+        return Ended(key=key, result=answer.result, failure=None, took_s=answer.took_s)
     kind = RunFailureKind.OUT_OF_MEMORY if answer.out_of_memory else RunFailureKind.RAISED
     return failed_task(key, kind, answer.error, may_pass=not answer.ours)
 
 
 def failed_task(key: str, kind: RunFailureKind, detail: str, *, may_pass: bool = True) -> Ended:
     """The end of a task without a result."""
-    return Ended(key=key, result=None, trouble=TaskError(kind=kind, detail=detail, may_pass=may_pass), took_s=0.0)
+    return Ended(key=key, result=None, failure=TaskError(kind=kind, detail=detail, may_pass=may_pass), took_s=0.0)
 
 
 def is_answer(message: object, task: int) -> bool:
@@ -105,7 +105,7 @@ def is_answer(message: object, task: int) -> bool:
 
 
 def process_ending(process: BaseProcess) -> str:
-    """End of a process whose end of the pipe is closed, in words that follow 'the worker'."""
+    """End of a process whose end of the pipe is closed, as a phrase that follows 'the worker'."""
     latest = time.monotonic() + _ENDING_S
     while process.exitcode is None and time.monotonic() < latest:
         time.sleep(_ENDING_LOOK_S)

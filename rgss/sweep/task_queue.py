@@ -19,7 +19,7 @@ class Trial:
     """A trial of a study.
 
     Attributes:
-        key: What the store knows it by.
+        key: Its key in the store.
         spec: The trial.
         digests: The digests of its pieces.
     """
@@ -44,7 +44,7 @@ class TaskQueue:
     """
 
     def __init__(self, trials: Sequence[Trial], *, stored: Collection[str] = (), share: bool = True) -> None:
-        """Find out what must be made.
+        """Queue of what must be made.
 
         Args:
             trials: The trials that have no record.
@@ -84,7 +84,7 @@ class TaskQueue:
         return sum(count * self.durations.expected_s(tasks) for tasks, count in self._left.items())
 
     def take(self) -> Task:
-        """The task that should be begun next; it is no longer ready."""
+        """Take the next task; it is then no longer ready."""
         best = min(
             (tasks for tasks, queue in self._ready.items() if queue),
             key=lambda tasks: (_ORDER.get(tasks[0], _LAST), -self.durations.expected_s(tasks), tasks),
@@ -100,7 +100,7 @@ class TaskQueue:
         self._ready.setdefault(self.durations.class_of(task), deque()).append(task.digest)
 
     def done(self, digest: str, *, took_s: float) -> None:
-        """Take note that a task is done; what waited for it alone is now ready.
+        """Mark a task as done; what waited for it alone is now ready.
 
         Args:
             digest: The task's digest.
@@ -120,7 +120,7 @@ class TaskQueue:
                     self._finish(trial)
 
     def give_up(self, digest: str) -> tuple[Trial, ...]:
-        """Take note that a task cannot be done, nor what depends on it.
+        """Mark a task, and what depends on it, as failed.
 
         Args:
             digest: The task's digest.
@@ -146,7 +146,7 @@ class TaskQueue:
         return tuple(lost.values())
 
     def release(self, digest: str) -> None:
-        """Take note that a piece has been used once.
+        """Record one use of a piece.
 
         Args:
             digest: The piece's digest.
@@ -156,7 +156,7 @@ class TaskQueue:
             del self._uses[digest]
 
     def is_used(self, digest: str) -> bool:
-        """Tell whether something that is left needs a piece.
+        """True if something that is left needs a piece.
 
         Args:
             digest: The piece's digest.
@@ -164,7 +164,7 @@ class TaskQueue:
         return digest in self._uses
 
     def complete(self) -> Iterable[Trial]:
-        """The trials whose pieces have all been made since this was last asked."""
+        """The trials whose pieces have all been made since the last call."""
         while self._complete:
             yield self._complete.popleft()
 

@@ -1,4 +1,4 @@
-"""Keys by which the store knows trials, and the digests of their pieces."""
+"""Keys of trials in the store, and the digests of their pieces."""
 
 from __future__ import annotations
 

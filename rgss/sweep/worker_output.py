@@ -23,7 +23,7 @@ class WorkerOutput:
         self.end = connection.Connection(descriptor, readable=False)
 
     def tail(self) -> str:
-        """The last line that was printed, by which libraries say why they end the process; empty if there is none."""
+        """The last printed line, where libraries report why they end the process; empty if there is none."""
         try:
             size = os.fstat(self.end.fileno()).st_size
             content = os.pread(self.end.fileno(), _LONGEST_TAIL, max(0, size - _LONGEST_TAIL))

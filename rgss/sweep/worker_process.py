@@ -33,7 +33,7 @@ class Ready:
     """The worker has started and takes tasks.
 
     Attributes:
-        error: Why it cannot, in one line; empty if it can.
+        error: Reason that it cannot, in one line; empty if it can.
     """
 
     error: str = ""
@@ -48,7 +48,7 @@ class Answer:
         result: The result; None if there is none.
         error: The exception that ended it, in one line; empty if there was none.
         ours: Whether that exception is one that this package raises by intention.
-        out_of_memory: Whether it was for want of memory.
+        out_of_memory: Whether it was for lack of memory.
         took_s: The task's time by the wall clock.
     """
 
@@ -76,7 +76,7 @@ def serve(
     """Answer tasks until the other end is closed.
 
     Args:
-        function: What makes a result from a task's arguments, pickled by its name.
+        function: Function that makes a result from a task's arguments, pickled by its name.
         requests: Numbered arguments come in here, answers go out.
         memory_limit_bytes: Greatest size of the process's data; 0 for no limit.
         output: File for what engines print, which is read to find why one has crashed.
@@ -131,8 +131,8 @@ def answer_to(make: Callable[..., Any], arguments: Sequence[Any], *, task: int =
     """Carry out one task.
 
     Args:
-        make: What makes a result.
-        arguments: What it is called with.
+        make: Function that makes a result.
+        arguments: Its arguments.
         task: The number that the task was given.
     """
     from time import perf_counter
@@ -203,7 +203,7 @@ def _limit_memory(limit_bytes: int) -> None:
 
 
 def _keep_freed_memory() -> None:
-    """Let the process keep what it frees, as far as its C library can be told.
+    """Let the process keep freed memory, as far as its C library can be configured.
 
     The physics engine takes some megabytes for each world. Given back to the kernel and mapped anew, page by
     page, they take more time than all else that makes a world.

@@ -31,7 +31,7 @@ def frame(content: bytes) -> bytes:
     """A message as it is sent: mark, length, SHA-256, content.
 
     Args:
-        content: What it says.
+        content: Its content.
     """
     return _HEAD.pack(_MARK, len(content), hashlib.sha256(content).digest()) + content
 
@@ -49,13 +49,13 @@ class FrameReader:
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> list[bytes]:
-        """Take in what has arrived; returns the messages that are complete with it.
+        """Add received bytes; returns the messages that are complete with them.
 
         Args:
-            data: What has arrived.
+            data: Received bytes.
 
         Raises:
-            WireError: It is no message.
+            WireError: It is not a message.
         """
         self._buffer += data
         found = []
@@ -108,13 +108,13 @@ class Channel:
         """Send a message, as far as the other end takes it; the rest goes with `flush`.
 
         Args:
-            content: What it says.
+            content: Its content.
         """
         self._unsent += frame(content)
         self.flush()
 
     def flush(self) -> None:
-        """Write what the other end takes; that it has gone is noticed when it is read."""
+        """Write what the other end takes; its end is detected when it is read."""
         with contextlib.suppress(OSError):
             while self._unsent:
                 written = os.write(self.fileno(), self._unsent[:_AT_ONCE])
@@ -162,7 +162,7 @@ class BlockingChannel:
         """Send a message.
 
         Args:
-            content: What it says.
+            content: Its content.
 
         Raises:
             OSError: The other end was closed.

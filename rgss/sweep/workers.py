@@ -1,8 +1,8 @@
 """A supervised pool of worker processes that keep their engines loaded.
 
-Each worker has a pipe of its own and at most one task, so that it is known exactly which task a
+Each worker has its own pipe and at most one task, so that it is known exactly which task a
 worker was at when it was killed, hung or ran out of memory, and no lock can stay behind with it.
-Nothing here waits for a worker: what it takes and what it says is sent and read as far as that is
+Nothing here waits for a worker: tasks are sent and answers read as far as that is
 possible at once, and an answer counts only if it is whole and that of the task.
 (``concurrent.futures`` and loky give up all tasks when one worker dies and know no time limits;
 pebble has both, but its workers share a lock that dies with its holder.)
@@ -63,10 +63,10 @@ class WorkerPool:
         memory_limit_bytes: int = 0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Prepare the pool; processes are started when they are wanted.
+        """Prepare the pool; processes are started when they are needed.
 
         Args:
-            function: What makes a result from a task's arguments; a function of a module, since the
+            function: Function that makes a result from a task's arguments; a function of a module, since the
                 workers import it by its name.
             size: Greatest number of processes.
             time_limit_s: Greatest time of a task by the wall clock.
@@ -102,11 +102,11 @@ class WorkerPool:
         """Number of tasks that can be begun now."""
         return sum(worker.ready and worker.key is None for worker in self._workers)
 
-    def want(self, tasks: int) -> None:
+    def prepare_for(self, tasks: int) -> None:
         """Have as many processes as there are tasks, up to the pool's size.
 
         Args:
-            tasks: How many tasks are being done or could be.
+            tasks: Number of tasks that are running or ready.
 
         Raises:
             SimulationError: The system lets no process be started, and there is none.
@@ -126,7 +126,7 @@ class WorkerPool:
 
         Args:
             key: A name for it.
-            arguments: What the function is called with.
+            arguments: Arguments of the function.
         """
         worker = next(worker for worker in self._workers if worker.ready and worker.key is None)
         worker.key, worker.task = key, next(self._numbers)
@@ -190,7 +190,7 @@ class WorkerPool:
             )
 
     def _wait_for_any(self, patience_s: float) -> None:
-        """Wait until a worker has said something or takes more of what it is sent."""
+        """Wait until a worker has sent something or takes more of its task."""
         with selectors.PollSelector() as selector:
             for worker in self._workers:
                 writes = selectors.EVENT_WRITE if worker.channel.has_unsent else 0
@@ -224,7 +224,7 @@ class WorkerPool:
             worker.ready, worker.ends_at = True, math.inf
             return None
         if worker.key is None or len(messages) > 1 or not is_answer(message, worker.task):
-            return self._wrong(worker, "it answered something else than it was asked")
+            return self._wrong(worker, "its answer belongs to another task")
         key, worker.key, worker.ends_at, worker.proved = worker.key, None, math.inf, True
         self._failed_starts = 0
         if message.out_of_memory:
@@ -233,15 +233,15 @@ class WorkerPool:
         return ended_by(message, key)
 
     def _wrong(self, worker: _Worker, problem: str) -> Ended | None:
-        """Do without a worker that says what it should not."""
+        """End a worker whose answer is invalid."""
         self._dismiss(worker)
         return self._failed(worker, RunFailureKind.WRONG_ANSWER, f"the worker was ended: {problem}")
 
     def _died(self, worker: _Worker) -> Ended | None:
         how = process_ending(worker.process)
-        words = worker.output.tail()
+        tail = worker.output.tail()
         self._dismiss(worker)
-        return self._failed(worker, RunFailureKind.CRASHED, f"the worker {how}" + (f": {words}" if words else ""))
+        return self._failed(worker, RunFailureKind.CRASHED, f"the worker {how}" + (f": {tail}" if tail else ""))
 
     def _too_late(self, worker: _Worker) -> Ended | None:
         self._dismiss(worker)

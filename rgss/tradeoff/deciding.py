@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.programs import Enumeration
 
 MOST_DRAWN = 20_000_000
-"""So many alternatives are looked at in all when replicates are drawn anew to test a conflict."""
+"""Largest number of alternatives that are evaluated in all when replicates are resampled to test a conflict."""
 
 
 def decide(
@@ -49,11 +49,11 @@ def decide(
     Args:
         problem: The trade-off.
         margin: The practical margin: feasible alternatives whose value, distance or regret is
-            within it of the best are listed as near-ties. Programs that look at quantities take
+            within it of the best are listed as near-ties. Programs that compare quantities take
             the tolerance of their last measure instead.
         last_of_equals: Whether the largest id of tied alternatives is chosen; the smallest otherwise.
         seed: Seed of the draws that test a conflict against the noise of the replicates.
-        resamples: How many draws; 0 for none, 1,000 by default, fewer where alternatives are many.
+        resamples: Number of draws; 0 for none, 1,000 by default, fewer where alternatives are many.
         independent: Runs of other solvers than HiGHS; each solves the whole program as a further check.
         time_limit: Seconds for the runs of a solver over levels, in place of the limits of each run. One that
             exceeds it is a check that was not finished; the decision is then solved over the alternatives instead.
@@ -78,7 +78,9 @@ def decide(
     from rgss.tradeoff.programs import enumerate_alternatives
 
     if not (math.isfinite(margin) and margin >= 0.0):
-        raise TradeoffError(f"the practical margin is {margin:g}", hint="give a value from 0 on, such as 0.01")
+        raise TradeoffError(
+            f"practical margin must be at least 0, got {margin:g}", hint="a difference of value, such as 0.01"
+        )
     enumeration = enumerate_alternatives(problem)
     certificate = _certified(problem, enumeration, (), independent, time_limit)
     ties = tuple(int(variant) for variant in enumeration.variants[enumeration.tied])
@@ -120,7 +122,7 @@ def best_alternatives(problem: TradeProblem, count: int) -> tuple[Certificate, .
 
     Args:
         problem: The trade-off.
-        count: How many are wanted.
+        count: Number of alternatives.
 
     Returns:
         A certificate for each; fewer where fewer are feasible. Of tied alternatives the solver
@@ -259,7 +261,7 @@ def _noted(certificate: Certificate, error: TradeoffError) -> Certificate:
 
 
 def _explained(problem: TradeProblem, enumeration: Enumeration, seed: int, resamples: int | None) -> Conflicts | None:
-    """Why nothing is feasible, how that could be mended, and whether noise might; None if something is."""
+    """Explanation of infeasibility, with repairs and its stability under noise; None if something is feasible."""
     conflicts = find_conflicts(enumeration)
     if conflicts is None:
         return None

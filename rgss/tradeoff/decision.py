@@ -20,8 +20,8 @@ class RankedAlternative:
     Attributes:
         variant: Its id.
         value: Its weighted value, from 0 to 1; None where a weighted measure is unknown that the
-            program does not look at.
-        objectives: What the program optimises, in turn.
+            program does not use.
+        objectives: Objectives of the program, in turn.
     """
 
     variant: int
@@ -104,16 +104,16 @@ class Decision:
     """The outcome of a trade-off.
 
     Where there are more than `LONGEST_LIST` alternatives of a kind, the ranking and the lists of
-    infeasible and of excluded ones hold the first so many; `counts` has all. Programs that look at
+    infeasible and of excluded ones hold the first so many; `counts` has all. Programs that compare
     one measure after another rank no more than about five million divided by the number of
     alternatives, for each place is a choice of its own.
 
     Attributes:
         program: The program that decided.
-        objectives: What it optimises, in turn.
+        objectives: Its objectives, in turn.
         status: Optimal, or infeasible when no alternative meets every requirement; then nothing
             is chosen and the conflicts say why.
-        chosen: Among the tied best, the smallest id, or the largest where it is asked for.
+        chosen: Among the tied best, the smallest id, or the largest if the study chooses the last of equals.
         near_ties: Feasible alternatives that are not tied but come within the practical margin of
             the best, in the order of the ranking.
         runner_up: The next in the ranking that is not tied; if all feasible
@@ -127,13 +127,13 @@ class Decision:
             one by more than a tie, by falling weighted value.
         deciding_requirements: The requirements that exclude these, with how many each excludes;
             empty if the choice would be the same without any requirement.
-        chosen_contributions: What each measure adds to the chosen alternative's value, in the
+        chosen_contributions: Contribution of each measure to the chosen alternative's value, in the
             order of the weights; empty if nothing is chosen.
         runner_up_contributions: The same for the runner-up.
-        conflicts: Why nothing is feasible; None if something is.
+        conflicts: Explanation of infeasibility; None if something is.
         flat_measures: Valued measures whose weight decides nothing.
-        demands: What each id of a demand stands for, such as ``P_max >= 0.8 kg``.
-        counts: How many alternatives there are of each kind.
+        demands: Demand of each id, such as ``P_max >= 0.8 kg``.
+        counts: Number of alternatives of each kind.
         certificate: The recomputation of all this.
     """
 

@@ -7,7 +7,7 @@ believes of the object: what the files, or the case of the workload, say.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from types import MappingProxyType
 
@@ -204,12 +204,6 @@ def drawn_values(spec: TrialSpec) -> tuple[DrawnValue, ...]:
             before, after = getattr(nominal, quantity.field), getattr(conditions, quantity.field)
         found.append(DrawnValue(name=name, unit=_unit_of(quantity), nominal=before, drawn=after))
     return tuple(found)
-
-
-def changed_fields() -> frozenset[str]:
-    """Names of the fields that uncertain quantities change."""
-    own = {"scene", "design_gripper", "case", "draws"}
-    return frozenset(each.name for each in fields(Conditions)) - own
 
 
 def _unit_of(quantity: UncertainQuantity) -> str:

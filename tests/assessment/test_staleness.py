@@ -257,18 +257,18 @@ def test_a_record_survives_its_file(tmp_path, recorded):
 @pytest.mark.parametrize(
     ("content", "problem"),
     [
-        ("", "is no record of verdicts"),
-        ("[]", "is no record of verdicts"),
-        ('{"schema": 1}', "is no record of verdicts"),
+        ("", "is not a record of verdicts"),
+        ("[]", "is not a record of verdicts"),
+        ('{"schema": 1}', "is not a record of verdicts"),
         ('{"schema": 2, "studies": {}}', "has schema 2; this rgss reads 1"),
-        ('{"schema": 1, "studies": {"s": {"SYS-1": {"x": {}}}}}', "is no record of verdicts"),
-        ('{"schema": 1, "studies": {"s": {"SYS-1": {"1": {"verdict": "met"}}}}}', "is no record of verdicts"),
+        ('{"schema": 1, "studies": {"s": {"SYS-1": {"x": {}}}}}', "is not a record of verdicts"),
+        ('{"schema": 1, "studies": {"s": {"SYS-1": {"1": {"verdict": "met"}}}}}', "is not a record of verdicts"),
         (
             '{"schema":1,"studies":{"s":{"A":{"1":{"verdict":"met","requirement":"x","measure":"x","design":"x"}}}}}',
-            "is no record of verdicts",
+            "is not a record of verdicts",
         ),
-        ("[" * 100_000, "is no record of verdicts"),
-        ("\x00", "is no record of verdicts"),
+        ("[" * 100_000, "is not a record of verdicts"),
+        ("\x00", "is not a record of verdicts"),
     ],
 )
 def test_records_that_cannot_be_read(tmp_path, content, problem):

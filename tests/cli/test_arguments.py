@@ -63,8 +63,8 @@ def test_words_that_are_not_understood(rgss, words, complaint):
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [
-        (["run", "0"], "there is no variant 0 (ids of variants: from 1 to 72)"),
-        (["run", "73"], "there is no variant 73 (ids of variants: from 1 to 72)"),
+        (["run", "0"], "unknown variant 0 (ids of variants: from 1 to 72)"),
+        (["run", "73"], "unknown variant 73 (ids of variants: from 1 to 72)"),
         (["run", "65", "--seed=-1"], "seed -1 is out of range (give a seed from 0 to 2147483647)"),
         (["run", "65", "--seed=2147483648"], "seed 2147483648 is out of range (give a seed from 0 to 2147483647)"),
         (["sweep", "--replicates=0"], "--replicates must be from 1 to 10000 (omit it for the study's number)"),
@@ -77,13 +77,13 @@ def test_words_that_are_not_understood(rgss, words, complaint):
         (["sweep", "--only=1,,2"], "--only: '' is not an id or a range (write ids such as 1,5,60-72)"),
         (["sweep", "--only=-5"], "--only: '-5' is not an id or a range (write ids such as 1,5,60-72)"),
         (["sweep", "--only=²"], "--only: '²' is not an id or a range (write ids such as 1,5,60-72)"),
-        (["sweep", "--only=0"], "--only: there is no variant 0 (ids go from 1 to 72)"),
-        (["sweep", "--only=73"], "--only: there is no variant 73 (ids go from 1 to 72)"),
-        (["sweep", "--only=70-99999999999"], "--only: there is no variant 73 (ids go from 1 to 72)"),
-        (["sweep", "--only=5-1"], "--only: there is no variant 5-1 (ids go from 1 to 72)"),
+        (["sweep", "--only=0"], "--only: unknown variant 0 (ids go from 1 to 72)"),
+        (["sweep", "--only=73"], "--only: unknown variant 73 (ids go from 1 to 72)"),
+        (["sweep", "--only=70-99999999999"], "--only: unknown variant 73 (ids go from 1 to 72)"),
+        (["sweep", "--only=5-1"], "--only: unknown variant 5-1 (ids go from 1 to 72)"),
         (["measure"], "there is no evidence in "),
         (["trade"], "there is no evidence in "),
-        (["measure", "--variant=99"], "there is no variant 99 (ids of variants: from 1 to 72)"),
+        (["measure", "--variant=99"], "unknown variant 99 (ids of variants: from 1 to 72)"),
     ],
 )
 def test_numbers_that_are_impossible(rgss, untouched, words, complaint):

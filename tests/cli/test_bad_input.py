@@ -64,7 +64,7 @@ EDITS = {
     "unknown source": (MEASURES, "trial.slip_m", "trial.slipp_m", "the trials have no 'trial.slipp_m'"),
     "unknown scene": (STUDY, SCENE, "scenes/kitchen.yaml", "there is no file 'scenes/kitchen.yaml'"),
     "file outside the project": (STUDY, SCENE, "../restaurant.yaml", "lies outside the project"),
-    "weights that do not sum to 1": (STUDY, "weight: 0.10", "weight: 0.11", "the weights sum to"),
+    "weights that do not sum to 1": (STUDY, "weight: 0.10", "weight: 0.11", "weights must sum to 1"),
     "no friction": (SPACE, "d6: 0.7", "d6: 0", "d6 must be greater than zero"),
     "alias bomb": (STUDY, "seed: 1", "seed: &a 1", "anchor &a is refused"),
     "tag": (STUDY, "seed: 1", "seed: !!python/object/apply:os.getcwd []", "tag "),

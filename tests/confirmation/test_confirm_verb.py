@@ -155,7 +155,7 @@ def _lost(runner, specs):
     ("words", "message"),
     [
         (["--variants", "28;31"], "rgss: --variants must be a list of ids, got '28;31' (write ids, such as 28,31)"),
-        (["--variants", "99"], "rgss: there is no variant 99 (ids of variants: from 1 to 72)"),
+        (["--variants", "99"], "rgss: unknown variant 99 (ids of variants: from 1 to 72)"),
         (["--seeds", "0"], "rgss: --seeds must be from 1 to 10000, got 0 (omit it for the replicates)"),
         (["--failures", "-1"], "rgss: --failures must be from 0 to 10000, got -1 (0 leaves the sample away)"),
         (["--rate", "1000"], "rgss: --rate: '1000'"),

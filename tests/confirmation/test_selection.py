@@ -63,7 +63,7 @@ def test_without_a_choice_there_is_nothing_to_confirm(shipped):
 
 
 def test_a_design_that_is_not_there_is_refused(shipped):
-    with pytest.raises(DefinitionError, match="there is no variant 73"):
+    with pytest.raises(DefinitionError, match="unknown variant 73"):
         selected_by_id(shipped, [28, 73])
 
 

@@ -123,7 +123,7 @@ def test_a_wall_clock_proves_nothing(edit, place_of, problems):
     ]
 
 
-def test_what_contact_shows_lies_within_the_outlook(screened, kept, record_of):
+def test_what_contact_shows_lies_within_the_bounds(screened, kept, record_of):
     """Twins as contact could make them: any of the successful ones may fail, at any phase."""
     project = screened()
     fails = {1: {1}, 2: {1, 2}, 3: {1, 2, 3}}
@@ -152,17 +152,17 @@ def test_what_contact_shows_lies_within_the_outlook(screened, kept, record_of):
         for entry in measure_variants(project, twins):
             if entry.missing:
                 continue
-            for measure, outlook in found[entry.variant.id].items():
+            for measure, bounds in found[entry.variant.id].items():
                 value = entry.estimates[measure].value
-                ends = [one.value for one in outlook.estimates]
-                if not outlook.bounded or value is None:
+                ends = [one.value for one in bounds.estimates]
+                if not bounds.bounded or value is None:
                     continue
                 assert min(ends) - 1e-12 <= value <= max(ends) + 1e-12, measure
             for requirement in requirements_with_criteria(project):
-                criterion, outlook = requirement.criterion, found[entry.variant.id][requirement.criterion.measure]
-                if outlook.bounded and outlook.estimates and entry.verdicts[requirement.id] is not Verdict.NOT_MET:
+                criterion, bounds = requirement.criterion, found[entry.variant.id][requirement.criterion.measure]
+                if bounds.bounded and bounds.estimates and entry.verdicts[requirement.id] is not Verdict.NOT_MET:
                     assert entry.estimates[criterion.measure].value is None or any(
-                        judge(criterion, one) is not Verdict.NOT_MET for one in outlook.estimates
+                        judge(criterion, one) is not Verdict.NOT_MET for one in bounds.estimates
                     )
 
 
@@ -176,7 +176,7 @@ def test_the_two_fidelities_have_plans_and_timings_in_common(screened):
 
 @pytest.mark.engine
 @pytest.mark.parametrize("number", [1, 28])
-def test_real_twins_lie_within_the_outlook(screened, number):
+def test_real_twins_lie_within_the_bounds(screened, number):
     project = screened(replicates=1)
     variants = [variant for variant in project.designs.expand() if variant.id == number]
     (low,), (high,) = screening_specs(project, variants=variants), trial_specs(project, variants=variants)

@@ -84,7 +84,7 @@ def test_without_evidence_there_is_no_choice(shipped, tmp_path):
     assert evidence.choice == (
         "no variant is chosen: 216 of 216 trials have no evidence for the project as it is now (run 'rgss sweep' first)"
     )
-    assert asked.choice == "variant 3, as asked for; 3 of its trials were not run"
+    assert asked.choice == "variant 3, as requested; 3 of its trials were not run"
 
 
 def test_when_none_meets_every_requirement_there_is_no_choice(shipped, filled, record_of):

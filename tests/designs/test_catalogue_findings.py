@@ -82,7 +82,7 @@ CASES = {
     "negative cost": (
         "value: 1 USD",
         "value: ¦-1 USD",
-        "error: cost: '-1 USD' is negative (write what it costs) [design.value]",
+        "error: cost must be at least 0, got '-1 USD' (write what it costs) [design.value]",
     ),
     "assumption without a rationale": (
         "assumption: true, rationale: Invented.",

@@ -53,9 +53,9 @@ def test_terms_choose_variants(project, terms, expected):
         (("1,,2",), "--only: '' is not an id or a range (write ids such as 1,5,60-72)"),
         (("-5",), "--only: '-5' is not an id or a range (write ids such as 1,5,60-72)"),
         (("²",), "--only: '²' is not an id or a range (write ids such as 1,5,60-72)"),
-        (("0",), "--only: there is no variant 0 (ids go from 1 to 8)"),
-        (("7-99999999999",), "--only: there is no variant 9 (ids go from 1 to 8)"),
-        (("5-1",), "--only: there is no variant 5-1 (ids go from 1 to 8)"),
+        (("0",), "--only: unknown variant 0 (ids go from 1 to 8)"),
+        (("7-99999999999",), "--only: unknown variant 9 (ids go from 1 to 8)"),
+        (("5-1",), "--only: unknown variant 5-1 (ids go from 1 to 8)"),
         (("d3=RRX",), "--only: d3 is never 'RRX' (did you mean 'RRT'?)"),
         (("fingers=four",), "--only: fingers is never 'four' (known values of fingers: three, two)"),
         (("gripper=huge",), "--only: gripper is never 'huge' (known values of gripper: large, small)"),
@@ -73,7 +73,7 @@ def test_terms_choose_variants(project, terms, expected):
         ),
         (("4/4",), "--only: 4/4 is not a part of the variants (write a fraction such as 1/4)"),
         (("1/0",), "--only: 1/0 is not a part of the variants (write a fraction such as 1/4)"),
-        (("1/4,3",), "--only: the fraction '1/4' stands among others (give it an --only of its own)"),
+        (("1/4,3",), "--only: the fraction '1/4' must be the only term (give it its own --only)"),
         (("d3=RRT", "2"), "--only: no variant is left at '2' ('rgss variants' lists all of them)"),
         (("d1 > 5 kg",), "--only: no variant is left at 'd1 > 5 kg' ('rgss variants' lists all of them)"),
     ],
@@ -88,7 +88,7 @@ def test_what_is_no_variant_is_passed_over_in_a_range_and_told_alone(project):
     project.space_text += "rules:\n  - {id: r, rationale: So., exclude: {d2: 3, d3: RRT}}\n"
     space = project.load()
     assert ids(space, "1-5") == [1, 2, 4, 5]
-    with pytest.raises(DefinitionError, match=r"^--only: 3 is no variant: it breaks rule 'r' \('rgss variants'"):
+    with pytest.raises(DefinitionError, match=r"^--only: 3 is not a variant: it breaks rule 'r' \('rgss variants'"):
         picked(space, ["3"])
 
 
@@ -96,7 +96,7 @@ def test_a_repeated_point_is_told(project):
     project.space_text += "sample: {method: sobol, size: 32, seed: 1}\n"
     space = project.load()
     repeat, first = next(iter(space.sample.repeats.items()))
-    with pytest.raises(DefinitionError, match=f"{repeat} is no variant: it repeats variant {first}"):
+    with pytest.raises(DefinitionError, match=f"{repeat} is not a variant: it repeats variant {first}"):
         picked(space, [str(repeat)])
     assert ids(space, "1-32") == [variant.id for variant in space.expand()]
 

@@ -26,21 +26,21 @@ MISTAKES = {
     "says nothing": (
         "",
         (
-            "error: rule 'r' does not say one thing "
+            "error: rule 'r' must have exactly one form "
             "(write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when') [design.rule]"
         ),
     ),
     "says two things": (
         "    require: {d2: 2}\n    exclude: {d2: 3}\n",
         (
-            "error: rule 'r' does not say one thing "
+            "error: rule 'r' must have exactly one form "
             "(write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when') [design.rule]"
         ),
     ),
     "exclude with when": (
         "    when: {d2: 2}\n    exclude: {d2: 3}\n",
         (
-            "error: rule 'r' does not say one thing "
+            "error: rule 'r' must have exactly one form "
             "(write 'exclude', or 'require', 'limit' or 'constraint' with or without 'when') [design.rule]"
         ),
     ),

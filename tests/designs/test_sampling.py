@@ -313,9 +313,7 @@ def test_a_range_without_a_sample_is_found(ranged):
     ranged.change("\nsample: {method: sobol, size: 64, seed: 7}", "").change("range: [0.4", "¦range: [0.4")
     hint = "(add 'sample: {method: sobol, size: 64, seed: 1}' to the file, or write levels) [design.sample]"
     findings = ranged.findings()
-    assert (
-        f"{ranged.marks()[0]}: error: factor 'force' has a range, and nothing says how to sample it {hint}" in findings
-    )
+    assert f"{ranged.marks()[0]}: error: factor 'force' has a range, so the file needs 'sample' {hint}" in findings
     assert len(findings) == 2
 
 
@@ -325,7 +323,7 @@ def test_a_sample_of_nothing_is_found(ranged):
         head + "constants: {d1: 0.1 kg, d2: 2, d3: RRT, d4: 1 N}\n¦sample: {method: sobol, size: 4, seed: 1}\n"
     )
     assert ranged.findings() == [
-        f"{ranged.marks()[0]}: error: there is no factor to sample (add a factor, or remove 'sample') [design.sample]"
+        f"{ranged.marks()[0]}: error: the sample has no factor (add a factor, or remove 'sample') [design.sample]"
     ]
 
 

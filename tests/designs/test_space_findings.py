@@ -53,7 +53,7 @@ CASES = {
     "names of no role": (
         "- {id: d3, name: planner, symbol: p, kind: name, role: planner,",
         "- ¦{id: d3, name: planner, symbol: p, kind: name,",
-        "error: d3 has names of no role (add 'role': what its names stand for) [design.role]",
+        "error: d3 has names of no role (add 'role': that of the components it names) [design.role]",
     ),
     "names of an unknown role": (
         "kind: name, role: planner,",

@@ -83,7 +83,7 @@ def test_no_variants_make_an_empty_table():
 def test_an_unknown_variant_is_refused_with_the_known_range(project):
     with pytest.raises(DefinitionError) as caught:
         project.load().variant(9)
-    assert str(caught.value) == "there is no variant 9 (ids of variants: from 1 to 8)"
+    assert str(caught.value) == "unknown variant 9 (ids of variants: from 1 to 8)"
 
 
 def test_a_space_without_factors_has_one_variant(project):

@@ -17,7 +17,6 @@ QUANTITIES = {
     "KilogramSquareMetres": ("2 kg*m^2", 2.0),
     "Seconds": ("2 min", 120.0),
     "Newtons": ("1.5 kN", 1500.0),
-    "NewtonMetres": ("330 N*m", 330.0),
     "NewtonsPerMetre": ("10 kN/m", 1.0e4),
     "NewtonSecondsPerMetre": ("30 N*s/m", 30.0),
     "Radians": ("180 deg", math.pi),

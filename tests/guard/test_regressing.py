@@ -304,7 +304,7 @@ def test_a_phase_that_observes_nothing(project_of, stores, runner):
 
 def test_variants_that_are_none(project_of, stores, runner):
     project, store = project_of(SECTION.replace('"57,60"', '"99"')), stores()
-    with pytest.raises(DocumentError, match=r"variants of run planning: there is no variant 99 \(ids go from 1 to 72"):
+    with pytest.raises(DocumentError, match=r"variants of run planning: unknown variant 99 \(ids go from 1 to 72"):
         make_baseline(project, store, runner(store), before=None, reason=REASON)
 
 

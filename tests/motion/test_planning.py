@@ -21,10 +21,10 @@ from rgss.motion import (
     PlannerSettings,
     PlanningClock,
     available_planners,
-    outcome_within,
+    path_length,
     plan,
 )
-from rgss.motion.paths import path_states
+from tests.fixtures.planned_paths import outcome_within, path_states
 
 pytestmark = pytest.mark.engine
 
@@ -110,7 +110,7 @@ def test_the_simplification_does_not_depend_on_the_search(planned, planner):
     for budget in (100, 400):
         result = planned(planner, seed=4, simplification_checks=budget)
         assert result.checks == raw.checks
-        assert result.path.length_rad <= raw.path.length_rad
+        assert path_length(result.path.points_rad) <= path_length(raw.path.points_rad)
 
 
 JOBS = [(planner, seed, budget) for planner in SOURCE_PLANNERS for seed in range(5) for budget in (300, 2000)]
@@ -192,7 +192,7 @@ def test_a_goal_that_cannot_be_reached_spends_the_budget(planned, through_the_do
 def test_a_move_to_where_the_arm_is(planned, through_the_doorway, planner):
     result = planned(planner, problem=replace(through_the_doorway, goal=through_the_doorway.start))
     assert result.outcome is PlanOutcome.SOLVED
-    assert result.path.length_rad == 0.0
+    assert path_length(result.path.points_rad) == 0.0
 
 
 def test_a_shorter_range_makes_shorter_steps(planned):

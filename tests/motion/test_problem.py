@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from rgss.errors import MotionError
-from rgss.evidence.records.outcomes import PlanOutcome
-from rgss.motion import JointPath, MotionLimits, PlanningProblem, PlanResult, outcome_within
+from rgss.motion import MotionLimits, PlanningProblem
 
 
 def problem(**changes):
@@ -66,20 +65,3 @@ def test_a_limit_that_nothing_can_keep(changes):
     with pytest.raises(MotionError, match="a motion cannot keep a limit of") as caught:
         replace(limits, **changes)
     assert caught.value.hint == "let every limit be above zero"
-
-
-def test_a_smaller_budget_than_the_checks_at_the_solution_is_spent():
-    solved = PlanResult(
-        outcome=PlanOutcome.SOLVED,
-        path=JointPath(np.zeros((2, 6))),
-        checks=120,
-        simplification_checks=10,
-        search_time_s=0.12,
-    )
-    assert outcome_within(solved, 121) is PlanOutcome.SOLVED
-    assert outcome_within(solved, 120) is PlanOutcome.SOLVED
-    assert outcome_within(solved, 119) is PlanOutcome.BUDGET_SPENT
-    spent = replace(solved, outcome=PlanOutcome.BUDGET_SPENT, path=None)
-    assert outcome_within(spent, 100) is PlanOutcome.BUDGET_SPENT
-    invalid = replace(solved, outcome=PlanOutcome.INVALID_GOAL, path=None, checks=0)
-    assert outcome_within(invalid, 0) is PlanOutcome.INVALID_GOAL

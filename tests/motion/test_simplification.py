@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rgss.motion import path_length
-from rgss.motion.paths import path_states
 from rgss.motion.simplification import shorten
+from tests.fixtures.planned_paths import path_states
 
 RESOLUTION = 0.05
 

@@ -9,9 +9,9 @@ import pytest
 
 from rgss.errors import MotionError
 from rgss.evidence.records.outcomes import PlanOutcome
-from rgss.motion import OnUnverified, PlannerSettings, outcome_within, plan
-from rgss.motion.paths import path_states
+from rgss.motion import OnUnverified, PlannerSettings, plan
 from rgss.motion.verification import verified
+from tests.fixtures.planned_paths import outcome_within, path_states
 
 pytestmark = pytest.mark.engine
 

@@ -77,7 +77,7 @@ def test_a_reason_is_text_whatever_it_holds(tmp_path, baseline):
         (b'{"schema": 4}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 2}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 2, "runs": 5, "origin": []}', "b.json: baseline lacks 'study' (make it"),
-        (b'{"schema": 1, "schema": 1}', "the baseline b.json is not JSON: a key stands twice"),
+        (b'{"schema": 1, "schema": 1}', "the baseline b.json is not JSON: a key occurs twice"),
     ],
 )
 def test_a_file_that_is_none(tmp_path, content, message):

@@ -1,8 +1,7 @@
 """Sizes of folders, files and functions, and the front door of every package.
 
 What is larger than its bound and should be has a comment with the reason: ``# long file: …`` among the first lines
-of the file, ``# long function: …`` on the line above the function. What is only not divided yet is listed below and
-may not grow.
+of the file, ``# long function: …`` on the line above the function.
 """
 
 from __future__ import annotations
@@ -18,11 +17,6 @@ LONGEST_FILE = 300
 LONGEST_FUNCTION = 60
 """Lines of code; the docstring is not counted."""
 
-NOT_DIVIDED_YET = {
-    "rgss/tradeoff/sequential/sequential.py": 326,
-}
-"""Files, and functions behind a colon, with their lengths."""
-
 NO_FRONT_DOOR = {
     "rgss/cli": "a program, of which nothing is imported",
     "rgss/cli/verbs": "its modules are loaded by the names of the verbs",
@@ -33,8 +27,8 @@ _FUNCTION_MARK = re.compile(r"^\s*# long function: \w.+")
 
 
 def too_long(lengths: dict[str, int], bound: int) -> dict[str, int]:
-    """What is longer than the bound, and longer than it was where it is not divided yet."""
-    return {name: length for name, length in lengths.items() if length > max(bound, NOT_DIVIDED_YET.get(name, 0))}
+    """Entries that are longer than the bound."""
+    return {name: length for name, length in lengths.items() if length > bound}
 
 
 def lengths_of_functions(text: str) -> dict[str, int]:

@@ -156,7 +156,7 @@ def test_links_that_always_touch_are_noted(thick):
     (finding,) = unchecked_pairs(*thick, "scenes/robots/lite6.urdf")
 
     assert (finding.rule, finding.severity) == ("robot.unchecked-pair", Severity.INFO)
-    assert finding.message.startswith("link4 and link6 touch however the arm stands, and are not checked")
+    assert finding.message.startswith("link4 and link6 touch in every configuration, and are not checked")
     assert finding.line == 1 + thick[1].read_text(encoding="utf-8").splitlines().index('  <link name="link4">')
     for name in ARMS:
         assert unchecked_pairs(robot_of(name), ROBOTS / f"{name}.urdf", name) == ()

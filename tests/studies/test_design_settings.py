@@ -48,7 +48,7 @@ def test_a_planner_that_only_the_catalogue_knows(edit, problems, place_of):
 
     (problem,) = problems()
     assert problem == (
-        f"{place_of(SPACE, 'RRTconect')}: error: there is no planner 'RRTconect' "
+        f"{place_of(SPACE, 'RRTconect')}: error: unknown planner 'RRTconect' "
         f"(did you mean 'RRTConnect'? planners: {', '.join(available_planners())}) [design.planner]"
     )
 

@@ -69,9 +69,9 @@ def test_the_digests_of_a_plan_follow_the_planner_and_not_its_name(edit, folder)
 
 
 PLANNERS = [
-    ("RTT: {}", "RTT", "there is no planner 'RTT' (did you mean 'RRT'? planners: ABITstar, "),
+    ("RTT: {}", "RTT", "unknown planner 'RTT' (did you mean 'RRT'? planners: ABITstar, "),
     ("SPARS: {}", "SPARS", "planner SPARS cannot be run: it looks for a solution in a second thread, by a wall clock"),
-    ("long: {planner: RRTconnect}", "RRTconnect", "there is no planner 'RRTconnect' (did you mean 'RRTConnect'? "),
+    ("long: {planner: RRTconnect}", "RRTconnect", "unknown planner 'RRTconnect' (did you mean 'RRTConnect'? "),
     ("RRT: {planner: PRM}", "RRT:", "RRT is a planner of OMPL, and cannot name PRM (choose another name, such as PRM-"),
     (
         "RRT: {goal_bais: 0.1}",
@@ -99,7 +99,7 @@ PLANNERS = [
     (
         "TRRT: {objective: clearence}",
         "clearence",
-        "there is no objective 'clearence' (did you mean 'clearance'? objectives: path_length, clearance, mechani",
+        "unknown objective 'clearence' (did you mean 'clearance'? objectives: path_length, clearance, mechani",
     ),
     ("RRT: {objective: clearance}", "clearance}", "RRT has no use for an objective (remove it)"),
     ("RRT: [1]", "[1]", "a planner must have its parameters by name (write {goal_bias: 0.05}, or {})"),
@@ -124,8 +124,8 @@ def test_trrt_without_a_cost_must_be_meant(edit, folder):
 @pytest.mark.parametrize(
     ("text", "at", "expected"),
     [
-        ("  planner: RTT\n", "RTT", "there is no planner 'RTT' (did you mean 'RRT'? "),
-        ("  references: [PRM, RTT]\n", "RTT", "there is no planner 'RTT' (did you mean 'RRT'? "),
+        ("  planner: RTT\n", "RTT", "unknown planner 'RTT' (did you mean 'RRT'? "),
+        ("  references: [PRM, RTT]\n", "RTT", "unknown planner 'RTT' (did you mean 'RRT'? "),
         ("  verification_resolution: 0 rad\n", "0 rad\n", "verification_resolution must be greater than zero"),
         (
             "  verification_resolution: 0.02 rad\n",

@@ -152,7 +152,7 @@ def test_the_shipped_study_guards_itself(shipped):
 @pytest.mark.parametrize(
     ("variants", "said"),
     [
-        ('"999"', "variants of run planning: there is no variant 999 (ids go from 1 to 72)"),
+        ('"999"', "variants of run planning: unknown variant 999 (ids go from 1 to 72)"),
         ('"fingers=four"', "variants of run planning: "),
         ('"57,,60"', "variants of run planning: "),
         ('"d1 > 3 kg"', "variants of run planning: "),

@@ -83,8 +83,12 @@ FINDINGS = [
         "best: 800 g",
         "25:59: error: the value function of 'P_max' has no range: worst and best are both 0.8 (set worst",
     ),
-    ("weight: 0.10", "weight: -0.10", "28:30: error: the weight of 't_p' is -0.1 (a weight is a number from 0 to 1)"),
-    ("weight: 0.10", "weight: 0.20", "25:5: error: the weights sum to 1.1, not to 1 (change them by -0.1 in all, or"),
+    (
+        "weight: 0.10",
+        "weight: -0.10",
+        "28:30: error: weight of 't_p' must be at least 0, got -0.1 (give a number from 0 to 1)",
+    ),
+    ("weight: 0.10", "weight: 0.20", "25:5: error: weights must sum to 1, got 1.1 (change them by -0.1 in all, or"),
     ("weight: 0.10", "weight: 10 kg", "28:30: error: weight: '10 kg' has a unit where a pure number"),
     ("seed: 1", "seed: 2147483648", "8:7: error: seed: input should be less than or equal to 2147483647"),
     ("replicates: 3", "replicates: 0", "9:13: error: replicates: input should be greater than or equal to 1"),
@@ -204,7 +208,7 @@ def test_values_are_not_looked_at_without_measures(folder, edit):
 def test_weights_are_looked_at_without_measures(folder, edit):
     edit(STUDY, "weight: 0.10", "weight: 0.11")
 
-    with pytest.raises(DocumentError, match=r"the weights sum to 1\.01"):
+    with pytest.raises(DocumentError, match=r"weights must sum to 1, got 1\.01"):
         read_study(folder / STUDY, None, project=folder, label=STUDY)
 
 

@@ -93,9 +93,9 @@ def test_no_trial_depends_on_it(shipped, folder, section):
             "error rate must be between 0 and 0.5, got 0.6 (give a share between 0 and 0.5, such as 5 %)",
         ),
         ("1 %", "2 s", "2 s", "'2 s' has a unit where a pure number is expected (write 2)"),
-        ("0.02", "1.5", "1.5", "a margin of 1.5 is no difference of values, which lie between 0 and 1 (give one such"),
-        ("0.02", "-0.1", "-0.1", "a margin of -0.1 is no difference of values"),
-        ("4 %", "100 %", "100 %", "a slack of 1 is no share of a threshold (give one such as 10 %)"),
+        ("0.02", "1.5", "1.5", "margin must be from 0 to below 1, got 1.5 (a difference of value, such"),
+        ("0.02", "-0.1", "-0.1", "margin must be from 0 to below 1, got -0.1"),
+        ("4 %", "100 %", "100 %", "slack must be from 0 to below 1, got 1 (a share of a threshold, such as 10 %)"),
         ("pilot: 10", "pilot: 1", "1\n  batch", "pilot: input should be greater than or equal to 2"),
         ("batch: 6", "batch: 0", "0\n  cap", "batch: input should be greater than or equal to 1"),
         ("cap: 90", "cap: 20000", "20000", "cap: input should be less than or equal to 10000"),
@@ -104,13 +104,13 @@ def test_no_trial_depends_on_it(shipped, folder, section):
             "verdict_cap: 30",
             "verdict_cap: 91",
             "91",
-            "verdict_cap is 91 trials of a variant, and the cap 90 (raise the cap, or lower the other)",
+            "verdict_cap must be at most the cap of 90, got 91 (raise the cap, or lower the other)",
         ),
         (
             "pilot: 10",
             "pilot: 100",
             "100",
-            "pilot is 100 trials of a variant, and the cap 90 (raise the cap, or lower the other)",
+            "pilot must be at most the cap of 90, got 100 (raise the cap, or lower the other)",
         ),
         ("pilot: 10", "first_look: 10", "first_look", "unknown key 'first_look'"),
     ],
@@ -126,8 +126,7 @@ def test_finalists_without_a_budget_are_found(section, place_of, problems):
     section("until_decided: {finalists: 6}\n")
     (found,) = problems()
     assert found == (
-        f"{place_of(STUDY, '6}')}: error: finalists are those that a budget is spent on (give a budget too) "
-        "[study.until-decided]"
+        f"{place_of(STUDY, '6}')}: error: finalists needs a budget (give a budget too) [study.until-decided]"
     )
 
 
@@ -135,6 +134,6 @@ def test_a_cap_below_a_default_is_found_at_the_cap(section, place_of, problems):
     section("until_decided: {cap: 12}\n")
     (found,) = problems()
     assert found == (
-        f"{place_of(STUDY, '12}')}: error: verdict_cap is 16 trials of a variant, and the cap 12 "
+        f"{place_of(STUDY, '12}')}: error: verdict_cap must be at most the cap of 12, got 16 "
         "(raise the cap, or lower the other) [study.until-decided]"
     )

@@ -20,7 +20,7 @@ def carried_out():
         end = time.monotonic() + patience_s
         while len(ended) < len(tasks):
             assert time.monotonic() < end, f"no end of {set(tasks) - set(ended)}"
-            workers.want(len(tasks) - len(ended))
+            workers.prepare_for(len(tasks) - len(ended))
             while workers.free and left:
                 key = next(iter(left))
                 workers.begin(key, left.pop(key))

@@ -57,9 +57,9 @@ def test_wrong_pieces_are_failures_of_their_trials_alone(liars, specs_of, tmp_pa
             failure.key: failure for failure in lost.values()
         }
         details = {seed: failure.detail for seed, failure in lost.items()}
-        assert details[1] == "a piece was asked for, and it is a NoneType"
-        assert details[3].endswith(f"was asked for, and it is '{'0' * 59}…'")
-        assert details[4].startswith("a piece of kind plan was asked for, and it is <PieceKind.BENCH")
+        assert details[1] == "expected a piece, got a NoneType"
+        assert details[3].endswith(f", got '{'0' * 59}…'")
+        assert details[4].startswith("expected a piece of kind plan, got <PieceKind.BENCH")
         assert details[7].startswith("it is malformed: the plan is not JSON: ")
         assert details[9].endswith("NaN is not a finite number")
         assert details[11].startswith("it is malformed: the piece has 17825792 bytes")
@@ -155,14 +155,14 @@ def test_every_right_answer_is_one(liars, specs_of):
     [
         None,
         "done",
-        Ended(key="other", result=1, trouble=None, took_s=0.0),
-        Ended(key="k", result=1, trouble=None, took_s=math.nan),
-        Ended(key="k", result=1, trouble=None, took_s=-1.0),
-        Ended(key="k", result=1, trouble=None, took_s="1"),
-        Ended(key="k", result=1, trouble="trouble", took_s=1.0),
-        Ended(key="k", result=1, trouble=TaskError(kind="crashed", detail="x", may_pass=True), took_s=1.0),
+        Ended(key="other", result=1, failure=None, took_s=0.0),
+        Ended(key="k", result=1, failure=None, took_s=math.nan),
+        Ended(key="k", result=1, failure=None, took_s=-1.0),
+        Ended(key="k", result=1, failure=None, took_s="1"),
+        Ended(key="k", result=1, failure="trouble", took_s=1.0),
+        Ended(key="k", result=1, failure=TaskError(kind="crashed", detail="x", may_pass=True), took_s=1.0),
         Ended(
-            key="k", result=1, trouble=TaskError(kind=RunFailureKind.CRASHED, detail=None, may_pass=True), took_s=1.0
+            key="k", result=1, failure=TaskError(kind=RunFailureKind.CRASHED, detail=None, may_pass=True), took_s=1.0
         ),
     ],
 )
@@ -171,5 +171,5 @@ def test_what_is_not_the_end_of_a_task(ended):
 
 
 def test_what_is_the_end_of_a_task():
-    assert is_end_of(Ended(key="k", result=object(), trouble=None, took_s=1.5), "k")
+    assert is_end_of(Ended(key="k", result=object(), failure=None, took_s=1.5), "k")
     assert is_end_of(wrong_answer("k", "why"), "k")

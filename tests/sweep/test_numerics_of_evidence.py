@@ -94,7 +94,7 @@ def test_a_worker_that_was_started_with_other_kernels_refuses_to_begin(monkeypat
     monkeypatch.setattr("rgss.sweep.workers.numeric_environment_of_children", nullcontext)
     monkeypatch.setenv("OPENBLAS_NUM_THREADS", "8")
     with WorkerPool(divmod, size=1) as pool:
-        pool.want(1)
+        pool.prepare_for(1)
         with pytest.raises(
             SimulationError, match="would compute with other kernels: OPENBLAS_NUM_THREADS is 8 instead"
         ):

@@ -181,7 +181,7 @@ def test_a_variant_that_is_gone_is_refused(kinematic, record_of, store):
     store.put("a" * 64, record, NOTHING)
     with pytest.raises(DefinitionError) as caught:
         replay(kinematic, store.get("a" * 64))
-    assert str(caught.value) == "there is no variant 99 (ids of variants: from 1 to 72)"
+    assert str(caught.value) == "unknown variant 99 (ids of variants: from 1 to 72)"
 
 
 def put(store, record, key, provenance=NOTHING):

@@ -268,7 +268,9 @@ def test_a_piece_that_vanishes_is_an_error(specs_of, store, run, monkeypatch):
     run(specs_of(1), store)
     monkeypatch.setattr(EvidenceStore, "piece", lambda *_: None)
 
-    with pytest.raises(EvidenceError, match=r"^piece [0-9a-f]{12} has gone from the store during the sweep \(run the"):
+    with pytest.raises(
+        EvidenceError, match=r"^piece [0-9a-f]{12} was removed from the store during the sweep \(run the"
+    ):
         run(specs_of(2), store)
 
 

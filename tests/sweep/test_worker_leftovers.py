@@ -26,13 +26,13 @@ from rgss.sweep.workers import WorkerPool
 if __name__ == "__main__":
     with WorkerPool(worker_doubles.act, size=1) as pool:
         while not pool.free:
-            pool.want(1)
+            pool.prepare_for(1)
             pool.wait(0.1)
         pool.begin("hang", (sys.argv[2],))
         ended = []
         while not ended and not [*Path(sys.argv[3]).glob("hanging-*")]:
             ended = pool.wait(0.01)
-        print(pool._workers[0].process.pid if not ended else ended[0].trouble or "done", flush=True)
+        print(pool._workers[0].process.pid if not ended else ended[0].failure or "done", flush=True)
         if not ended:
             pool.wait(1000.0)
 """

@@ -60,14 +60,14 @@ def test_one_pool_goes_on_whatever_becomes_of_its_tasks(doubles, carried_out, tr
         ended |= timed_out(pool, clock, hanging, {"hang": ("hang",)})
         again = carried_out(pool, {"again": ("who",)})
 
-    assert ended["who"].trouble is None
+    assert ended["who"].failure is None
     assert ended["who"].result != os.getpid()
     assert ended["who"].took_s >= 0.0
     assert again["again"].result is not None
     assert ended["memory_limit"].result == GIB
     assert ended["threads"].result == "1"
     assert ended["interrupted"].result is True
-    troubles = {name: each.trouble for name, each in ended.items() if each.trouble is not None}
+    troubles = {name: each.failure for name, each in ended.items() if each.failure is not None}
     assert troubles == {
         **troubles_of_tasks,
         "allocate": TaskError(kind=RunFailureKind.OUT_OF_MEMORY, detail="MemoryError", may_pass=True),
@@ -78,7 +78,7 @@ def timed_out(pool, clock, hanging, tasks):
     """Begin a task that hangs, and let its time pass once it does; returns how it ended."""
     ((key, arguments),) = tasks.items()
     while not pool.free:
-        pool.want(1)
+        pool.prepare_for(1)
         assert pool.wait(0.1) == []
     pool.begin(key, arguments)
     while not hanging():
@@ -97,15 +97,15 @@ def test_a_worker_keeps_what_it_has_loaded_for_the_next_task(doubles, carried_ou
 
     assert first["two"].result == pid
     # Killed while it had nothing to do, or just as it was given something: told once, and never as another's.
-    trouble = after["three"].trouble
-    assert trouble is None or trouble.detail == "the worker was killed by SIGKILL"
+    failure = after["three"].failure
+    assert failure is None or failure.detail == "the worker was killed by SIGKILL"
 
 
 def test_no_more_processes_are_started_than_there_are_tasks(doubles, carried_out):
     with WorkerPool(doubles.act, size=8) as pool:
         carried_out(pool, {"one": ("who",)})
         assert pool.free == 1
-        pool.want(0)
+        pool.prepare_for(0)
         assert pool.free == 1
 
 
@@ -121,7 +121,7 @@ def test_closing_stops_at_once_and_leaves_no_process(doubles, tmp_path, carried_
 
 def start_for_ever(pool, processes):
     while True:
-        pool.want(processes)
+        pool.prepare_for(processes)
         assert pool.wait(60.0) == []
 
 
@@ -153,7 +153,7 @@ def test_workers_that_are_killed_while_they_start_are_replaced(stillborn, carrie
     with WorkerPool(stillborn(deaths), size=size) as pool:
         ended = carried_out(pool, {str(number): () for number in range(2 * size)})
 
-    assert all(each.trouble is None for each in ended.values())
+    assert all(each.failure is None for each in ended.values())
     assert len([*tmp_path.iterdir()]) == deaths
 
 
@@ -182,16 +182,16 @@ def test_garbage_in_place_of_an_answer_costs_the_worker_and_nothing_else(liars, 
         ended = carried_out(pool, {name: (name,) for name in [*names, "flood"]})
         after = carried_out(pool, {"who": ("who",)})
 
-    assert {each.trouble.kind for each in ended.values()} == {RunFailureKind.WRONG_ANSWER}
-    details = {name: each.trouble.detail for name, each in ended.items()}
+    assert {each.failure.kind for each in ended.values()} == {RunFailureKind.WRONG_ANSWER}
+    details = {name: each.failure.detail for name, each in ended.items()}
     assert details["zeros"] == "the worker was ended: it wrote something other than an answer to its pipe"
     assert details["a huge length"] == (
         f"the worker was ended: it announced an answer of {2**60} bytes; at most 67108864 are read"
     )
     assert details["a wrong checksum"] == "the worker was ended: its answer was damaged on the way"
-    assert details["an answer to another task"] == "the worker was ended: it answered something else than it was asked"
+    assert details["an answer to another task"] == "the worker was ended: its answer belongs to another task"
     assert details["what cannot be put together"].startswith("the worker was ended: its answer cannot be read: ValueEr")
-    assert after["who"].trouble is None
+    assert after["who"].failure is None
 
 
 UNFINISHED = ["half a head", "less than it says"]
@@ -210,7 +210,7 @@ def test_the_beginning_of_an_answer_keeps_nobody_longer_than_the_limit(liars, cl
         (ended,) = pool.wait(60.0)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert ended.trouble == TaskError(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True)
+    assert ended.failure == TaskError(kind=RunFailureKind.TIMED_OUT, detail="not done after 5 s", may_pass=True)
     assert peak < 8 * 1024 * 1024
 
 
@@ -223,7 +223,7 @@ def test_a_worker_that_takes_no_task_keeps_nobody_longer_than_the_limit(doubles,
         assert pool.wait(0.01) == []
         clock.now += 6.0
         (ended,) = pool.wait(60.0)
-    assert ended.trouble.kind is RunFailureKind.TIMED_OUT
+    assert ended.failure.kind is RunFailureKind.TIMED_OUT
 
 
 def test_a_large_task_and_a_large_answer_come_through(doubles, carried_out):
@@ -236,21 +236,21 @@ def test_what_a_worker_cannot_send_is_told(liars, carried_out):
     with WorkerPool(liars.act, size=1) as pool:
         ended = carried_out(pool, {name: (name,) for name in ("unpicklable", "long", "closes its descriptors")})
 
-    assert "pickle" in ended["unpicklable"].trouble.detail
-    assert ended["long"].trouble.detail.startswith("the result has 6815")
-    assert ended["closes its descriptors"].trouble.kind is RunFailureKind.CRASHED
+    assert "pickle" in ended["unpicklable"].failure.detail
+    assert ended["long"].failure.detail.startswith("the result has 6815")
+    assert ended["closes its descriptors"].failure.kind is RunFailureKind.CRASHED
 
 
 def test_a_worker_whose_child_keeps_its_pipe_is_known_to_have_ended(liars, carried_out):
     with WorkerPool(liars.act, size=1) as pool:
         ended = carried_out(pool, {"child": ("leaves a child",)})
-    assert ended["child"].trouble.detail == "the worker ended with status 7"
+    assert ended["child"].failure.detail == "the worker ended with status 7"
 
 
 def test_a_worker_that_prints_without_end_fills_nothing(liars, carried_out):
     with WorkerPool(liars.act, size=1) as pool:
         printed = carried_out(pool, {"prints": ("prints",)})["prints"].result
-        assert carried_out(pool, {"who": ("who",)})["who"].trouble is None
+        assert carried_out(pool, {"who": ("who",)})["who"].failure is None
     assert printed == 16 * 1024 * 1024
 
 
@@ -266,7 +266,7 @@ def test_processes_that_the_system_does_not_allow_are_done_without(doubles, carr
         ended = carried_out(pool, {str(number): ("who",) for number in range(4)})
         assert len({each.result for each in ended.values()}) == 1
     with pytest.raises(SimulationError) as caught:
-        pool.want(1)
+        pool.prepare_for(1)
     assert str(caught.value) == (
         "a worker process cannot start: Too many open files "
         "(see what else the machine is doing, or raise its limits ('ulimit -n', 'ulimit -u'))"
@@ -281,7 +281,7 @@ def test_a_function_that_cannot_be_imported_is_refused_at_once():
 def test_a_pool_that_is_asked_for_nothing_starts_nothing(doubles):
     with WorkerPool(doubles.act, size=2) as pool:
         assert pool.wait(0.0) == []
-        pool.want(0)
+        pool.prepare_for(0)
         assert pool.free == 0
 
 
@@ -290,10 +290,10 @@ def test_this_process_can_be_the_one_worker(doubles, carried_out):
     ended = carried_out(workers, {name: (name,) for name in ("who", "fail", "refuse")})
 
     assert workers.size == 1
-    assert ended["who"] == Ended(key="who", result=os.getpid(), trouble=None, took_s=ended["who"].took_s)
-    assert ended["fail"].trouble == TaskError(
+    assert ended["who"] == Ended(key="who", result=os.getpid(), failure=None, took_s=ended["who"].took_s)
+    assert ended["fail"].failure == TaskError(
         kind=RunFailureKind.RAISED, detail="ZeroDivisionError: division by zero", may_pass=True
     )
-    assert not ended["refuse"].trouble.may_pass
+    assert not ended["refuse"].failure.may_pass
     with contextlib.closing(workers):
         assert workers.free == 1

@@ -344,7 +344,7 @@ def test_near_ties_are_within_the_practical_margin(build_problem):
 
 @pytest.mark.parametrize("margin", [-0.1, math.nan, math.inf])
 def test_a_margin_that_is_none(build_problem, margin):
-    with pytest.raises(TradeoffError, match="the practical margin is"):
+    with pytest.raises(TradeoffError, match="practical margin must be at least 0"):
         decide(build_problem({1: {"a": 0.5}}), margin=margin)
 
 

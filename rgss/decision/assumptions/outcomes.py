@@ -25,7 +25,7 @@ class AssumptionOutcome:
 
     Attributes:
         question: The assumption and its alternative.
-        taken_as: What the study takes it as.
+        taken_as: Its value in the study.
         chosen: The variant that is then chosen; None if none is, or that is not known.
         ties: All that are then as good.
         feasible: Number of variants that then meet every requirement by their estimates.
@@ -38,7 +38,7 @@ class AssumptionOutcome:
         otherwise: Number of trials that then succeed and do not in the study, and of those that do and then do not.
         otherwise_of_choice: Number of these that are trials of the study's choice.
         excluded_by: Requirements that the study's evidence excludes the other choice by.
-        reason: Why there is no answer; empty where there is one, or trials are missing.
+        reason: Reason for a missing answer; empty where there is one, or trials are missing.
     """
 
     question: Question
@@ -80,7 +80,7 @@ def assumption_outcomes(
 def missing_trials(
     project: Project, measured: Sequence[VariantMeasures], store: EvidenceStore
 ) -> tuple[TrialSpec, ...]:
-    """The trials that the questions need and the evidence does not tell, each once.
+    """The trials that the questions need and the evidence lacks, each once.
 
     Args:
         project: The project with its study, without suppositions.

@@ -35,12 +35,13 @@ def _alternative_findings(project: Project) -> Iterator[Finding]:
 
 def _range_findings(project: Project) -> Iterator[Finding]:
     known = input_names(project)
-    for one in project.study.trade_off.sensitivity.ranges:
+    trade_off = project.study.trade_off
+    for one, place in zip(trade_off.sensitivity.ranges, trade_off.range_places, strict=True):
         if one.input not in known:
             near = difflib.get_close_matches(one.input, known, n=3)
             hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(known[:4])}"
             message = f"unknown input {one.input!r} of the decision"
-            yield replace(one.place, severity=Severity.ERROR, message=message, hint=hint)
+            yield replace(place, severity=Severity.ERROR, message=message, hint=hint)
 
 
 def input_names(project: Project) -> tuple[str, ...]:

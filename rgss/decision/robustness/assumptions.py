@@ -35,10 +35,10 @@ class AssumptionFinding:
         number: The number.
         columns: The measures of the trade-off that depend on it; empty where none does.
         range: The values over which the choice stays best; None where it could not be followed,
-            and `reason` says why.
-        reason: Why there is no range; empty otherwise.
+            and `reason` is the reason.
+        reason: Reason for the lack of a range; empty otherwise.
         simulated: Whether the trials were simulated with the number: their evidence is held, so
-            that another value would ask for other trials.
+            that another value would need other trials.
     """
 
     number: ModelNumber
@@ -58,7 +58,7 @@ def assumption_findings(
 
     Args:
         remeasuring: The evidence, which can be evaluated anew.
-        preferences: What is wanted; decided by the highest weighted value.
+        preferences: Preferences that the alternatives are compared by; decided by the highest weighted value.
         chosen: The row of the choice.
     """
     numbers = assumed_numbers(remeasuring.project)
@@ -122,7 +122,7 @@ class _Follower:
         if number.value == 0.0:
             return None, "it is assumed to be 0 and its effect is not linear"
 
-        def stand(value: float) -> Standing:
+        def evaluate(value: float) -> Standing:
             try:
                 table = self.remeasuring.table_with(number, value)
             except DefinitionError:
@@ -131,7 +131,7 @@ class _Follower:
             return self._standing(table, allowed(value))
 
         found = scanned_range(
-            stand,
+            evaluate,
             self.chosen,
             number.value,
             lowest=number.value / SCAN_FACTOR,

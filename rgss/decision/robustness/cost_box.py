@@ -43,7 +43,7 @@ def cost_box(remeasuring: Remeasuring, preferences: Preferences, chosen: int) ->
 
     Args:
         remeasuring: The evidence, which can be evaluated anew.
-        preferences: What is wanted; decided by the highest weighted value.
+        preferences: Preferences that the alternatives are compared by; decided by the highest weighted value.
         chosen: The row of the choice.
 
     Returns:

@@ -36,7 +36,7 @@ class MeasureEffects:
         factors: The factors with the levels that were analysed.
         left_out: The levels that were left out because a design with them has no estimate, as
             ``factor=level``; without them the design is balanced again.
-        designs: How many designs were analysed.
+        designs: Number of analysed designs.
         analysis: The effects; None where no balanced block of designs has estimates, and where the
             designs are a sample.
         sampled: Of designs that are a sample, the share of each factor alone with its interval, by

@@ -32,11 +32,11 @@ def study_effects(project: Project, measured: Sequence[VariantMeasures], resampl
 
     A factor may set several design parameters at once; their effects are those of the factor. A
     measure that designs without success do not have is analysed over the largest block of levels
-    of which every combination has it; what is left out is said.
+    of which every combination has it; what is left out is reported.
 
     A measure that follows from the design alone has no noise, and its effects have no intervals.
 
-    Designs that are a sample are no table of levels: of these each factor's share alone is
+    Designs that are a sample are not a table of levels: of these each factor's share alone is
     estimated, over the designs that have the measure.
 
     Args:
@@ -176,7 +176,7 @@ class _Design:
         return np.asarray(self.all_arranged(np.array(values, dtype=np.float64)[None])[0], dtype=np.float64)
 
     def all_arranged(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Rows of such values, shape (k, n), each as a table of its own: shape (k, ...)."""
+        """Rows of such values, shape (k, n), each as its own table: shape (k, ...)."""
         shape = [len(factor.levels) for factor in self.factors]
         places = np.array(self.places, dtype=np.intp).reshape(len(self.places), len(shape))
         flat = np.ravel_multi_index(tuple(places.T), shape) if shape else np.zeros(len(places), dtype=np.intp)
@@ -191,7 +191,7 @@ class _ResampledBlock:
 
     Attributes:
         means: The means of the variants, shape (b, n).
-        design: Where each variant stands.
+        design: Levels of each variant.
         cut: The levels that are kept, as an index.
         shape: The numbers of levels that are kept of each factor that varies.
     """

@@ -30,7 +30,7 @@ class RequirementPrice:
     """Price of a requirement.
 
     Attributes:
-        condition: What is demanded.
+        condition: The demand.
         steps: How the choice and the feasible set change with its limit, from loose to tight; rows
             are those of the analysis.
     """
@@ -47,7 +47,7 @@ class WeightRobustness:
         elicited: Whether the weights are bounded by what was elicited; all weights otherwise.
         regions: The weights at which each alternative wins.
         shifts: The nearest weights at which each wins, the nearest first.
-        ranges: How far each weight may move alone.
+        ranges: Range of each weight alone.
         acceptability: The indices of SMAA-2 over weights and noise; over weights alone where
             there is no noise to draw from.
         first_errors: The standard error of each alternative's first-rank acceptability over
@@ -55,7 +55,7 @@ class WeightRobustness:
         uncertainty: The uncertainty of the choice at the study's weights; None without noise.
         with_noise: Whether they are over noise too.
 
-    A part that could not be computed is None, and `Robustness.not_computed` says why.
+    A part that could not be computed is None, with its reason in `Robustness.not_computed`.
     """
 
     elicited: bool
@@ -76,22 +76,22 @@ class Robustness:
         variants: The ids of the rows of everything below, ascending.
         measures: The measures with a weight above 0: the columns of weights.
         weights: Their weights.
-        values: What each alternative is worth in them, shape (n, m); NaN where unknown.
-        feasible: Which alternatives meet every demand.
+        values: Values of each alternative in them, shape (n, m); NaN where unknown.
+        feasible: Mask of the alternatives that meet every demand.
         front: The Pareto front of the feasible ones.
-        weighting: What other weights would do; None where `refused` says why.
-        assumptions: How far each assumed number may be wrong; empty where `refused` says why.
-        costs: How far all assumed costs together may be wrong; None where `refused` says why.
-        prices: What each demand costs.
+        weighting: Effects of other weights; None where `refused` has the reason.
+        assumptions: Range of each assumed number that keeps the choice; empty where `refused` has the reason.
+        costs: Range of all assumed costs together that keeps the choice; None where `refused` has the reason.
+        prices: Price of each demand.
         reversals: Removals of an alternative that change the order of the others, under the
             study's program; none for values that are anchored on requirements.
         stretched: The same had the values been stretched between the extremes of the sample.
-        effects: What each factor does to each measure.
-        draws: How many posterior draws stand for the noise; 0 without noise.
-        resamples: How many resamples of the replicates stand for it in the effects; 0 without noise.
+        effects: Effects of each factor on each measure.
+        draws: Number of posterior draws of the noise; 0 without noise.
+        resamples: Number of resamples of the replicates for the effects; 0 without noise.
         all_resamples: Whether these are all there are.
-        refused: Why an analysis does not apply, by its name.
-        not_computed: Why a part could not be computed; what stands for it here is empty.
+        refused: Reason that an analysis does not apply, by its name.
+        not_computed: Reason for each part that could not be computed; its value here is empty.
     """
 
     variants: tuple[int, ...]

@@ -14,9 +14,9 @@ _LINEAR_FUNCTIONS = ("sum", "mean")
 
 
 def is_affine(measures: MeasureSet, measure: str, symbols: Collection[str]) -> bool:
-    """Tell whether a measure is an affine function of some symbols together, with the others held.
+    """True if a measure is an affine function of some symbols together, with the others held.
 
-    The answer is on the safe side: what simplifies to an affine function but is not written as one
+    The answer is conservative: what simplifies to an affine function but is not written as one
     may be missed.
 
     Args:

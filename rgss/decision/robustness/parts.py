@@ -61,11 +61,11 @@ _TITLES = MappingProxyType(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NotComputed:
-    """Why a part could not be computed.
+    """Reason that a part could not be computed.
 
     Attributes:
-        reason: What prevented it.
-        remedy: What to do; empty where nothing is known.
+        reason: The obstacle.
+        remedy: Remedy; empty if none is known.
     """
 
     reason: str
@@ -80,13 +80,13 @@ class PartComputer:
     """Computes parts one after the other and notes those that fail.
 
     Attributes:
-        missing: Why each part that failed was not computed.
+        missing: Reason for each part that was not computed.
     """
 
     missing: dict[Part, NotComputed] = field(default_factory=dict)
 
     def compute(self, part: Part, function: Callable[[], Result], otherwise: Result) -> Result:
-        """A part, or what stands for it where it cannot be computed.
+        """A part, or its substitute where it cannot be computed.
 
         Only errors that carry a reason for the user, and a lack of memory, are noted. All else is a
         mistake of the program and goes on to the caller.

@@ -27,7 +27,7 @@ class Remeasuring:
         measured: Its variants with their records, by ascending id.
         table: The evidence of the trade-off, whose rows are these variants.
         fixed: The values that measures take from each of the variants.
-        kinds: Which variants are alike by some of these values, for what was asked already.
+        kinds: Cache: which variants are alike by some of these values.
     """
 
     project: Project
@@ -94,7 +94,7 @@ class Remeasuring:
             values = old.values.copy()
             fresh = _padded([one[measure] for one in observed], values.shape[1])
             if column != measure:
-                # An end of an interval moves with the mean; its replicates stand as far away as they did.
+                # An end of an interval moves with the mean; its replicates keep their distances from it.
                 observed_now = _padded(self._replicates(measure, rows), values.shape[1])
                 fresh += (_mean(old.values[rows]) - _mean(observed_now))[:, None]
             values[rows] = fresh
@@ -123,7 +123,7 @@ class Remeasuring:
         return np.asarray(found[kinds], dtype=np.float64)
 
     def _alike(self, stands_on: tuple[str, ...]) -> NDArray[np.intp]:
-        """For each variant the kind that it is of by these sources, shape (n,); found once, asked for often."""
+        """Index of the kind of each variant by these sources, shape (n,); cached."""
         if stands_on not in self.kinds:
             known: dict[tuple[object, ...], int] = {}
             keys = (tuple(fixed[source] for source in stands_on) for fixed in self.fixed)

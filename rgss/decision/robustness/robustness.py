@@ -65,7 +65,7 @@ class _Posed:
     Attributes:
         problem: The trade-off.
         values: Single values, shape (n, m).
-        feasible: Which alternatives meet every demand, shape (n,).
+        feasible: Mask of the alternatives that meet every demand, shape (n,).
         weights: The weights, shape (m,).
         margin: The practical margin.
         replicates: Replicates of each alternative, shape (n,).
@@ -108,8 +108,8 @@ def analyse_robustness(
     Args:
         project: The project with its study.
         measured: Every variant with its estimates and records, by ascending id.
-        decision: What was decided.
-        problem: What `trade_problem` gives for them, where it is there already.
+        decision: The decision.
+        problem: Result of `trade_problem` for them, if it was computed already.
 
     Raises:
         EvidenceError: Trials of the study have no evidence.
@@ -185,7 +185,7 @@ def _assumed(
 
 
 def _no_weights(problem: TradeProblem, chosen: int | None) -> str:
-    """Why weights, assumptions and costs are not analysed; empty where they are."""
+    """Reason that weights, assumptions and costs are not analysed; empty where they are."""
     if chosen is None:
         return "no variant meets every requirement"
     if not isinstance(problem.program, AdditiveValue):

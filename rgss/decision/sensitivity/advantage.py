@@ -35,7 +35,7 @@ def advantage_of(standing: Standing, chosen: int, tied: tuple[int, ...]) -> Adva
     where they are better than it.
 
     Args:
-        standing: What the designs are worth.
+        standing: Weighted values and feasibility of the designs.
         chosen: The row of the choice.
         tied: The rows that are tied with it in the study, itself among them.
     """

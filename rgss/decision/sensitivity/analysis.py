@@ -37,7 +37,7 @@ class Sensitivity:
         variants: The ids of the rows of everything below, ascending.
         measures: The measures with a weight above 0.
         weights: Their weights, shape (m,).
-        tornado: Swing of the advantage over each input; None where `refused` or `not_computed` says why.
+        tornado: Swing of the advantage over each input; None where `refused` or `not_computed` has the reason.
         bends: The choice under bent value functions.
         kept: The feasible designs with the reason that each is worth keeping, or what beats it; None where it
             could not be computed.
@@ -46,8 +46,8 @@ class Sensitivity:
         agreement: The choices of the stakeholders; None where the study names none.
         accept_within: Distance from a stakeholder's best value up to which a design is accepted.
         flat: The weights that separate nothing.
-        refused: Why the sensitivity to inputs is not analysed; empty where it is.
-        not_computed: Why a part could not be computed.
+        refused: Reason that the sensitivity to inputs is not analysed; empty where it is.
+        not_computed: Reason for each part that could not be computed.
     """
 
     variants: tuple[int, ...]
@@ -131,7 +131,8 @@ def _refused(problem: TradeProblem, decision: Decision) -> str:
 
 def _tornado(standings: Standings, decision: Decision, found: Robustness) -> Tornado | DocumentError:
     """The tornado; an error in a stated range is returned, since it is the user's and leaves nothing to show."""
-    book = RangeBook(standings.project.study.trade_off.sensitivity)
+    trade_off = standings.project.study.trade_off
+    book = RangeBook(trade_off.sensitivity, trade_off.range_places)
     inputs = list(uncertain_inputs(standings, found, book))
     try:
         book.check(undecided_inputs(standings, found))

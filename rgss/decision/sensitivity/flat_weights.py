@@ -17,7 +17,7 @@ class FlatRemedy(str, Enum):
 
     Attributes:
         MOVE_ENDS: The quantities differ, but all lie beyond one end of the value function: move the ends to them.
-        VARY_THE_WORLD: Trials show the same for all: the task asks too little of the designs.
+        VARY_THE_WORLD: Trials show the same for all: the task is too easy for the designs.
         OTHER_DESIGNS: The quantity follows from the design, and the feasible designs do not differ in it.
     """
 
@@ -39,7 +39,7 @@ class FlatWeight:
         all_low: The least quantity among all designs; NaN where none is known.
         all_high: The greatest.
         among_feasible: Whether only the feasible designs do not differ.
-        remedy: What would let it separate.
+        remedy: Change that would let it separate designs.
         effective: The weights that decide, without it and all other flat ones; they sum to 1, or are empty
             where every weight is flat.
     """

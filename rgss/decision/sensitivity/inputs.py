@@ -67,10 +67,10 @@ class UncertainInput:
         base: Its value in the study.
         low: The low end of its range.
         high: The high end.
-        basis: Where the range comes from.
-        standing: What the designs are worth at a value.
+        basis: Source of the range.
+        standing: Weighted values and feasibility of the designs at a value of the input.
         exact: Whether that value is the nearest for certain; a scan may miss a change that reverts within a step.
-        search: How the value is found at which the choice changes.
+        search: Search method for the value at which the choice changes.
         known_flips: Of KNOWN, the nearest changes below and above the base; None where there is none.
     """
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from rgss.decision.sensitivity.inputs import RangeBasis
@@ -17,12 +17,19 @@ class RangeBook:
     """The ranges of a study; an input takes its own, and what is left over is a mistake.
 
     Attributes:
-        choice: How far inputs are moved where no range is stated.
+        choice: Ranges of inputs for which none is stated.
     """
 
-    def __init__(self, choice: SensitivityChoice) -> None:
+    def __init__(self, choice: SensitivityChoice, places: Sequence[Finding]) -> None:
+        """Take the section of the study's file.
+
+        Args:
+            choice: The section.
+            places: For each stated range a finding at its place.
+        """
         self.choice = choice
         self._stated = {one.input: one for one in choice.ranges}
+        self._places = {one.input: place for one, place in zip(choice.ranges, places, strict=True)}
         self._findings: list[Finding] = []
         self._known: list[str] = []
 
@@ -58,7 +65,7 @@ class RangeBook:
             name: The input.
             unit: Its unit.
             base: Its value.
-            spread: How far it is moved to either side where no range is stated.
+            spread: Change to either side where no range is stated.
             least: The least that it can be.
             most: The most that it can be.
         """
@@ -77,7 +84,7 @@ class RangeBook:
         return name in self._stated
 
     def check(self, others: Iterable[str] = ()) -> None:
-        """Make sure that every stated range is of an input, and right.
+        """Check that every stated range is of an input, and right.
 
         Args:
             others: Inputs that have no range because they decide nothing.
@@ -95,4 +102,4 @@ class RangeBook:
             raise DocumentError(sorted(self._findings))
 
     def _report(self, one: StatedRange, message: str, hint: str) -> None:
-        self._findings.append(replace(one.place, severity=Severity.ERROR, message=message, hint=hint))
+        self._findings.append(replace(self._places[one.input], severity=Severity.ERROR, message=message, hint=hint))

@@ -29,7 +29,7 @@ class Standings:
         table: Its evidence.
         values: The single values in the measures with a weight above 0, shape (n, m).
         weights: Their weights, shape (m,).
-        feasible: Which designs meet every demand, shape (n,).
+        feasible: Mask of the designs that meet every demand, shape (n,).
         remeasuring: Evaluates the evidence anew.
     """
 

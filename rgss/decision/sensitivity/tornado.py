@@ -47,7 +47,7 @@ class TornadoBar:
         kind: Its kind.
         unit: Its unit.
         base: Its value in the study.
-        basis: Where its range comes from.
+        basis: Source of its range.
         low: The low end.
         high: The high end.
         swing: The greatest less the least advantage at low end, study and high end; infinite where the choice

@@ -21,7 +21,7 @@ class ReadingOutcome:
         reading: The reading.
         chosen: The variant that is then chosen; None if none is.
         feasible: Number of variants that then meet every requirement.
-        reason: Why there is no answer; empty where there is one.
+        reason: Reason for a missing answer; empty where there is one.
     """
 
     reading: Reading

@@ -43,7 +43,7 @@ class StudyDecision:
         variants: Number of variants that were compared.
         trials: Number of their trials.
         decision: Choice, ranking, conflicts and certificate.
-        conclusion: What the verdicts show of every design.
+        conclusion: Conclusion from the verdicts on every design.
         comparison: The choice beside the runner-up; None if nothing is chosen.
         gains: The gains of the choice over the runner-up, in the order of the weights.
         closest_limits: The limits that the choice comes closest to.
@@ -52,17 +52,17 @@ class StudyDecision:
         last_of_equals: Whether the largest id of equals is chosen; the smallest otherwise.
         double_counted: Valued measures of which one contains the other.
         shared_parts: Valued measures that depend on measures in common.
-        robustness: What nearly won and what would change the decision; None if not analysed.
+        robustness: Near alternatives, and changes that would change the decision; None if not analysed.
         portfolio: The portfolio of designs; None if the study has none.
         screened: The outcome of screening; None without screening.
         what_if: The suppositions that the decision is made under; None without.
-        sensitivity: How the decision follows from its inputs; None if not analysed.
+        sensitivity: Sensitivity of the decision to its inputs; None if not analysed.
         elicited: Groups whose weights follow from pairwise answers.
         elicited_by: The same of stakeholders, by name.
         gaps: Measures of effectiveness of the choice whose equation and simulation differ by more than 10 %.
-        readings: What each reading of the source would lead to; empty if not analysed.
-        assumptions: The choice under each alternative of each assumption; empty if not asked for.
-        drivers: Which draws go with which failures; None if not analysed.
+        readings: Decision under each reading of the source; empty if not analysed.
+        assumptions: The choice under each alternative of each assumption; empty if not requested.
+        drivers: Draws that go with failures; None if not analysed.
         cases: The success of each case of the workload; empty without a workload.
         seeds: The seeds that were read, where variants may have different numbers; empty otherwise.
     """
@@ -213,7 +213,7 @@ def study_decision(
         portfolio: The portfolio.
         screened: The outcome of screening.
         what_if: The effect of suppositions.
-        readings: What each reading of the source would lead to.
+        readings: Decision under each reading of the source.
         assumptions: The choice under each alternative of each assumption.
     """
     return StudyDecision(

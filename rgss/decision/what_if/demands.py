@@ -79,7 +79,7 @@ def share_checked(name: str, value: float) -> float:
 
 
 def _risk_bound(risk: str, place: BoundChoice) -> Callable[[TradeOff, float], TradeOff]:
-    # A bound of its own takes the place of a requirement's, which stays as it is.
+    # Its own bound replaces that of a requirement, which is not changed.
     return lambda trade_off, value: _with_risk(
         trade_off, risk, lambda one: replace(one, bound=replace(place, value=value))
     )

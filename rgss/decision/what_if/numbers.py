@@ -21,7 +21,7 @@ class ModelNumber:
             ``measures.<constant>``.
         value: Its value in SI (money in US dollars).
         unit: The unit of that.
-        rationale: Why it is assumed; empty unless it is.
+        rationale: Reason for the assumption; empty unless it is assumed.
         component: The component; empty for a constant.
         role: The component's role; empty for a constant.
         name: The property, or the constant's symbol.
@@ -42,7 +42,7 @@ class ModelNumber:
 
     @property
     def source(self) -> str:
-        """The source by which measures and rules name it; empty for a constant."""
+        """Name of its source in measures and rules; empty for a constant."""
         return f"{COMPONENT_PREFIX}{self.role}.{self.name}" if self.component else ""
 
 

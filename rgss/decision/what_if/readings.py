@@ -20,7 +20,7 @@ class Reading:
     Attributes:
         measure: The measure.
         alternative: Id of the alternative.
-        rationale: Why the source can be read so.
+        rationale: Reason for this reading of the source.
     """
 
     measure: str
@@ -63,6 +63,6 @@ def with_reading(project: Project, name: str, alternative: str) -> tuple[Reading
     if supposition not in readings:
         near = difflib.get_close_matches(supposition, readings, n=3) or list(readings)[:4]
         hint = f"such as {', '.join(near)}" if near else "give a measure 'alternatives' in the measures file"
-        raise DefinitionError(f"--what-if: there is no {shown(supposition)}", hint=hint)
+        raise DefinitionError(f"--what-if: unknown reading {shown(supposition)}", hint=hint)
     found = readings[supposition]
     return found, replace(project, measures=with_alternative(project.measures, found.measure, found.alternative))

@@ -32,14 +32,14 @@ class Scenario:
 
     Attributes:
         project: The project as it would be.
-        changes: What was asked for, in the order in which it was.
-        rescaled: The weights that follow from those that were asked for: the others keep their
+        changes: The suppositions, in the order given.
+        rescaled: The weights that follow from the supposed ones: the others keep their
             proportions so that all sum to 1.
         dropped: Variants that the rules of the design space would no longer allow.
         simulated: The numbers that the trials were simulated with, by id: what trials showed is
-            held, though another value asks for other trials.
-        readings: Other readings of the source that were asked for.
-        settings: Modelling assumptions that were asked for, which trials are made with.
+            held, though another value needs other trials.
+        readings: Other readings of the source that are supposed.
+        settings: Modelling assumptions that are supposed, which trials are made with.
     """
 
     project: Project

@@ -37,8 +37,8 @@ class SettingChange:
 
     Attributes:
         id: Its name.
-        before: What it is, in words.
-        after: What is supposed, as it was written.
+        before: Its present value, in words.
+        after: The supposed value, as it was written.
     """
 
     id: str
@@ -65,10 +65,10 @@ def quantity_from(name: str, text: str, unit: str, *, above: float | None = None
     """A quantity of a supposition.
 
     Args:
-        name: What is supposed.
+        name: Name of the supposition.
         text: The value as it was written.
         unit: The SI unit.
-        above: What it must exceed.
+        above: Value that it must exceed.
         least: Its least value.
 
     Raises:

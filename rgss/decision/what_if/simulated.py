@@ -13,12 +13,12 @@ from rgss.sweep import key_of
 def simulated_numbers(
     project: Project, variants: Sequence[DesignVariant], numbers: Iterable[ModelNumber]
 ) -> frozenset[str]:
-    """The ids of the numbers of which another value asks for other trials.
+    """The ids of the numbers of which another value needs other trials.
 
     Args:
         project: The project with its study.
         variants: Its variants.
-        numbers: The numbers to look at.
+        numbers: The numbers.
     """
     asked, pairs = [], []
     for number in numbers:

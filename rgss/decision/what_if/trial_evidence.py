@@ -39,7 +39,7 @@ class ScenarioEvidence:
         return f"the suppositions need {len(self.missing)} trials of {self.trials} that were not run"
 
     def require_whole(self) -> None:
-        """Make sure that no trial is missing.
+        """Check that no trial is missing.
 
         Raises:
             EvidenceError: Some are.

@@ -14,11 +14,11 @@ from rgss.tradeoff import CriterionNode
 def with_weights(trade_off: TradeOff, wanted: Mapping[str, float]) -> TradeOff:
     """A trade-off in which some criteria have other weights in the whole.
 
-    The measures of a group keep their proportions, and so do all that nothing was said of.
+    The measures of a group keep their proportions, and so do all others.
 
     Args:
         trade_off: The trade-off.
-        wanted: The weight in the whole of each of some measures and groups.
+        wanted: The supposed weight in the whole of some measures and groups.
 
     Raises:
         DefinitionError: The weights leave nothing, or too little, for the others, or a group and
@@ -56,7 +56,7 @@ def with_weights(trade_off: TradeOff, wanted: Mapping[str, float]) -> TradeOff:
 
 
 def _scale(weights: dict[str, float], measures: Sequence[str], total: float, what: str) -> None:
-    """Give some measures another total, in their proportions."""
+    """Scale the weights of some measures to another total, in their proportions."""
     before = math.fsum(weights[measure] for measure in measures)
     if before > 0.0:
         for measure in measures:

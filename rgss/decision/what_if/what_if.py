@@ -40,7 +40,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
 
     Raises:
         DefinitionError: A text is malformed, names what is not there, has a value of another unit,
-            or says the same thing twice.
+            or a supposition is given twice.
         TradeoffError: The weights that follow contradict each other or what was elicited.
     """
     changed = project
@@ -53,7 +53,7 @@ def suppose(project: Project, suppositions: Sequence[str]) -> Scenario:
         name, value = _split(text)
         name = _full_name(project, name)
         if name in {*named, *(change.id for change in changes)}:
-            raise DefinitionError(f"--what-if: {name} is supposed twice", hint="say it once")
+            raise DefinitionError(f"--what-if: {name} is supposed twice", hint="suppose it once")
         named.add(name)
         kind, _, rest = name.partition(".")
         if kind == READING:
@@ -188,7 +188,7 @@ def _weight(project: Project, name: str, criterion: str, text: str) -> Change:
         raise _unknown(name, [f"{WEIGHT}.{other}" for other in known], criterion)
     after = _quantity(name, text, "1")
     if not 0.0 <= after <= 1.0:
-        raise DefinitionError(f"--what-if: {name} is {after:g}", hint="a weight is a number from 0 to 1")
+        raise DefinitionError(f"--what-if: {name} must be from 0 to 1, got {after:g}", hint="give a share of the whole")
     return Change(id=name, before=known[criterion], after=after, unit="1")
 
 
@@ -235,7 +235,7 @@ def _number(project: Project, name: str, text: str) -> tuple[Change, Project]:
     number = known[name]
     after = _quantity(name, text, number.unit)
     if after < 0.0 <= number.value:
-        raise DefinitionError(f"--what-if: {name} is {after:g}", hint="give a number from 0 on")
+        raise DefinitionError(f"--what-if: {name} must be at least 0, got {after:g}", hint="give a number such as 0")
     return Change(id=name, before=number.value, after=after, unit=number.unit), with_number(project, number, after)
 
 
@@ -270,4 +270,4 @@ def _unknown(name: str, known: Iterable[str], near_to: str) -> DefinitionError:
     names = list(known)
     near = difflib.get_close_matches(name, names, n=3) or [one for one in names if near_to and near_to in one][:3]
     hint = f"did you mean {' or '.join(near)}?" if near else f"such as {', '.join(names[:4])}"
-    return DefinitionError(f"--what-if: there is no {shown(name)}", hint=hint)
+    return DefinitionError(f"--what-if: unknown input {shown(name)}", hint=hint)

@@ -23,18 +23,18 @@ class SettableQuantity:
 
     Attributes:
         name: Its name in files, such as ``robot.tool_speed``.
-        kind: What its values are.
+        kind: Kind of its values.
         unit: The SI unit of its values; ``"1"`` for counts and ratios, empty for names.
-        meaning: What it is, in a sentence.
+        meaning: Meaning, in a sentence.
         field: The field of `rgss.trials.pieces.TrialSpec` that it sets, such as ``gripper.finger_mass_kg``.
         application: How it is applied to the field.
         default: The file and key that give its value where no design does; empty if there is none.
         required: Whether a trial cannot be made without it.
         positive: Whether it must be greater than zero.
         least: The least value that is accepted, with its unit; empty for none.
-        least_reason: Why a smaller value is refused.
+        least_reason: Reason that a smaller value is refused.
         greatest: The greatest value that is accepted, with its unit; empty for none.
-        greatest_reason: Why a greater value is refused.
+        greatest_reason: Reason that a greater value is refused.
         choices: The names that are accepted; empty where something else knows them.
     """
 

@@ -22,7 +22,7 @@ _LONGEST_INTEGER = 1000
 Value = TypeVar("Value")
 
 _WHERE_VARIED: Mapping[str, object] = MappingProxyType({"workload": "", "draws": {}})
-"""What the text of a record has only where something was drawn, with what stands for it elsewhere."""
+"""Keys that a record has only where something was drawn, with their defaults elsewhere."""
 
 
 def record_to_json(record: TrialRecord) -> str:
@@ -50,7 +50,7 @@ def record_from_json(text: str) -> TrialRecord:
     """Read a record that `record_to_json` wrote.
 
     Raises:
-        EvidenceError: The text is no such record; its message names the part that is wrong.
+        EvidenceError: The text is not such a record; the message names the part that is wrong.
     """
     data = _loaded(text, "record", float)
     if isinstance(data, dict):
@@ -69,7 +69,7 @@ def read_json(text: str, kind: type[Value], name: str) -> Value:
     Args:
         text: The text.
         kind: What it should be.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is something else.
@@ -95,7 +95,7 @@ def plain_json(text: str, name: str) -> Any:
 
     Args:
         text: The text.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is too long or no such JSON.
@@ -138,7 +138,7 @@ def _field_names(kind: type) -> tuple[str, ...]:
 def _without_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     mapping = dict(pairs)
     if len(mapping) < len(pairs):
-        raise ValueError("a key stands twice")
+        raise ValueError("a key occurs twice")
     return mapping
 
 

@@ -50,7 +50,7 @@ def require_alike(what: str, there: Numerics, here: Numerics) -> None:
     """Check that stored trials and new ones have the same numerics.
 
     Args:
-        what: What is stored, in words.
+        what: Name of what is stored, for messages.
         there: The numerics of the process that made it; empty if they are not known.
         here: Those of the process that makes the rest.
 
@@ -61,5 +61,5 @@ def require_alike(what: str, there: Numerics, here: Numerics) -> None:
     if difference:
         raise EvidenceError(
             f"{what} was computed with other numerics ({difference})",
-            hint="go on where it was made, or keep another store; docs/determinism.md says what agrees with what",
+            hint="go on where it was made, or keep another store; docs/determinism.md lists what agrees",
         )

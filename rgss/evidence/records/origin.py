@@ -18,7 +18,7 @@ _PACKAGE = Path(__file__).resolve().parents[2]
 _PATIENCE_S = 5.0
 
 LARGEST_FILE_BYTES = 4 * 1024**3
-"""Bytes of the largest input file: a folder of inputs is no place for recordings."""
+"""Bytes of the largest input file: a folder of inputs is not meant for recordings."""
 
 
 def code_revision() -> str:
@@ -48,7 +48,7 @@ def file_digests(folder: Path, names: Iterable[str]) -> dict[str, str]:
 
     Args:
         folder: The project's folder.
-        names: Files or folders in it, which stand for all files below them but hidden ones.
+        names: Files or folders in it; a folder includes all files below it but hidden ones.
 
     Raises:
         EvidenceError: A file is not there or cannot be read.
@@ -76,7 +76,7 @@ def _files(path: Path) -> list[Path]:
     return [file for file in below if not any(part.startswith(".") for part in file.relative_to(path).parts)]
 
 
-def _git(package: Path, *words: str) -> str | None:
+def _git(package: Path, *arguments: str) -> str | None:
     """Output of git in a folder; None if it does not know the folder or is not there."""
     program = shutil.which("git")
     if program is None:
@@ -84,7 +84,7 @@ def _git(package: Path, *words: str) -> str | None:
     try:
         # The arguments are constant, and no shell is involved.
         done = subprocess.run(  # noqa: S603
-            [program, "--no-optional-locks", "-C", str(package), *words],
+            [program, "--no-optional-locks", "-C", str(package), *arguments],
             capture_output=True,
             text=True,
             check=False,

@@ -18,7 +18,7 @@ def pack(text: str, name: str) -> bytes:
 
     Args:
         text: The text.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is too long, or is not Unicode.
@@ -37,7 +37,7 @@ def unpack(content: object, name: str) -> str:
 
     Args:
         content: The compressed text.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is something else, or would be too long.

@@ -52,13 +52,13 @@ def read_piece(row: tuple[object, ...]) -> Piece:
     """Read a row that `piece_row` made.
 
     Raises:
-        EvidenceError: It is not as it was made; the message says what is wrong with it.
+        EvidenceError: It is not as it was made; the message names the problem.
     """
     name, kind, content_digest, seal, content = row
     if not (is_digest(name) and isinstance(name, str)):
         raise EvidenceError("its digest is none")
     if kind not in {known.value for known in PieceKind}:
-        raise EvidenceError(f"there is no kind {shown(kind)}")
+        raise EvidenceError(f"unknown kind {shown(kind)}")
     text = unpack(content, "content")
     if text_digest(text) != content_digest:
         raise EvidenceError("its content is not the one that was put")

@@ -12,11 +12,11 @@ class PlanningRun:
     """One search of one planner for one move.
 
     Attributes:
-        problem: What was to be solved: the gripper and the move.
+        problem: The problem: gripper and move.
         planner: Name of the planner.
         seed: Seed of the search.
         limit_s: Longest planning time that it was given.
-        outcome: How it ended.
+        outcome: Its outcome.
         checks: State-validity checks of the search.
         simplification_checks: State-validity checks spent on shortening the path.
         time_s: Planning time by the planning clock; None if the search did not run.

@@ -26,8 +26,8 @@ class Provenance:
             them changed; empty if they were not kept.
         files: SHA-256 of each input file by its name in the project.
         revision: Revision of the code in its version control; empty if it is not known.
-        machine: What it ran on: system, processor, Python; empty if it is not known.
-        numerics: What the mathematics of the process computed, part by part; empty if that was not recorded.
+        machine: Its machine: system, processor, Python; empty if it is not known.
+        numerics: Numerics of the process, part by part; empty if not recorded.
     """
 
     inputs: Mapping[str, str]
@@ -66,7 +66,7 @@ def provenance_from_json(text: str) -> Provenance:
     """Read a provenance that `provenance_to_json` wrote, or an earlier rgss did.
 
     Raises:
-        EvidenceError: The text is no such provenance.
+        EvidenceError: The text is not such a provenance.
     """
     data = plain_json(text, "provenance")
     known_sets = (_FIRST_FIELDS, {*_FIRST_FIELDS, *_LATER_FIELDS} - {"numerics"})

@@ -65,7 +65,7 @@ def _tuple_reader(read_item: Reader) -> Reader:
         items: list[Any] = []
         try:
             for item in data:
-                items.append(read_item(item))  # noqa: PERF401 - its length says where the trouble was
+                items.append(read_item(item))  # noqa: PERF401 - its length locates the problem
         except MismatchError as error:
             raise error.within(f"[{len(items)}]") from None
         return tuple(items)
@@ -154,7 +154,7 @@ def _outer_type(kind: Any) -> type:
 
 
 def _float_reader(data: Any) -> float:
-    # A whole number may stand for a float; it stays one, for the digest tells 0 from 0.0.
+    # An integer is valid where a float is expected; it stays an integer, because the digest distinguishes 0 and 0.0.
     if type(data) is int:
         return data
     if type(data) is not float:

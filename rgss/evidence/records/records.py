@@ -13,13 +13,13 @@ Metric = float | int | None | tuple[float | int | None, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PhaseRecord:
-    """One of the eight states as it was run.
+    """One step of the task as it was run.
 
     Attributes:
-        phase: Which state.
-        outcome: How it ended.
+        phase: The phase.
+        outcome: Its outcome.
         duration_s: Simulated time that it took; None if it did not run.
-        metrics: What was observed in it, by name with unit, such as ``slip_m``.
+        metrics: Metrics of the phase, by name with unit, such as ``slip_m``.
     """
 
     phase: str
@@ -34,7 +34,7 @@ class PlanningRecord:
 
     Attributes:
         subtask: The move.
-        outcome: How its planning ended.
+        outcome: Outcome of its planning.
         checks: State-validity checks of the search (without simplification).
         simplification_checks: State-validity checks spent on shortening the path.
         time_s: Planning time by the trial's planning clock; None if it did not run.
@@ -56,14 +56,14 @@ class TrialRecord:
     Attributes:
         variant: Id of the design variant.
         seed: The trial's seed.
-        fidelity: How much physics it had.
-        success: All eight states complete and the object standing where it should.
+        fidelity: Its fidelity.
+        success: True if all steps of the task are complete and the object is where it should be.
         failure: What ended it; None on success.
         failed_phase: The phase that failed; None on success.
         failure_detail: The numbers that show the failure, in one line; empty on success.
-        phases: The eight states in order.
-        planning: The five planned moves in order.
-        metrics: What was observed over the whole trial, by name with unit.
+        phases: The steps of the task in order.
+        planning: The planned moves in order.
+        metrics: Metrics of the whole trial, by name with unit.
         workload: The case of the workload; empty where there is none.
         draws: What was drawn for it of each uncertain quantity, in SI; empty where everything is as the files say.
     """

@@ -31,9 +31,9 @@ class RunFailure:
     Attributes:
         key: Digest of the piece, or key of the trial.
         what: What it is, such as ``execution`` or ``trial``.
-        kind: How the run failed.
+        kind: Kind of the failure.
         detail: One line: the signal, the limit in seconds, the line of the exception; see `detail_line`.
-        attempts: How often it was tried.
+        attempts: Number of attempts.
     """
 
     key: str
@@ -47,7 +47,7 @@ def failure_row(failure: RunFailure) -> tuple[str, str, str, str, int, str]:
     """The row that keeps a failure; its detail is cut to one line.
 
     Raises:
-        EvidenceError: Its key is none, or its attempts are no count.
+        EvidenceError: Its key or its number of attempts is invalid.
     """
     if not is_digest(failure.key):
         raise EvidenceError(f"{shown(failure.key)} is not the key of a trial or piece", hint="it is a SHA-256")
@@ -62,7 +62,7 @@ def read_failure(row: tuple[object, ...]) -> RunFailure:
     """Read a row that `failure_row` made.
 
     Raises:
-        EvidenceError: It is not as it was made; the message says what is wrong with it.
+        EvidenceError: It is not as it was made; the message names the problem.
     """
     key, what, kind, detail, attempts, seal = row
     if not (

@@ -49,7 +49,7 @@ def read_inputs(row: tuple[object, ...]) -> TrialInputs:
     """Read a row that `inputs_row` made.
 
     Raises:
-        EvidenceError: It is not as it was made; the message says what is wrong with it.
+        EvidenceError: It is not as it was made; the message names the problem.
     """
     name, content = row
     if not (is_digest(name) and isinstance(name, str)):

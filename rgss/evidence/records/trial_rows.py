@@ -21,8 +21,8 @@ class StoredTrial:
     Attributes:
         key: SHA-256 of what went into the trial.
         content_digest: SHA-256 of the record's canonical JSON.
-        record: What came out of it.
-        provenance: Where it comes from.
+        record: Its record.
+        provenance: Its provenance.
     """
 
     key: str
@@ -62,7 +62,7 @@ def read_trial(row: tuple[object, ...]) -> StoredTrial:
     """Read a row that `trial_row` made.
 
     Raises:
-        EvidenceError: It is not as it was made; the message says what is wrong with it.
+        EvidenceError: It is not as it was made; the message names the problem.
     """
     key, variant, seed, fidelity, content, seal, packed_record, packed_provenance = row
     if not (is_digest(key) and isinstance(key, str)):
@@ -79,7 +79,7 @@ def read_trial(row: tuple[object, ...]) -> StoredTrial:
 
 
 def require_key(key: object) -> None:
-    """Make sure that something is the key of a trial.
+    """Check that a value is the key of a trial.
 
     Raises:
         EvidenceError: It is not.

@@ -15,8 +15,8 @@ class PhaseSpan:
     """Time span of a phase.
 
     Attributes:
-        phase: Which of the eight states.
-        start_s: When it began.
+        phase: The phase.
+        start_s: Time of its start.
         end_s: When it ended.
         last: Index of its last sample.
     """
@@ -31,7 +31,7 @@ class PhaseSpan:
 class TrialTrace:
     """Time series of the phases that physics ran; n samples, in simulated time without planning.
 
-    A sample stands for the physics steps from it to the next: its forces are the greatest of them
+    A sample covers the physics steps from it to the next: its forces are the greatest of them
     and its grip margin the least, so that a coarse rate hides no peak. All else is as at its time.
 
     Attributes:

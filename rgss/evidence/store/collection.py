@@ -47,7 +47,7 @@ class Collection:
     """Result of a collection.
 
     Attributes:
-        garbage: What was removed.
+        garbage: Removed rows.
         before_bytes: Bytes of the file before.
         after_bytes: Bytes of the file after.
         shrunk: Whether the file gave back what was freed; if not, it is used again by what comes.
@@ -71,18 +71,18 @@ def find_garbage(database: Database, *, trials: AbstractSet[str], pieces: Abstra
     Raises:
         EvidenceError: The store is damaged or cannot be read.
     """
-    gone = tuple(name for name in trial_names(database) if name.key not in trials)
+    removed = tuple(name for name in trial_names(database) if name.key not in trials)
     used_pieces, used_inputs = _references(database, trials)
     unused_pieces = _unused(database.rows(_PIECES), used_pieces | pieces)
     unused_inputs = _unused(database.rows(_INPUTS), used_inputs)
     named = trials | pieces
     failures = tuple(key for (key,) in database.rows("SELECT key FROM failures ORDER BY key") if key not in named)
     return Garbage(
-        trials=gone,
+        trials=removed,
         pieces=tuple(unused_pieces),
         inputs=tuple(unused_inputs),
         failures=failures,
-        size_bytes=sum(name.size_bytes for name in gone) + sum((unused_pieces | unused_inputs).values()),
+        size_bytes=sum(name.size_bytes for name in removed) + sum((unused_pieces | unused_inputs).values()),
     )
 
 
@@ -131,7 +131,7 @@ def collect_garbage(path: Path, *, trials: AbstractSet[str], pieces: AbstractSet
 def _take_for_oneself(database: Database) -> None:
     """Lock the file exclusively until it is closed.
 
-    Leaving write-ahead logging needs a lock that nobody gets while another has the file open; the
+    Leaving write-ahead logging needs a lock that is not granted while another process has the file open; the
     next process that opens it goes back to logging.
     """
     try:

@@ -14,12 +14,13 @@ from typing import Any
 
 from rgss.errors import EvidenceError, StorageError
 from rgss.evidence.records import LARGEST_TEXT
+from rgss.evidence.store.transactions import transaction
 
 BUSY_TIMEOUT_S = 30.0
 """How long a connection waits for another process that is writing."""
 
 LARGEST_ROW = LARGEST_TEXT + 1024 * 1024
-"""Bytes of the longest row that is read: a text that cannot be compressed, and what stands beside it."""
+"""Bytes of the longest row that is read: a text that cannot be compressed, and the other columns."""
 
 Row = tuple[Any, ...]
 
@@ -31,7 +32,7 @@ _HINTS: Mapping[str, str] = {
     "readonly": "choose a file and a folder that can be written",
     "unable to open": "check that it is a file in a folder that can be written",
     "not a database": "choose another file; this one is left as it is",
-    "malformed": "'rgss evidence verify' tells what is left of it",
+    "malformed": "'rgss evidence verify' shows what is left of it",
     "full": "free some space on the disk; what was put before is kept",
     "disk I/O": "free some space on the disk or look for its health; what was put before is kept",
     "closed": "open the store again",
@@ -49,7 +50,7 @@ SPACE_HINT = "free some space on the disk, or raise the limit; what was put befo
 
 
 class Database:
-    """An open database file; every error of SQLite comes as one of ours, with the file's name.
+    """An open database file; every error of SQLite is raised as one of rgss, with the file's name.
 
     Attributes:
         connection: The connection, in autocommit mode.
@@ -90,16 +91,8 @@ class Database:
         Raises:
             EvidenceError: The database cannot be read or written.
         """
-        with self.in_our_words():
-            self.connection.execute(f"BEGIN {kind}")
-            try:
-                yield
-                self.connection.execute("COMMIT")
-            except BaseException:
-                # SQLite may have rolled back by itself, as it does when the disk is full.
-                if self.connection.in_transaction:
-                    self.connection.execute("ROLLBACK")
-                raise
+        with self.in_our_words(), transaction(self.connection, kind):
+            yield
 
     def close(self) -> None:
         """Close the file; a second time does nothing."""
@@ -122,17 +115,17 @@ def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False
 
     Args:
         path: The file.
-        though_damaged: Also if it is shorter than it says that it is; only for reading.
+        though_damaged: Also if it is shorter than its header states; only for reading.
         read_only: Make no file beside it and change nothing, where nothing can be written.
 
     Raises:
         sqlite3.Error: It cannot be opened.
     """
-    # In autocommit mode, so that transactions begin and end where the store says.
+    # In autocommit mode, so that transactions begin and end where the store does it.
     connection = sqlite3.connect(
         _read_only_name(path) if read_only else path, timeout=BUSY_TIMEOUT_S, isolation_level=None, uri=read_only
     )
-    # A text that is not Unicode is damage of one row, which the row's digests will tell.
+    # A text that is not Unicode is damage of one row, which the row's digests detect.
     connection.text_factory = lambda content: content.decode("utf-8", "surrogateescape")
     try:
         if sys.version_info >= (3, 11):
@@ -160,7 +153,7 @@ def connect(path: Path, *, though_damaged: bool = False, read_only: bool = False
 
 
 def _read_only_name(path: Path) -> str:
-    """The file as SQLite is asked to read it: without its logs, unless another user is writing now."""
+    """URI of the file for SQLite: without its logs, unless another process is writing now."""
     log = path.with_name(f"{path.name}-wal")
     in_use = log.exists() and log.stat().st_size > 0
     return f"{path.resolve().as_uri()}?{'mode=ro' if in_use else 'immutable=1'}"
@@ -196,9 +189,9 @@ def in_our_words(name: str, *, outside: Sequence[str] = _OUTSIDE, folder: Path |
             raise StorageError(
                 f"the evidence store {name} cannot be used: {os.strerror(obstacle)}", hint=SPACE_HINT
             ) from error
-        hints = (hint for words, hint in _HINTS.items() if words in problem)
+        hints = (hint for phrase, hint in _HINTS.items() if phrase in problem)
         hint = next(hints, "'rgss evidence verify' looks for damage")
-        kind = StorageError if any(words in problem for words in outside) else EvidenceError
+        kind = StorageError if any(phrase in problem for phrase in outside) else EvidenceError
         raise kind(f"the evidence store {name} cannot be used: {problem}", hint=hint) from error
 
 

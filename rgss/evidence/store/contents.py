@@ -19,7 +19,7 @@ class TrialName:
         key: SHA-256 of what went into it.
         variant: Id of the design variant.
         seed: Its seed.
-        fidelity: How much physics it had.
+        fidelity: Its fidelity.
         size_bytes: Bytes of what is kept of it.
     """
 
@@ -38,7 +38,7 @@ class Contents:
         trials: The trials in the order of their keys.
         pieces: The number of pieces of each kind.
         inputs: The number of sets of named inputs.
-        failures: What could not be made, in the order of the keys.
+        failures: Trials and pieces that could not be made, in the order of the keys.
         size_bytes: Bytes of its file, with what is still in the log beside it.
     """
 

@@ -129,7 +129,7 @@ def _remove(file: Path) -> None:
 
 
 def require_content(path: Path, *, label: str) -> None:
-    """Make sure that a file which is there is not empty.
+    """Check that an existing file is not empty.
 
     A store is never empty, not even while it is made: such a file was cut to nothing, or was made by
     something else.

@@ -22,7 +22,7 @@ class Custody:
             path: The file, which is open and has been read.
 
         Raises:
-            OSError: It has gone already.
+            OSError: It was removed already.
         """
         # A later change of the working folder must not lead to another file.
         self.path = path.absolute()
@@ -31,12 +31,12 @@ class Custody:
         self._note_logs()
 
     def problem(self) -> str:
-        """Change of the files, in words that follow the store's name; empty if there is none."""
+        """Change of the files, as a phrase that follows the store's name; empty if there is none."""
         try:
             identity, size = _looked_up(self.path)
         except OSError as error:
-            gone = isinstance(error, (FileNotFoundError, NotADirectoryError))
-            return "was removed" if gone else f"cannot be reached: {error.strerror}"
+            removed = isinstance(error, (FileNotFoundError, NotADirectoryError))
+            return "was removed" if removed else f"cannot be reached: {error.strerror}"
         if identity != self._identity:
             return "was replaced by another file"
         # Only a rewriting of the whole file makes it smaller, which needs it to be open nowhere else.
@@ -64,7 +64,7 @@ class Custody:
                     place.unlink()
 
     def _note_logs(self) -> None:
-        """Take note of the logs as soon as they are there: SQLite keeps them until the last connection ends."""
+        """Record the logs as soon as they exist: SQLite keeps them until the last connection ends."""
         for ending in _LOGS:
             identity = _identity_or_none(self._beside(ending))
             if identity is not None:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def require_exportable(path: Path) -> None:
-    """Make sure that a table can be written to a file of this name, before there is work in it.
+    """Check that a table can be written to a file of this name, before there is work in it.
 
     Raises:
         EvidenceError: The name ends otherwise, or the format needs what is not installed.

@@ -160,7 +160,7 @@ def differences(connection: sqlite3.Connection) -> Iterator[tuple[str, str]]:
 
 
 def require_ledger(database: Database) -> None:
-    """Make sure that the rows of a store are those that were put.
+    """Check that the rows of a store are those that were put.
 
     Raises:
         EvidenceError: Rows are missing, were added or were renamed; or the file cannot be read.

@@ -47,7 +47,7 @@ def migrate_from_first(connection: sqlite3.Connection, make_tables: Callable[[sq
 
 
 def _names(record: bytes) -> tuple[int, int, str]:
-    """Columns by which a trial is looked up; a record without them is damaged, which its seal shows."""
+    """Columns that trials are looked up by; a record without them is damaged, which its seal shows."""
     try:
         data = plain_json(record.decode("utf-8"), "record")
         variant, seed, fidelity = data["variant"], data["seed"], Fidelity(data["fidelity"]).value

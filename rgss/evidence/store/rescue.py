@@ -23,8 +23,8 @@ class Rescue:
 
     Attributes:
         text: How much, and where.
-        hint: What to do with it.
-        rows: How many rows.
+        hint: Advice.
+        rows: Number of rows.
     """
 
     text: str
@@ -40,11 +40,11 @@ def rescued(connection: sqlite3.Connection, path: Path, pending: Sequence[tuple[
 
     Args:
         connection: The open store.
-        path: Where it was.
+        path: Its path.
         pending: Rows that were to be put.
     """
     try:
-        # The folder may have gone with the file; the one above it was never ours.
+        # The folder may have been removed with the file; the one above it is not the store's.
         path.parent.mkdir(exist_ok=True)
         target = _free_name(path)
         rows = copy_rows(_all(connection, pending), target)

@@ -60,8 +60,8 @@ def readable_rows(connection: sqlite3.Connection, table: Table[Any]) -> Iterator
 def row_numbers(connection: sqlite3.Connection, table: Table[Any]) -> tuple[list[int], list[str]]:
     """The numbers of a table's rows, and what is in the way of reading them.
 
-    They stand in the table and once more in the index of its keys, so that where pages of one are
-    damaged the other still tells of the rows on the sound pages.
+    They are in the table and once more in the index of its keys, so that where pages of one are
+    damaged the other still lists the rows on the sound pages.
 
     Args:
         connection: The store.

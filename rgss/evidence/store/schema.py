@@ -10,6 +10,7 @@ from rgss.errors import EvidenceError
 from rgss.evidence.store import connection as connecting
 from rgss.evidence.store.ledger import LEDGER_TABLE, write_ledger
 from rgss.evidence.store.migration import FIRST_TABLE, migrate_from_first
+from rgss.evidence.store.transactions import transaction
 
 APPLICATION_ID = 0x72677373
 """``rgss`` in ASCII, in the header of the file."""
@@ -77,16 +78,10 @@ def make(connection: sqlite3.Connection) -> None:
     Raises:
         sqlite3.Error: It cannot be written.
     """
-    connection.execute("BEGIN IMMEDIATE")
-    try:
+    with transaction(connection):
         connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
         _make_tables(connection)
         write_ledger(connection)
-        connection.execute("COMMIT")
-    except BaseException:
-        if connection.in_transaction:
-            connection.execute("ROLLBACK")
-        raise
     _log_ahead(connection)
 
 
@@ -95,12 +90,12 @@ def prepare(connection: sqlite3.Connection, name: str) -> None:
 
     Args:
         connection: An open database, in autocommit mode.
-        name: What to call it in messages.
+        name: Its name in messages.
 
     Raises:
         EvidenceError: It is the database of something else, of a newer version, or has been
             given views, triggers or other tables.
-        sqlite3.Error: It is no database, is damaged, or cannot be written.
+        sqlite3.Error: It is not a database, is damaged, or cannot be written.
     """
     if _version(connection, name) != SCHEMA_VERSION:
         _migrate(connection, name)
@@ -113,7 +108,7 @@ def require_present(connection: sqlite3.Connection, name: str) -> None:
 
     Raises:
         EvidenceError: It is none, or one of another schema.
-        sqlite3.Error: It is no database, or damaged.
+        sqlite3.Error: It is not a database, or damaged.
     """
     version = _version(connection, name)
     if version != SCHEMA_VERSION:
@@ -133,13 +128,13 @@ def require_own_schema(connection: sqlite3.Connection, name: str) -> None:
 
 
 def require_sound_pages(connection: sqlite3.Connection, name: str) -> None:
-    """Make sure that a file is whole before anything is written to it; some milliseconds for ten thousand trials.
+    """Check that a file is whole before anything is written to it; some milliseconds for ten thousand trials.
 
     Raises:
         EvidenceError: It is not.
         sqlite3.Error: It cannot be read.
     """
-    _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' tells what is left of it")
+    _require_sound(connection, name, "quick_check(1)", "'rgss evidence verify' shows what is left of it")
 
 
 def _make_tables(connection: sqlite3.Connection) -> None:
@@ -150,8 +145,7 @@ def _make_tables(connection: sqlite3.Connection) -> None:
 
 def _migrate(connection: sqlite3.Connection, name: str) -> None:
     """Bring a store of an older schema to this one, all in one transaction."""
-    connection.execute("BEGIN IMMEDIATE")
-    try:
+    with transaction(connection):
         version = _version(connection, name)
         if version == _BEFORE_LEDGER:
             _check_schema(connection, name, _TABLES, [_INDEX])
@@ -165,11 +159,6 @@ def _migrate(connection: sqlite3.Connection, name: str) -> None:
             _require_sound(connection, name, "integrity_check(1)", "move the file away and run the sweep again")
             migrate_from_first(connection, _make_tables)
             write_ledger(connection)
-        connection.execute("COMMIT")
-    except BaseException:
-        if connection.in_transaction:
-            connection.execute("ROLLBACK")
-        raise
 
 
 def _version(connection: sqlite3.Connection, name: str) -> int:

@@ -46,7 +46,7 @@ class EvidenceStore:
     thread that opened it; workers hand their results to it.
 
     Attributes:
-        database: The file, for what looks at it as a whole.
+        database: The file, for operations on it as a whole.
     """
 
     def __init__(self, database: Database, path: Path) -> None:

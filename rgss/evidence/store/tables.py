@@ -36,8 +36,8 @@ class Table(Generic[Value]):
         present: Selects nothing of rows but that they are there.
         put: Puts a whole row, unless its key is there.
         delete: Deletes rows.
-        content: Which column has the digest of what was put; None if the key says it all.
-        seal: Which column binds the parts of a row to each other; None if the key says it all.
+        content: Column with the digest of what was put; None if the key determines it.
+        seal: Column that binds the parts of a row to each other; None if the key determines it.
         read: Makes the value of a whole row; raises what is wrong with it.
     """
 
@@ -145,5 +145,5 @@ TABLES: tuple[Table[Any], ...] = (TRIALS, PIECES, INPUTS, FAILURES)
 
 
 def brief(key: object) -> str:
-    """A key as messages show it: the beginning of a digest, or what stands in its place."""
+    """A key as messages show it: the beginning of a digest, or the damaged value itself."""
     return key[:12] if isinstance(key, str) and is_digest(key) else shown(key)

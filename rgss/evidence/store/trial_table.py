@@ -5,10 +5,10 @@ The columns, in their order; NAME is that of a metric, with its unit at its end:
 - ``key``, ``content_digest``: digests of what went in and of what came out.
 - ``variant``, ``seed``, ``fidelity``, ``success``, ``failure``, ``failed_phase``, ``failure_detail``.
 - ``workload``, ``drawn_QUANTITY``: case of the workload, and draws of uncertain quantities; only where there are any.
-- ``NAME``: a metric of the trial (but that of success, which the column of that name says). One
+- ``NAME``: a metric of the trial (but that of success, which has its own column). One
   that is a row has a column for each entry: ``item_1_NAME``, ``item_2_NAME`` and so on; a row of
-  planning or of paths has the five planned moves in their order.
-- ``PHASE_outcome``, ``PHASE_duration_s``, ``PHASE_NAME``: each of the eight states and its metrics.
+  planning or of paths has the planned moves in their order.
+- ``PHASE_outcome``, ``PHASE_duration_s``, ``PHASE_NAME``: each step of the task and its metrics.
 - ``planning_N_outcome``, ``_checks``, ``_simplification_checks``, ``_time_s``, ``_path_length_m``: the
   planning of each of the five moves.
 - ``input_NAME``, ``version_NAME``, ``file_NAME``: digests of the pieces, versions of code and engines,
@@ -35,7 +35,7 @@ MOST_COLUMNS = 2000
 """Columns of the widest table; a record has some hundred values."""
 
 _SAID = "success"
-"""The metric that says the same as the column of this name."""
+"""The metric that equals the column of this name."""
 
 _HEAD, _DRAWN, _METRICS, _PHASES, _PLANNING, _ORIGIN = range(6)
 
@@ -48,7 +48,7 @@ _PLANNING_COLUMNS = {
 }
 
 _Order = tuple[int, int, str, int]
-"""Where a column stands: part of the table, place in the part, name and index of a metric."""
+"""Position of a column: part of the table, place in the part, name and index of a metric."""
 
 _Cell = tuple[str, Any, _Order, type]
 """Name of the column, value, place and type of the column."""
@@ -151,7 +151,7 @@ def _metric(part: int, place: int, prefix: str, name: str, value: Metric) -> Ite
 
 
 def _number(value: float | None, name: str) -> float | None:
-    """A number as a float, if that says the same."""
+    """A number as a float, if that is exact."""
     if value is None or type(value) is float:
         return value
     try:

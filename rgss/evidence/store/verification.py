@@ -33,7 +33,7 @@ class Damage:
     Attributes:
         what: What kind of row it is, such as ``trial``; ``pages`` of the file; or its ``ledger``.
         key: What the row is known by, as messages show it; the table, for the ledger; empty for pages.
-        problem: What is wrong with it, in one line.
+        problem: The problem, in one line.
         row: The number of the row in its table; None for pages and the ledger.
     """
 
@@ -51,7 +51,7 @@ class Verification:
     """Result of the check of a store.
 
     Attributes:
-        damages: What is wrong: pages first, then row by row.
+        damages: Damage: pages first, then row by row.
         sound: The number of sound rows of each kind.
         orphaned_pieces: Pieces that no trial refers to, such as those of a sweep that was interrupted.
         orphaned_inputs: Named inputs that no trial refers to.
@@ -76,7 +76,7 @@ def verify(path: Path, *, label: str) -> Verification:
         label: Its name in messages.
 
     Raises:
-        EvidenceError: It is not there, is no store, or is one of a newer rgss.
+        EvidenceError: It is not there, is not a store, or is one of a newer rgss.
     """
     if not path.exists():
         raise EvidenceError(f"there is no evidence in {label}", hint="run the sweep first")
@@ -192,7 +192,7 @@ def take_away(path: Path, verification: Verification, *, label: str) -> int:
 
     Args:
         path: The file, whose pages are sound.
-        verification: What `verify` found in it.
+        verification: Result of `verify`.
         label: Its name in messages.
 
     Returns:
@@ -222,7 +222,7 @@ def salvage(path: Path, verification: Verification, to: Path, *, label: str) -> 
 
     Args:
         path: The damaged file.
-        verification: What `verify` found in it.
+        verification: Result of `verify`.
         to: The new file, which must not be there.
         label: The damaged file's name in messages.
 

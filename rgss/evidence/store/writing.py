@@ -70,7 +70,7 @@ class EvidenceWriter:
             path: Its path.
 
         Raises:
-            EvidenceError: The file has gone since it was opened.
+            EvidenceError: The file was removed since it was opened.
         """
         self._database = database
         self._written: dict[tuple[str, str], bytes] = {}
@@ -85,10 +85,10 @@ class EvidenceWriter:
         """Transaction of changes, in the file that has the store's name.
 
         Args:
-            pending: What is to be put, which is saved elsewhere if the store was lost.
+            pending: Rows to be put, which are saved elsewhere if the store was lost.
 
         Raises:
-            StorageError: The disk is full or fails; or the store was lost, and the message says where
+            StorageError: The disk is full or fails; or the store was lost, and the message names where
                 what is left of it was saved.
             EvidenceError: The file cannot be written.
         """
@@ -113,7 +113,7 @@ class EvidenceWriter:
         """Read back what was written since the last time, as another process would, and check the whole file.
 
         Raises:
-            StorageError: The store was lost; the message says where what is left of it was saved.
+            StorageError: The store was lost; the message names where what is left of it was saved.
         """
         if self._lost is not None:
             raise self._lost

@@ -19,12 +19,12 @@ from rgss.requirements.requirement import Requirement
 def check_behaviours(
     documents: Sequence[LoadedDocument[ArchitectureFile]], requirements: Mapping[str, Requirement], hints: Hints
 ) -> Iterator[Finding]:
-    """Find what is wrong inside of behaviours.
+    """Findings inside of behaviours.
 
     Args:
         documents: The files of the architecture.
         requirements: The system requirements that could be read, by their ids.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     blocks = {block.id: block for loaded in documents for block in loaded.value.blocks}
     for loaded in documents:

@@ -19,12 +19,12 @@ _JOINING = (FlowNodeKind.MERGE, FlowNodeKind.JOIN, FlowNodeKind.FINAL)
 
 
 def check_flow(declaration: Declaration, flow: Flow, hints: Hints) -> Iterator[Finding]:
-    """Find what is wrong with a flow.
+    """Findings on a flow.
 
     Args:
         declaration: The activity.
         flow: Its flow.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     yield from repeated(declaration, _NODES, [node.id for node in flow.nodes])
     ids = {node.id: None for node in flow.nodes}
@@ -56,20 +56,22 @@ def _check_node(declaration: Declaration, node: FlowNode, at: At) -> Iterator[Fi
 
 
 def _check_ways(declaration: Declaration, node: FlowNode, at: At, *, arriving: int, leaving: int) -> Iterator[Finding]:
-    said = f"{node.kind.value} {node.id!r}"
+    subject = f"{node.kind.value} {node.id!r}"
     if node.kind is FlowNodeKind.INITIAL and arriving:
-        yield _broken(declaration, f"{said} is reached by an edge", at)
+        yield _broken(declaration, f"{subject} is reached by an edge", at)
     if node.kind is FlowNodeKind.FINAL and leaving:
-        yield _broken(declaration, f"{said} is left by an edge", at)
+        yield _broken(declaration, f"{subject} is left by an edge", at)
     if node.kind in _DIVIDING and leaving < 2:
-        yield _broken(declaration, f"{said} is left by {leaving} edges, not by 2 or more", at)
+        yield _broken(declaration, f"{subject} is left by {leaving} edges, not by 2 or more", at)
     if node.kind not in (*_DIVIDING, FlowNodeKind.FINAL) and leaving != 1:
         hint = "put a decision or a fork behind it" if leaving else "lead it to a final node"
-        yield _broken(declaration, f"{said} is left by {leaving} edges, not by 1", at, hint=hint)
+        yield _broken(declaration, f"{subject} is left by {leaving} edges, not by 1", at, hint=hint)
     if node.kind not in _JOINING and arriving > 1:
-        yield _broken(declaration, f"{said} is reached by {arriving} edges", at, hint="put a merge or a join before it")
+        yield _broken(
+            declaration, f"{subject} is reached by {arriving} edges", at, hint="put a merge or a join before it"
+        )
     if node.kind in (FlowNodeKind.MERGE, FlowNodeKind.JOIN) and arriving < 2:
-        yield _broken(declaration, f"{said} is reached by {arriving} edges, not by 2 or more", at)
+        yield _broken(declaration, f"{subject} is reached by {arriving} edges, not by 2 or more", at)
 
 
 def _check_guards(declaration: Declaration, flow: Flow) -> Iterator[Finding]:

@@ -36,8 +36,8 @@ def unknown(
         at: Location of the id within it.
         named: The id.
         known: What it may name.
-        what: What that is, in the words of the message.
-        hints: Names what was probably meant.
+        what: Name of its kind in messages.
+        hints: Suggests the id that was probably meant.
     """
     if named not in known:
         message = f"{at[-1]}: {named!r} is not a {what}"
@@ -48,7 +48,7 @@ def reached_from(starts: Iterable[str], ways: Iterable[tuple[str, str]]) -> froz
     """The ids that are reached from some others over any number of ways, with these others.
 
     Args:
-        starts: Where to begin.
+        starts: Start ids.
         ways: Source and target of each way.
     """
     onward: dict[str, list[str]] = {}

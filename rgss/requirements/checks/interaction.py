@@ -22,13 +22,13 @@ def check_interaction(
     requirements: Mapping[str, Requirement],
     hints: Hints,
 ) -> Iterator[Finding]:
-    """Find what is wrong with an interaction.
+    """Findings on an interaction.
 
     Args:
         declaration: The sequence.
         interaction: Its messages.
         requirements: The system requirements that could be read, by their ids.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     yield from repeated(declaration, _MESSAGES, [message.id for message in interaction.messages])
     order = {message.id: index for index, message in enumerate(interaction.messages)}

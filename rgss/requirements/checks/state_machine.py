@@ -16,12 +16,12 @@ _ENDS = (StateKind.FINAL, StateKind.FAILED)
 
 
 def check_machine(declaration: Declaration, machine: StateMachine, hints: Hints) -> Iterator[Finding]:
-    """Find what is wrong with a state machine.
+    """Findings on a state machine.
 
     Args:
         declaration: The behaviour.
         machine: Its states.
-        hints: Names what was probably meant.
+        hints: Suggests the id that was probably meant.
     """
     yield from repeated(declaration, _STATES, [state.id for state in machine.states])
     initial = [state.id for state in machine.states if state.kind is StateKind.INITIAL]
@@ -45,16 +45,16 @@ def check_machine(declaration: Declaration, machine: StateMachine, hints: Hints)
 
 
 def _check_state(declaration: Declaration, state: State, at: At, *, reached: bool, left: bool) -> Iterator[Finding]:
-    said = f"{state.kind.value} state" if state.kind is not StateKind.STATE else "state"
+    kind = f"{state.kind.value} state" if state.kind is not StateKind.STATE else "state"
     if state.kind in _ENDS and left:
-        yield _broken(declaration, f"{said} {state.id!r} is left by a transition", at)
+        yield _broken(declaration, f"{kind} {state.id!r} is left by a transition", at)
     if state.kind not in _ENDS and not left:
-        yield _broken(declaration, f"{said} {state.id!r} is never left", at)
+        yield _broken(declaration, f"{kind} {state.id!r} is never left", at)
     if state.kind is StateKind.INITIAL and reached:
-        yield _broken(declaration, f"{said} {state.id!r} is reached by a transition", at)
+        yield _broken(declaration, f"{kind} {state.id!r} is reached by a transition", at)
     for key, stated in (("phase", state.phase), ("does", state.does)):
         if stated is not None and state.kind is not StateKind.STATE:
-            yield _broken(declaration, f"{said} {state.id!r} has a {key!r}; only a plain state has", (*at, key))
+            yield _broken(declaration, f"{kind} {state.id!r} has a {key!r}; only a plain state has", (*at, key))
 
 
 def _check_transitions(declaration: Declaration, machine: StateMachine, hints: Hints) -> Iterator[Finding]:

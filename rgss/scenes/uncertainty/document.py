@@ -16,7 +16,7 @@ MOST_REPLICATES_OF_CASE = 1000
 
 
 def _as_text(value: Any) -> Any:
-    """A pure number may stand without quotes; its unit decides later whether it may."""
+    """A pure number may be unquoted; its unit decides later whether it is valid."""
     return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
 

@@ -14,7 +14,7 @@ _BENCH_PAYLOAD = "trial.bench_payload_kg"
 
 
 def bench_findings(project: Project) -> Iterator[Finding]:
-    """Tell of every quantity of the study's designs for which the payload bench gives no answer.
+    """Findings on the quantities of the study's designs that are outside the payload bench's validated range.
 
     A suction cup has no bench. It is a warning where a measure takes the payload from the bench, and only noted where
     none does.
@@ -48,7 +48,7 @@ def bench_findings(project: Project) -> Iterator[Finding]:
 
 
 def variants_text(numbers: list[int]) -> str:
-    """The variants that a finding is about, in words.
+    """The variants of a finding as text.
 
     Args:
         numbers: Their ids.

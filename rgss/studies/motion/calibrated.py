@@ -21,7 +21,7 @@ def motion_findings(
     """Find joints that the robot does not have, and what keeps the calibrated control from being run.
 
     Args:
-        motion: What the study says of timing and control.
+        motion: The study's timing and control.
         rate_hz: Physics steps a second, in which the control is stable.
         document: The study's file, for positions.
         designs: The design space, whose parameters may choose the control.
@@ -56,7 +56,7 @@ def calibrated_at(
     """The file and the place that choose calibrated control; None if nothing does.
 
     Args:
-        motion: What the study says of control.
+        motion: The study's control.
         document: The study's file.
         designs: The design space, whose parameters may choose the control.
         space: Its file.

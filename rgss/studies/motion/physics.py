@@ -1,4 +1,4 @@
-"""Section of a study that says how finely contact is simulated, and how soft the fingers' pads are."""
+"""Section of a study on the physics of contact: rate, solver iterations, and softness of the fingers' pads."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ _ANY_JOINT = ""
 
 
 class TimingEntry(DocumentModel):
-    """How moves are timed."""
+    """Timing of moves."""
 
     profile: Literal["time_optimal", "trapezoid", "joint_waypoints"] = "time_optimal"
     peak_speed: Dimensionless = 1.0
@@ -55,7 +55,7 @@ class GainsEntry(DocumentModel):
 
 
 class ControlEntry(DocumentModel):
-    """How the joints are controlled."""
+    """Control of the joints."""
 
     mode: Literal["position", "velocity", "computed_torque", "calibrated", "tool_tracking"] = "computed_torque"
     natural_frequency: RadiansPerSecond = _CONTROLLER.natural_frequency_rad_s
@@ -71,7 +71,7 @@ class ControlEntry(DocumentModel):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionChoice:
-    """How moves are timed and joints controlled.
+    """Timing of moves and control of joints.
 
     Attributes:
         timing: Profile and limits of the timing.
@@ -87,13 +87,13 @@ class MotionChoice:
 def read_motion(
     timing: TimingEntry, control: ControlEntry, document: Document, findings: list[Finding], *, rate_hz: float
 ) -> MotionChoice:
-    """How moves are timed and joints controlled.
+    """Timing of moves and control of joints.
 
     Args:
         timing: The section ``timing``.
         control: The section ``control``.
         document: The file, for positions.
-        findings: Where problems are put.
+        findings: Collects the problems.
         rate_hz: Physics steps a second, in which the control is stable.
     """
     found = [*_timing_findings(timing, document), *_control_findings(control, document)]
@@ -128,7 +128,7 @@ def joint_name_findings(study: MotionChoice, document: Document, robot: Robot) -
     """Find joints that the study names and the robot does not have.
 
     Args:
-        study: What the study says of timing and control.
+        study: The study's timing and control.
         document: The study's file, for positions.
         robot: The robot.
     """

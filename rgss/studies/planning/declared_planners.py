@@ -73,7 +73,7 @@ def read_planners(
     Args:
         entries: The section ``planning.planners``.
         document: The file, for positions.
-        findings: Where problems are put.
+        findings: Collects the problems.
     """
     read = {}
     for name, entry in entries.items():
@@ -99,7 +99,7 @@ def planner_problem(name: str, declared: Iterable[str] = ()) -> tuple[str, str] 
 
     Args:
         name: Its name.
-        declared: Names that the study gives to planners of its own.
+        declared: Names of the planners that the study declares.
     """
     known = [*declared, *(planner for planner in available_planners() if planner not in set(declared))]
     if name in known:
@@ -110,7 +110,7 @@ def planner_problem(name: str, declared: Iterable[str] = ()) -> tuple[str, str] 
     folded = {one.casefold(): one for one in reversed(known)}
     near = difflib.get_close_matches(name.casefold(), folded, n=1)
     suggestion = f"did you mean {folded[near[0]]!r}? " if near else ""
-    return f"there is no planner {shown(name)}", suggestion + _listed(known)
+    return f"unknown planner {shown(name)}", suggestion + _listed(known)
 
 
 def _listed(planners: Iterable[str]) -> str:
@@ -157,7 +157,7 @@ def _objective(algorithm: str, written: Written | None) -> tuple[Objective | Non
     if written not in _OBJECTIVES:
         near = difflib.get_close_matches(str(written), _OBJECTIVES, n=1)
         suggestion = f"did you mean {near[0]!r}? " if near else ""
-        message = f"there is no objective {shown(str(written))}"
+        message = f"unknown objective {shown(str(written))}"
         return None, (message, f"{suggestion}objectives: {', '.join(_OBJECTIVES)}")
     if written == NO_COST:
         return None, None
@@ -191,7 +191,7 @@ def read_parameter(planner: OmplPlanner, name: str, written: Written) -> float:
 
 
 def require_value(planner: OmplPlanner, name: str, value: float) -> None:
-    """Make sure that a planner has a parameter, and that a value in SI is one of it.
+    """Check that a planner has a parameter, and that a value in SI is valid for it.
 
     Raises:
         QuantityError: It has not, or the value is out of its range or of another type.

@@ -18,7 +18,7 @@ def read_moves(
         kinds: The section ``moves``: kind of motion by the name of a move.
         task: The task.
         document: The file, for positions.
-        findings: Where problems are put.
+        findings: Collects the problems.
     """
     for name in kinds:
         if name not in task.planned:

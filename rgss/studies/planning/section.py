@@ -16,7 +16,7 @@ from rgss.tasks import MoveKind
 
 
 class PlanningEntry(DocumentModel):
-    """How moves are planned."""
+    """Planning of moves."""
 
     clock: Literal["counted", "wall"] = "counted"
     charge_per_check: Seconds
@@ -34,7 +34,7 @@ class PlanningEntry(DocumentModel):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanningChoice:
-    """How moves are planned.
+    """Planning of moves.
 
     Attributes:
         counted: Whether planning time is counted in validity checks; a wall clock otherwise.
@@ -42,7 +42,7 @@ class PlanningChoice:
         resolution_rad: Greatest joint step between two states of a motion that a search checks.
         verification_resolution_rad: Greatest joint step between two checked states of the path that will run; as
             the search if None.
-        on_unverified: What is done with a path that is not valid at that resolution.
+        on_unverified: Handling of a path that is not valid at that resolution.
         simplification_checks: Validity checks that may be spent on looking for shortcuts.
         simplification_limit_s: Longest time of simplifying a path by the planning clock.
         clearance_m: Distance that planned paths keep from everything.
@@ -77,12 +77,12 @@ class PlanningChoice:
 
 
 def read_planning(planning: PlanningEntry, document: Document, findings: list[Finding]) -> PlanningChoice:
-    """How moves are planned.
+    """Planning of moves.
 
     Args:
         planning: The section.
         document: The file, for positions.
-        findings: Where problems are put.
+        findings: Collects the problems.
     """
     findings.extend(_value_findings(planning, document))
     findings.extend(_planning_findings(planning, document))

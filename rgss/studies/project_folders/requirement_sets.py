@@ -28,7 +28,7 @@ def measures_of(folder: str) -> str:
 
 
 def qualifier_of(folder: str) -> str:
-    """What stands before an id of a set where ids of several sets meet, such as ``bench/``; empty for the default.
+    """Prefix of ids of a set where ids of several sets meet, such as ``bench/``; empty for the default.
 
     Args:
         folder: The set, relative to the project.
@@ -46,7 +46,7 @@ def normal_folder(name: str) -> str:
 
 
 def folder_problem(project: Path, name: str) -> tuple[str, str] | None:
-    """What is wrong with the name of a set, and how to mend it; None if it can be used.
+    """Problem with the name of a set, and how to mend it; None if it can be used.
 
     Args:
         project: The project's folder.
@@ -56,7 +56,7 @@ def folder_problem(project: Path, name: str) -> tuple[str, str] | None:
     if path.as_posix() == REQUIREMENTS:
         return None
     if len(path.parts) != 2 or path.parts[0] != REQUIREMENTS or path.parts[1] == "..":
-        return f"{shown(name)} is no folder of {REQUIREMENTS}/", f"write '{REQUIREMENTS}', or '{REQUIREMENTS}/NAME'"
+        return f"{shown(name)} is not a folder of {REQUIREMENTS}/", f"write '{REQUIREMENTS}', or '{REQUIREMENTS}/NAME'"
     if path.name in (*REQUIREMENT_PARTS, *SINGLE_FILES):
         return f"{shown(name)} is a part of the default set", f"a set is called none of {', '.join(REQUIREMENT_PARTS)}"
     try:
@@ -101,7 +101,7 @@ def requirements_of_study(project: Path, study: str | None) -> str:
     named = requirements_named(project, read_document(path, label=label).data)
     if named is None:
         raise DefinitionError(
-            f"{label} names no set of requirements that can be used", hint=f"rgss check {label} says why"
+            f"{label} names no set of requirements that can be used", hint=f"run 'rgss check {label}'"
         )
     return named
 
@@ -109,7 +109,7 @@ def requirements_of_study(project: Path, study: str | None) -> str:
 def studies_by_set(project: Path) -> dict[str, str]:
     """The first study of each set of requirements that studies verify: the default study, then by name.
 
-    A study that cannot be read verifies none; whoever reads it says what is wrong with it.
+    A study that cannot be read verifies none; its findings are reported where it is read.
 
     Args:
         project: The project's folder.

@@ -14,8 +14,8 @@ class WatchedRun:
 
     Attributes:
         id: Their name.
-        fidelity: How much physics they have.
-        variants: Which variants, as ``--only`` takes it.
+        fidelity: Their fidelity.
+        variants: The variants, as ``--only`` takes them.
         replicates: Seeds at the first look.
         batch: Seeds that each further look adds.
         cap: The most seeds.
@@ -44,7 +44,7 @@ class GuardedMetric:
 
     Attributes:
         metric: Its name.
-        guard: How it may move.
+        guard: Its guard.
         runs: The runs in which it is compared.
         phases: The phases, or ``trial``.
         wherever: Whether it is compared in those of the phases alone that observe it.

@@ -21,9 +21,9 @@ def read_regression(
     """Read the section.
 
     Args:
-        entry: The section as it stands in the file; None if there is none.
+        entry: The section of the file; None if there is none.
         document: The file.
-        findings: Takes what is wrong.
+        findings: Collects the problems.
         phases: Names of the steps of the task.
 
     Returns:
@@ -50,7 +50,7 @@ class _Reader:
         metrics = [self._metric(one, place, names) for place, one in enumerate(entry.metrics)]
         seen: set[tuple[str, str, str]] = set()
         for place, metric in enumerate(metrics):
-            # One name for two margins would be compared twice, and stand once in the baseline.
+            # One name for two margins would be compared twice, and have one entry in the baseline.
             subjects = {(run, metric.metric, phase) for run in metric.runs for phase in metric.phases}
             if subjects & seen:
                 self._report(f"{metric.metric} is guarded twice", ("metrics", place, "metric"), "keep one")

@@ -54,7 +54,7 @@ def _misfit_findings(project: Project) -> Iterator[Finding]:
 
 
 def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
-    """Notes of the pairs of links that touch however the arm stands, and so are not checked against each other.
+    """Notes on the pairs of links that touch in every configuration, and so are not checked against each other.
 
     None without the engines, which find them.
 
@@ -75,7 +75,7 @@ def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]
             column=1,
             rule="robot.unchecked-pair",
             severity=Severity.INFO,
-            message=f"{first} and {second} touch however the arm stands, and are not checked against each other",
+            message=f"{first} and {second} touch in every configuration, and are not checked against each other",
             hint="make the collision shape of one of them smaller if they should be",
         )
         for first, second in pairs
@@ -98,7 +98,7 @@ def description_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding,
     for link in root.findall("link"):
         if link.get("name") not in used:
             root.remove(link)
-    for name, rule, message, hint in (*_lengths(root), *_matter(root), *_limits(root, robot), *_meshes(root, urdf)):
+    for name, rule, message, hint in (*_lengths(root), *_masses(root), *_limits(root, robot), *_meshes(root, urdf)):
         at = next((number for number, line in enumerate(lines, start=1) if f'"{name}"' in line), 1)
         severity = Severity.INFO if rule in _NOTES else Severity.WARNING
         found.append(Finding(file=label, line=at, column=1, rule=rule, severity=severity, message=message, hint=hint))
@@ -118,7 +118,7 @@ def _lengths(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
                     yield name, "robot.units", f"{name} has a length of {largest:g} m: are these millimetres?", hint
 
 
-def _matter(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
+def _masses(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
     for link in root.findall("link"):
         name = link.get("name", "")
         mass, inertia = link.find("inertial/mass"), link.find("inertial/inertia")

@@ -41,7 +41,7 @@ def drafted_robot(urdf: Path, project: Path, *, flange: str | None = None) -> Dr
     Args:
         urdf: The URDF.
         project: The folder in whose ``scenes/robots`` the files are put.
-        flange: The link that carries the gripper; found where None.
+        flange: The link that carries the gripper; found if None.
 
     Raises:
         DefinitionError: There is no arm in the URDF, or a file that it names is missing.

@@ -64,7 +64,7 @@ def payload_at_reach_kg(robot: Robot) -> float:
 
 
 def is_yaw_free(robot: Robot) -> bool:
-    """True for an arm that cannot turn its tool to every pose, whose task asks for the tool's axis alone.
+    """True for an arm that cannot turn its tool to every pose, whose task constrains the tool's axis alone.
 
     Args:
         robot: The arm.
@@ -77,7 +77,7 @@ class FittedCell:
     """A cell that suits an arm.
 
     Attributes:
-        layout: Where the tables are.
+        layout: Positions of the tables.
         home: Joint positions above the object, in rad or m.
         lower: Lower ends of ranges about the configurations at all waypoints.
         upper: Their upper ends.
@@ -103,8 +103,8 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
     """
     path = folder / "scenes" / "kitchen.yaml"
     reach_m = horizontal_reach_m(robot)
-    standing = layouts(reach_m) if reach_m >= _LEAST_REACH_M else ()
-    for layout in itertools.chain(standing, _overhead(robot, geometries)):
+    on_pedestal = layouts(reach_m) if reach_m >= _LEAST_REACH_M else ()
+    for layout in itertools.chain(on_pedestal, _overhead(robot, geometries)):
         path.write_text(scene_text(layout, robot=robot_file, is_yaw_free=is_yaw_free(robot)), encoding="utf-8")
         scene = load_scene(path, project=folder)
         if not all(_reaches_ends(scene, geometry) for geometry in geometries):
@@ -121,7 +121,7 @@ def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[Gri
 
 
 def _overhead(robot: Robot, geometries: Sequence[GripperGeometry]) -> Iterator[Layout]:
-    """Layouts under an arm that hangs; they are made only when they are asked for."""
+    """Layouts under an arm that hangs; computed lazily."""
     samples = sampled_configurations(robot)
     tools = np.array([Arm(replace(robot, base=Pose()), Pose()).tool_matrix(q) for q in samples])
     tool_m = max(geometry.grasp_centre.position_m[2] for geometry in geometries)

@@ -80,7 +80,7 @@ _PEDESTAL = """\
 """
 _CARRIED = """\
   - about: robot.base
-    rationale: What carries the arm above the tables is not modelled; it stands outside of where the tool goes.
+    rationale: What carries the arm above the tables is not modelled; it is outside of the tool's region.
 """
 _FREE_YAW = "  free_yaw: true # the cup is round: an arm of few joints turns the gripper as it can\n"
 
@@ -90,7 +90,7 @@ class Layout:
     """Positions of the tables.
 
     Attributes:
-        reach_m: The arm's reach, by which everything is scaled.
+        reach_m: The arm's reach, the scale of the layout.
         x_m: x of the object and of its place in the world.
         y_m: y of the place; the object is on the other side.
         table_m: Height of the tables' tops over the floor.
@@ -130,7 +130,7 @@ def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
     """The text of a scene file.
 
     Args:
-        layout: Where the tables are.
+        layout: Positions of the tables.
         robot: Name of the robot file.
         is_yaw_free: Whether the gripper may be turned about the vertical as suits the arm.
     """

@@ -28,7 +28,7 @@ def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], payl
     """
     lines = [
         "# Limits of the arm, from its URDF. What the URDF does not say is an assumption below: replace it by the",
-        "# manufacturer's figures. rgss robot says what the arm is, and what is wrong with its description.",
+        "# manufacturer's figures. rgss robot describes the arm, and reports problems of its description.",
         f"robot: {id_}",
         f"description: {urdf}",
         f"flange: {arm.flange}",
@@ -59,7 +59,7 @@ def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
         ),
         ("payload", "What the joints' efforts hold, with the arm as far out as it reaches, rounded down."),
         ("tool_acceleration", "That of a common collaborative arm."),
-        ("home", "A configuration above the place where the object stands, away from everything."),
+        ("home", "A configuration above the object's place, free of collisions."),
     ]
     slow = [joint.name for joint in arm.joints if joint.speed <= 0.0]
     weak = [joint.name for joint in arm.joints if joint.effort <= 0.0]

@@ -30,11 +30,11 @@ class RobotSummary:
         masses_kg: Mass of each link that has one, in the order of the URDF; mere frames are left out.
         reach_m: Greatest distance of the flange from the first axis, over sampled configurations.
         payload_at_reach_kg: Mass at the flange that the joints' efforts hold with the arm farthest out.
-        convex_shapes: Number of convex shapes that stand for meshes.
-        left_out: Pairs of links that touch however the arm stands, and are not checked.
+        convex_shapes: Number of convex shapes that replace meshes.
+        left_out: Pairs of links that touch in every configuration, and are not checked.
         at_home: Pairs of links that touch at the home.
         positions_m: Positions of the flange in sampled configurations, shape (k, 3).
-        findings: What is wrong or suspicious in the description.
+        findings: The findings.
     """
 
     robot: Robot

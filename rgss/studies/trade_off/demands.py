@@ -42,7 +42,7 @@ class RiskChoice(ABC):
     Attributes:
         share_key: The key of its share in a study.
         id: Its id, such as ``chance:SYS-005``.
-        bound: What is bounded.
+        bound: The bound.
         share: The share of the replicates.
     """
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from rgss.documents import Dimensionless, DocumentModel, Identifier, Text
+from rgss.studies.trade_off.sensitivity import SensitivityChoice
 from rgss.tradeoff import AnchorField, PortfolioAim, QuantityField, RankRule, Scenarios, ShapeKeys
 
 
@@ -62,29 +63,8 @@ class StakeholderEntry(DocumentModel):
     rationale: Text | None = None
 
 
-class RangeEntry(DocumentModel):
-    """Range over which one input of the decision is moved."""
-
-    input: Text
-    low: QuantityField
-    high: QuantityField
-    rationale: Text | None = None
-
-
-class SensitivityEntry(DocumentModel):
-    """Ranges of the inputs of the decision, and the distance from the best within which a design is kept."""
-
-    weights: Dimensionless = 0.25
-    anchors: Dimensionless = 0.10
-    thresholds: Dimensionless = 0.10
-    assumptions: Dimensionless = 0.25
-    risk_tolerance: Dimensionless = 0.3
-    keep_within: Dimensionless | None = None
-    ranges: tuple[RangeEntry, ...] = ()
-
-
 class AimEntry(DocumentModel):
-    """A measure of which the best is wanted, and what of it may be given up."""
+    """Measure that is optimised, and how much of it may be given up."""
 
     measure: Identifier
     absolute: QuantityField | None = None
@@ -187,7 +167,7 @@ class TradeOffEntry(DocumentModel):
     elicitation: tuple[AnswerEntry, ...] = ()
     stakeholders: dict[Identifier, StakeholderEntry] = Field(default_factory=dict)
     accept_within: Dimensionless = 0.05
-    sensitivity: SensitivityEntry | None = None
+    sensitivity: SensitivityChoice | None = None
     decide_by: ProgramField = AdditiveEntry(program="additive")
     chance: tuple[ChanceEntry, ...] = ()
     tail: tuple[TailEntry, ...] = ()

@@ -36,7 +36,7 @@ class TradeOffPlaces:
         Args:
             document: The study's file.
             measures: The project's measures; None if they could not be read, and then no quantity
-                of them is looked at.
+                of them is checked.
             requirements: Callback that loads the project's requirements when they are first needed; None if
                 they could not be read.
         """
@@ -109,8 +109,8 @@ class TradeOffPlaces:
             return None
         known = {item.id: item for item in requirements.system}
         if requirement not in known:
-            message = f"there is not a system requirement {requirement!r}"
-            self.report("requirement", message, at, hint=_nearest(requirement, known, "name one that is there"))
+            message = f"unknown system requirement {requirement!r}"
+            self.report("requirement", message, at, hint=_nearest(requirement, known, "name a system requirement"))
             return None
         criterion = known[requirement].criterion
         if criterion is None:

@@ -169,7 +169,7 @@ def _risk_bound(
     key, number = share
     sound = True
     if not 0.0 < number < 1.0:
-        places.report("risk", f"{key} is {number:g}", (*at, key), hint="give a number between 0 and 1, such as 0.9")
+        places.report("risk", f"{key} must be between 0 and 1, got {number:g}", (*at, key), hint="such as 0.9")
         sound = False
     if entry.requirement is not None and entry.measure is None:
         for end in ("at_most", "at_least"):

@@ -7,7 +7,7 @@ from rgss.studies.trade_off.elicitation import AnswerReader
 from rgss.studies.trade_off.places import SECTION, TradeOffPlaces
 from rgss.studies.trade_off.programs import ProgramReader, check_portfolio, read_risks
 from rgss.studies.trade_off.sections import TradeOff
-from rgss.studies.trade_off.sensitivity import read_sensitivity
+from rgss.studies.trade_off.sensitivity import SensitivityChoice, check_sensitivity
 from rgss.studies.trade_off.stakeholders import read_stakeholders
 from rgss.studies.trade_off.values import ValueReader
 from rgss.tradeoff import weighting_of
@@ -32,7 +32,8 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
     weights = {} if nodes is None else weighting_of(nodes).weights
     deciding = [measure for measure, weight in weights.items() if weight > 0.0]
     stakeholders = read_stakeholders(places, entry.stakeholders, deciding) if deciding else ()
-    sensitivity = read_sensitivity(places, entry.sensitivity)
+    sensitivity = SensitivityChoice() if entry.sensitivity is None else entry.sensitivity
+    range_places = check_sensitivity(places, sensitivity)
     program = ProgramReader(places, reader.valued, weights).read(entry.decide_by)
     name = entry.decide_by.program
     risks = read_risks(places, entry.chance, entry.tail)
@@ -46,8 +47,8 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         message = f"tolerance must be from 0 to below 1, got {entry.tolerance:g}"
         places.report("tolerance", message, (*SECTION, "tolerance"), hint="a share of each threshold, such as 5 %")
     if entry.practical_margin < 0.0:
-        message = f"the practical margin is {entry.practical_margin:g}"
-        places.report("margin", message, (*SECTION, "practical_margin"), hint="give a value from 0 on, such as 0.01")
+        message = f"practical_margin must be at least 0, got {entry.practical_margin:g}"
+        places.report("margin", message, (*SECTION, "practical_margin"), hint="a difference of value, such as 0.01")
     if entry.practical_margin and name in ("lexicographic", "epsilon_constraint"):
         message = f"the {name} program compares quantities, not values"
         hint = "give its last measure a tolerance: what lies within it is listed as near"
@@ -74,4 +75,5 @@ def read_trade_off(entry: TradeOffEntry, places: TradeOffPlaces) -> TradeOff | N
         stakeholders=stakeholders,
         accept_within=entry.accept_within,
         sensitivity=sensitivity,
+        range_places=range_places,
     )

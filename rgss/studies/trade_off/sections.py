@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from rgss.findings import Finding
 from rgss.studies.trade_off.anchored_programs import StatedProgram
 from rgss.studies.trade_off.demands import RiskChoice
 from rgss.studies.trade_off.document import PortfolioEntry
@@ -33,18 +34,19 @@ class TradeOff:
         intervals: Elicited bounds on weights.
         orders: Elicited orders of weights.
         program: The program that decides.
-        risks: What is demanded of the replicates.
+        risks: Demands on the replicates.
         practical_margin: Alternatives within it of the best are near-ties.
         tolerance: Share of a threshold by which the estimate of a measure from trials may miss it; verdicts have none.
         last_of_equals: Whether the last of the design space is chosen of designs of the same value, not the first.
         choose_levels: Whether levels of factors are chosen instead of variants.
         shown_feasible: Whether a choice must be shown to meet the requirements, by the end of the
             interval that a verdict needs; by its estimates otherwise.
-        portfolio: The portfolio; None if none is wanted.
+        portfolio: The portfolio; None if the study has none.
         elicited: The groups whose weights follow from pairwise answers.
         stakeholders: Stakeholders with weights of their own.
         accept_within: Distance from a stakeholder's best value up to which they accept a design.
-        sensitivity: How far the inputs of the decision are moved.
+        sensitivity: Ranges of the inputs of the decision.
+        range_places: For each stated range of the sensitivity a finding at its place, for messages on it.
     """
 
     valued: tuple[AnchoredValue, ...]
@@ -63,6 +65,7 @@ class TradeOff:
     stakeholders: tuple[Stakeholder, ...] = ()
     accept_within: float = 0.05
     sensitivity: SensitivityChoice = field(default_factory=SensitivityChoice)
+    range_places: tuple[Finding, ...] = ()
 
     @property
     def weighting(self) -> Weighting:

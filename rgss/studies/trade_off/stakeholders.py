@@ -23,7 +23,7 @@ class Stakeholder:
     Attributes:
         name: The name.
         weights: The weight of each measure that the study weighs, in the study's order; they sum to 1.
-        rationale: Why these; may be empty.
+        rationale: Reason for them; may be empty.
         elicited: The answers that they follow from; None if they were stated.
     """
 

@@ -57,7 +57,7 @@ class ValueReader:
 
         Args:
             entries: Its members.
-            rank_rule: The rule by which ranks become weights.
+            rank_rule: The rule that turns ranks into weights.
             at: Path of the list of its members.
             top: Whether it is the outermost group.
 
@@ -145,7 +145,7 @@ class ValueReader:
             self._places.report("weights", error.message, at, hint=error.hint)
 
     def _named(self, entry: ValueEntry, at: Place) -> bool:
-        """Tell whether an entry is either a measure or a criterion, and a new one."""
+        """True if an entry is either a measure or a criterion, and a new one."""
         if (entry.measure is None) == (entry.criterion is None):
             message = "an entry is a measure or a criterion"
             self._places.report("value", message, at, hint="give 'measure', or 'criterion' with its members in 'of'")

@@ -30,11 +30,11 @@ class DaskCluster:
     """A cluster whose workers were found to run what this process runs."""
 
     def __init__(self, client: Any, order: Order, *, address: str, machine: str) -> None:
-        """Take note of what is known of it.
+        """Record its address and its state.
 
         Args:
             client: A client of the cluster.
-            order: What holds for all tasks.
+            order: Settings that all tasks of a sweep share.
             address: The scheduler's address, for messages.
             machine: The machines that its workers run on, in one line.
         """
@@ -47,11 +47,11 @@ class DaskCluster:
         """Workers for one sweep; engines that they load are kept for the next.
 
         Args:
-            function: What makes a result from a task's arguments; a function of a module.
-            without_workers_s: How long the cluster may be without any worker in the middle of it.
+            function: Function of a module that makes a result from a task's arguments.
+            without_workers_s: Longest time without any worker during the sweep.
 
         Raises:
-            SimulationError: The scheduler has gone.
+            SimulationError: The scheduler has stopped.
         """
         return DaskWorkers(
             self._client,
@@ -73,12 +73,12 @@ def dask_cluster(
         address: The scheduler's address, such as ``tcp://head:8786``.
         time_limit_s: Greatest time of a task by the wall clock, from its beginning in its process.
         memory_limit_bytes: Greatest size of an engine process's data; 0 for no limit.
-        patience_s: How long to wait for the scheduler, and then for its first worker.
+        patience_s: Longest wait for the scheduler, and then for its first worker.
 
     Raises:
         DefinitionError: Dask is not installed, no scheduler answers, certificates are missing, it has no
             workers, or one of them runs other code or engines than this process.
-        SimulationError: An engine process cannot start there, or the scheduler has gone.
+        SimulationError: An engine process cannot start there, or the scheduler has stopped.
     """
     try:
         import distributed
@@ -87,7 +87,7 @@ def dask_cluster(
             "--dask needs the package distributed, which is not installed", hint="pip install 'rgss[dask]'"
         ) from error
     with _quiet():
-        # Certificates are in Dask's settings, if the address asks for them.
+        # Certificates are in Dask's settings, if the address requires them.
         security = distributed.Security()
         if address.startswith("tls://") and not security.get_connection_args("client").get("ssl_context"):
             raise DefinitionError(
@@ -125,8 +125,8 @@ def difference(differs: Differs, here: Mapping[str, str]) -> str:
     """In what a Dask worker differs from this process, in one line.
 
     Args:
-        differs: What the worker runs.
-        here: What this process runs.
+        differs: Code and engines of the worker.
+        here: Code and engines of this process.
     """
     who = f"the Dask worker {differs.where}"
     if differs.why:
@@ -148,7 +148,7 @@ def _inspected(client: Any, address: str, order: Order) -> str:
     try:
         answers = client.run(inspect, order, pickle.dumps((machine, ())), on_error="return")
     except OSError as error:
-        raise SimulationError(f"the Dask scheduler at {address} has gone") from error
+        raise SimulationError(f"the Dask scheduler at {address} has stopped") from error
     if not answers:
         raise DefinitionError(
             f"the Dask cluster at {address} has no workers",
@@ -165,23 +165,23 @@ def _machine_of(where: str, answer: object, expected: Mapping[str, str]) -> str:
     if isinstance(answer, ImportError) or "ModuleNotFoundError" in str(answer):
         missing = " ".join(str(answer).split())
         raise DefinitionError(f"the Dask worker {where} has no rgss that can be used: {missing}", hint=_ALIKE)
-    if isinstance(answer, Ended) and answer.trouble is None:
+    if isinstance(answer, Ended) and answer.failure is None:
         if isinstance(answer.result, Differs):
             found = Differs(found=answer.result.found, why=answer.result.why, where=where)
             raise DefinitionError(difference(found, expected), hint=_ALIKE)
         return str(answer.result)
-    if isinstance(answer, Ended) and answer.trouble and answer.trouble.kind is RunFailureKind.TIMED_OUT:
-        # A limit that is too short even for this is too short for every task, which then says so.
+    if isinstance(answer, Ended) and answer.failure and answer.failure.kind is RunFailureKind.TIMED_OUT:
+        # A limit that is too short even for this is too short for every task, which then reports it.
         return ""
     why = (
-        answer.trouble.detail if isinstance(answer, Ended) and answer.trouble else f"{type(answer).__name__}: {answer}"
+        answer.failure.detail if isinstance(answer, Ended) and answer.failure else f"{type(answer).__name__}: {answer}"
     )
     raise DefinitionError(f"the Dask worker {where} cannot run trials: {' '.join(why.split())}", hint=_ALIKE)
 
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep Dask from writing on standard error: what matters of it is said in our words."""
+    """Keep Dask from writing on standard error: our messages report what is relevant."""
     logger = logging.getLogger("distributed")
     before = logger.level
     logger.setLevel(logging.CRITICAL + 1)

@@ -33,7 +33,7 @@ class Order:
 
     Attributes:
         name: Its name, which no other has.
-        environment: What a process must run that carries out a task, as `environment` gives it.
+        environment: Code and engines that a process must have, as `environment` gives it.
         time_limit_s: Greatest time of a task by the wall clock, from its beginning in its process.
         memory_limit_bytes: Greatest size of an engine process's data; 0 for no limit.
     """
@@ -50,7 +50,7 @@ class Differs:
 
     Attributes:
         found: Its environment; empty if that is unknown.
-        why: Why it is unknown, in one line; empty if it is known.
+        why: Reason that it is unknown, in one line; empty if it is known.
         where: Address of the Dask worker that the process belongs to.
     """
 
@@ -60,7 +60,7 @@ class Differs:
 
 
 def make_alike(expected: Mapping[str, str], work: bytes) -> Any:
-    """Make a result if this process makes the same as the one that asks for it; runs in an engine process.
+    """Make a result if this process computes the same as the requesting one; runs in an engine process.
 
     Args:
         expected: What this process must run.
@@ -91,7 +91,7 @@ class Engines:
         """Begin with none.
 
         Args:
-            idle_s: How long a process may have nothing to do; who asked may have ended without a word.
+            idle_s: Longest time that a process may be idle; its client may have ended without notice.
         """
         self._idle_s = idle_s
         self._lock = threading.Lock()
@@ -104,7 +104,7 @@ class Engines:
         """Carry out a task in one of the processes.
 
         Args:
-            order: What holds for it.
+            order: Settings that all tasks of a sweep share.
             key: The task's name.
             work: A function and its arguments, pickled.
 
@@ -162,7 +162,7 @@ class Engines:
         while not self._is_over(order):
             if not begun:
                 with self._lock, _free_to_have_children():
-                    pool.want(1)
+                    pool.prepare_for(1)
                 if pool.free:
                     pool.begin(key, (order.environment, work))
                     begun = True
@@ -198,15 +198,15 @@ class Engines:
 
     def _dismiss(self, unwanted: Callable[[_Idle], bool]) -> None:
         with self._lock:
-            gone = [idle for idle in self._idle if unwanted(idle)]
-            self._idle = [idle for idle in self._idle if idle not in gone]
-        for idle in gone:
+            expired = [idle for idle in self._idle if unwanted(idle)]
+            self._idle = [idle for idle in self._idle if idle not in expired]
+        for idle in expired:
             idle.pool.close()
 
 
 def _stopped(key: str) -> Ended:
-    trouble = TaskError(kind=RunFailureKind.CRASHED, detail="the sweep was stopped", may_pass=True)
-    return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+    failure = TaskError(kind=RunFailureKind.CRASHED, detail="the sweep was stopped", may_pass=True)
+    return Ended(key=key, result=None, failure=failure, took_s=0.0)
 
 
 @contextmanager

@@ -21,7 +21,7 @@ def environment() -> dict[str, str]:
 
     Raises:
         PackageNotFoundError: An engine is not installed.
-        SimulationError: No process can be started to look at its mathematics.
+        SimulationError: No process can be started to inspect its mathematics.
     """
     return dict(_environment())
 

@@ -1,4 +1,4 @@
-"""Tasks in a Dask worker, which hands each of them to an engine process of its own.
+"""Tasks in a Dask worker, which runs each of them in its own engine process.
 
 Dask workers load these functions by the name of this module; see `engines` for why a task is not
 carried out in the Dask worker itself.
@@ -13,19 +13,19 @@ from rgss.sweep.dask.engines import Differs, Engines, Order
 from rgss.sweep.task_end import Ended
 
 EXTENSION = "rgss"
-"""The name by which a Dask worker knows its engine processes."""
+"""The name of the engine processes in a Dask worker."""
 
 
 def carry_out(order: Order, key: str, work: bytes) -> Ended:
     """Carry out a task; runs in a thread of a Dask worker.
 
     Args:
-        order: What holds for it.
+        order: Settings that all tasks of a sweep share.
         key: The task's name.
         work: A function and its arguments, pickled.
 
     Returns:
-        Its end; its result is a `Differs` if the engine process does not run what is asked for.
+        Its end; its result is a `Differs` if the engine process runs other code or engines.
 
     Raises:
         SimulationError: The engine process cannot start.
@@ -43,7 +43,7 @@ async def inspect(order: Order, work: bytes, dask_worker: Any) -> Ended:
     """Do something in an engine process of a Dask worker without waiting for one of its threads.
 
     Args:
-        order: What holds for it.
+        order: Settings that all tasks of a sweep share.
         work: A function and its arguments, pickled.
         dask_worker: The Dask worker, which Dask itself gives.
 
@@ -68,5 +68,5 @@ def stop(order: str, dask_worker: Any) -> None:
 def _engines_of(dask_worker: Any) -> Engines:
     """The engine processes of a Dask worker, which ends them when it ends itself."""
     engines = dask_worker.extensions.setdefault(EXTENSION, Engines())
-    assert isinstance(engines, Engines)  # noqa: S101 - nobody else has this name
+    assert isinstance(engines, Engines)  # noqa: S101 - the name is ours alone
     return engines

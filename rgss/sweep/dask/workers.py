@@ -47,16 +47,16 @@ class DaskWorkers:
         differs: Callable[[Differs], str],
         without_workers_s: float = WITHOUT_WORKERS_S,
     ) -> None:
-        """Prepare to work; nothing is asked of the cluster yet.
+        """Prepare to work; nothing is sent to the cluster yet.
 
         Args:
             client: A client of the cluster.
-            function: What makes a result from a task's arguments; a function of a module, since it is
+            function: Function that makes a result from a task's arguments; a function of a module, since it is
                 imported there by its name.
-            order: What holds for all tasks.
+            order: Settings that all tasks of a sweep share.
             address: The scheduler's address, for messages.
-            differs: Says in words in what a worker differs.
-            without_workers_s: How long the cluster may be without any worker.
+            differs: Describes in what a worker differs.
+            without_workers_s: Longest time without any worker.
         """
         self._client = client
         self._function = function
@@ -81,15 +81,15 @@ class DaskWorkers:
         """Number of tasks that can be begun now."""
         return max(0, IN_FLIGHT * self._threads - len(self._running))
 
-    def want(self, tasks: int) -> None:
+    def prepare_for(self, tasks: int) -> None:
         """The cluster has the workers that it has."""
 
     def begin(self, key: str, arguments: tuple[Any, ...]) -> None:
-        """Give the cluster a task.
+        """Submit a task to the cluster.
 
         Args:
             key: A name for it.
-            arguments: What the function is called with.
+            arguments: Arguments of the function.
         """
         # Pickled here, it stays as it is on its way: neither Dask nor its workers look into it.
         work = pickle.dumps((self._function, arguments))
@@ -150,8 +150,8 @@ class DaskWorkers:
             ended: object = future.result()
         except KilledWorker as error:
             detail = f"{error.allowed_failures + 1} Dask workers were lost at it"
-            trouble = TaskError(kind=RunFailureKind.CRASHED, detail=detail, may_pass=True)
-            return Ended(key=key, result=None, trouble=trouble, took_s=0.0)
+            failure = TaskError(kind=RunFailureKind.CRASHED, detail=detail, may_pass=True)
+            return Ended(key=key, result=None, failure=failure, took_s=0.0)
         except (CancelledError, OSError) as error:
             raise self._lost() from error
         except SimulationError:
@@ -166,7 +166,7 @@ class DaskWorkers:
         finally:
             future.release()
         if not is_end_of(ended, key):
-            return wrong_answer(key, "a Dask worker answered something else than it was asked")
+            return wrong_answer(key, "the answer of a Dask worker belongs to another task")
         if isinstance(ended.result, Differs):
             raise SimulationError(
                 self._differs(ended.result), hint="every worker needs the same engines and the same rgss"
@@ -175,7 +175,7 @@ class DaskWorkers:
 
     def _lost(self) -> SimulationError:
         return SimulationError(
-            f"the Dask scheduler at {self._address} has gone or has dropped the sweep's tasks",
+            f"the Dask scheduler at {self._address} has stopped or has dropped the sweep's tasks",
             hint="what was finished is kept; run the sweep again to go on",
         )
 
@@ -189,13 +189,13 @@ def stop_all(client: Any, order: Order, futures: Sequence[Any] = ()) -> None:
         futures: The tasks that have not ended.
     """
 
-    def ask() -> None:
+    def cancel() -> None:
         with contextlib.suppress(Exception):
             if futures:
                 client.cancel(list(futures))
             client.run(stop, order.name, on_error="ignore")
 
     # A scheduler that does not answer must not keep what is finished here from being written down.
-    asking = threading.Thread(target=ask, daemon=True)
-    asking.start()
-    asking.join(_STOPPING_S)
+    cancelling = threading.Thread(target=cancel, daemon=True)
+    cancelling.start()
+    cancelling.join(_STOPPING_S)

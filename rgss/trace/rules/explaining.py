@@ -125,7 +125,7 @@ with them.
 | not run | no trial of the variant was run | a marked test was not run |
 | stale | something changed since the evidence | something changed since the run |
 
-What makes a verdict stale is told by digests, and named:
+A verdict becomes stale when a digest differs, and the cause is named:
 
 - *model*, *code*, *engines*: a trial that the verdict needs has evidence only under other inputs,
   other source of the pieces that make it, or another engine. `rgss sweep` makes it anew.
@@ -134,7 +134,7 @@ What makes a verdict stale is told by digests, and named:
   constant below it. *model*, also without trials: a value of the design or a component behind it.
   `rgss measure --record` judges anew by the evidence that is there, and records that.
 
-Recorded verdicts stand in `.rgss/verdicts.json` beside the evidence. A verdict that was never
+Recorded verdicts are in `.rgss/verdicts.json` beside the evidence. A verdict that was never
 recorded cannot be older than its requirement; a recorded one that its evidence contradicts is a
 finding. A test run that `pytest --junitxml=FILE` writes notes the digest of what was tested and of
 each requirement, and is stale once one of them differs.

@@ -25,7 +25,7 @@ class PairwiseAnswer:
         most: The greatest ratio; infinite where only the least is known.
 
     Raises:
-        TradeoffError: The criteria are the same, or the ratios are no range of positive numbers.
+        TradeoffError: The criteria are the same, or the ratios are not a range of positive numbers.
     """
 
     swing_of: str

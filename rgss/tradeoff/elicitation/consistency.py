@@ -68,7 +68,7 @@ class Consistency:
     Attributes:
         criteria: Number n of criteria that ratio answers name.
         answers: Number of ratio answers.
-        checks: How many answers are more than are needed, so that they check the others.
+        checks: Number of redundant answers, which check the others.
         ratio: Saaty's consistency ratio; None where not each of the n (n - 1) / 2 pairs has one answer, or n < 3
             or above 15.
         index: The geometric consistency index, the residual variance of the logarithms (Crawford and Williams,

@@ -34,12 +34,12 @@ class ElicitedWeights:
     Attributes:
         answers: The answers.
         weights: The weight of each member; all are positive and they sum to 1.
-        method: How they were found.
+        method: Method that found them.
         factor: By how much the worst ratio is missed, at least 1.
         low: The least weight of each: over the weights that agree with all bounds, and with each ratio within
             `factor`, and over the fits without any one of the ratios.
         high: The greatest such weight.
-        consistency: How far the ratios agree; None if no ratio was stated.
+        consistency: Consistency of the ratios; None if no ratio was stated.
     """
 
     answers: tuple[PairwiseAnswer, ...]
@@ -52,7 +52,7 @@ class ElicitedWeights:
 
     @property
     def digest(self) -> str:
-        """SHA-256 of the answers, by which a decision names them."""
+        """SHA-256 of the answers, which identifies them in a decision."""
         # As floats, so that 2 and 2.0 are one answer; JSON has no number for a bound that is not there.
         ends = ((one, float(one.most) if math.isfinite(one.most) else None) for one in self.answers)
         return digest([[one.swing_of, one.over, float(one.least), most] for one, most in ends])

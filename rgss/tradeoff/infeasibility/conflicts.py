@@ -1,4 +1,4 @@
-"""Why nothing is feasible, in the language of requirements."""
+"""Infeasibility explained by requirements."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class NearestAlternative:
 
     Attributes:
         variant: Its id.
-        requirements: What it violates.
+        requirements: Requirements that it violates.
     """
 
     variant: int
@@ -47,9 +47,9 @@ class LimitChange:
 
     Attributes:
         requirement: The id of the requirement whose limit it is.
-        demand: What is demanded now, such as ``P_max >= 0.8 kg``.
+        demand: The present demand, such as ``P_max >= 0.8 kg``.
         limit: The limit now.
-        needed: What it would have to become.
+        needed: The value that it would need.
         unit: The unit of both.
     """
 
@@ -73,7 +73,7 @@ class Repair:
         requirement: Its id.
         changes: The limits that would have to move; empty if no change of this requirement alone
             helps.
-        unlocked: How many alternatives are then feasible.
+        unlocked: Number of alternatives that are then feasible.
         winner: The alternative that is then chosen; None if none.
     """
 
@@ -93,7 +93,7 @@ class JointRepair:
         requirements: The correction.
         changes: The limits that would have to move together; empty if no change of limits helps,
             because evidence is missing.
-        unlocked: How many alternatives are then feasible.
+        unlocked: Number of alternatives that are then feasible.
         winner: The alternative that is then chosen; None if none.
     """
 
@@ -108,7 +108,7 @@ class ConflictSurvival:
     """Share of resamples of the replicates in which a conflict persists.
 
     Attributes:
-        resamples: How many draws were looked at.
+        resamples: Number of draws that were evaluated.
         exact: Whether these are all distinct draws, each with its probability, so that nothing is
             left to chance; otherwise they are a sample.
         nothing_feasible: The probability that nothing is feasible in a draw.
@@ -124,7 +124,7 @@ class ConflictSurvival:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Conflicts:
-    """Why no alternative is feasible.
+    """Explanation of infeasibility.
 
     Attributes:
         excluded_by: For each requirement how many alternatives it excludes, zero included.
@@ -138,7 +138,7 @@ class Conflicts:
         repairs: For each requirement, what its limit would have to become for something to be
             feasible if nothing else changes.
         joint_repairs: The same for each of the `corrections`, in their order.
-        survival: How the conflict stands up to the noise of the replicates; None where no measure
+        survival: Stability of the conflict under the noise of the replicates; None where no measure
             has more than one.
     """
 
@@ -190,7 +190,7 @@ def excluded_counts(enumeration: Enumeration, among: NDArray[np.bool_]) -> tuple
 
     Args:
         enumeration: Every alternative evaluated.
-        among: Which alternatives count, shape (n,).
+        among: Mask of the alternatives that count, shape (n,).
 
     Returns:
         One count for each requirement, in the problem's order.
@@ -206,7 +206,7 @@ def violation_sets(violated: NDArray[np.bool_]) -> list[tuple[int, ...]]:
     """Distinct sets of demands that alternatives violate, as columns in ascending order.
 
     Args:
-        violated: Which alternative violates which requirement, shape (n, r).
+        violated: True where an alternative violates a requirement, shape (n, r).
     """
     import numpy as np
 

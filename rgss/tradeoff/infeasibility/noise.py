@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rgss.tradeoff.programs import Preferences
 
 RESAMPLES = 1_000
-"""So often the replicates are drawn anew, where there are too many distinct draws to look at each."""
+"""Number of resamples of the replicates where there are too many distinct ones to evaluate each."""
 
 
 def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Iterator[EvidenceTable]:
@@ -30,7 +30,7 @@ def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Iterator[Evi
 
     Args:
         table: The evidence.
-        resamples: How often each replicate is in each draw.
+        resamples: Count of each replicate in each draw.
 
     Yields:
         A table for each draw.
@@ -54,13 +54,13 @@ def resampled_tables(table: EvidenceTable, resamples: Resamples) -> Iterator[Evi
 def conflict_survival(
     preferences: Preferences, table: EvidenceTable, conflicts: Conflicts, *, resamples: int = RESAMPLES, seed: int = 0
 ) -> Conflicts:
-    """Tell how often each conflict is still there when the replicates are drawn anew.
+    """Share of resamples of the replicates in which each conflict is still present.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         table: The evidence.
         conflicts: The conflicts that it has.
-        resamples: How often to draw, where there are too many distinct draws to look at each.
+        resamples: Number of resamples where there are too many distinct ones to evaluate each.
         seed: Seed of the draws.
 
     Returns:

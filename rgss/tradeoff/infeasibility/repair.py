@@ -27,7 +27,7 @@ def find_repairs(preferences: Preferences, enumeration: Enumeration) -> tuple[Re
     change is taken.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated.
 
     Returns:
@@ -49,7 +49,7 @@ def find_joint_repairs(
     smallest largest relative change of their limits.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated.
         corrections: The smallest sets of requirements without which something is feasible.
 
@@ -75,7 +75,7 @@ def _mended(
     if {condition.requirement for condition in conditions} != set(requirements):
         # Missing evidence has no limit that could move.
         return none
-    # Only these are looked at from here on, so that many corrections of many alternatives take no longer.
+    # Only these are examined from here on, so that many corrections of many alternatives take no longer.
     table = enumeration.table.rows(np.flatnonzero(only))
     columns = [condition_column(condition, table) for condition in conditions]
     movable = np.all([_reachable(*pair) for pair in zip(conditions, columns, strict=True)], axis=0)
@@ -106,8 +106,8 @@ def _mended(
 
 
 def _reachable(condition: Condition, column: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Where a condition can be met by another limit: a statistic is known, and a chance is not 0."""
-    # A chance of 0 demands nothing, so it is no demand that could be written down.
+    """True where another limit would meet a condition: a statistic is known, and a chance is not 0."""
+    # A chance of 0 demands nothing, so it cannot be suggested as a demand.
     return column > 0.0 if isinstance(condition, ChanceBound) else ~np.isnan(column)
 
 

@@ -28,11 +28,11 @@ class Attempt:
 
     Attributes:
         run: The options.
-        outcome: What it came to.
+        outcome: Its outcome.
         score: The objective of the selected design, recomputed; minus infinity if there is none.
         design: The selected design, shape (f,); None if there is none.
         gap: The gap that the solver proved.
-        selection_error: How far its variables are from the design.
+        selection_error: Distance of its variables from the design.
     """
 
     run: SolverRun
@@ -62,19 +62,19 @@ class BestKnown:
     design: Designs | None = None
 
     def take(self, found: tuple[float, Designs] | None) -> bool:
-        """Take an objective with its design if it is better; whether it is."""
+        """Keep an objective with its design if it is better; returns True if it is."""
         if found is None or not found[0] > self.score + tolerance_at(self.score):
             return False
         self.score, self.design = found
         return True
 
     def take_from(self, attempt: Attempt) -> None:
-        """Take the design of a run if it is better."""
+        """Keep the design of a run if it is better."""
         if attempt.design is not None:
             self.take((attempt.score, attempt.design))
 
     def prefer(self, attempt: Attempt) -> None:
-        """Take the design of a run if it is as good, so that the checks change an answer only where it is wrong."""
+        """Keep the design of a run if it is as good, so that the checks change an answer only where it is wrong."""
         if attempt.design is not None and attempt.score >= self.score - tolerance_at(self.score):
             self.score, self.design = attempt.score, attempt.design
 

@@ -57,7 +57,7 @@ class GuardedStageSolver(StageSolver):
 
     Attributes:
         grid: The tables as arrays.
-        model: What the variables stand for.
+        model: Meaning of the variables.
         exhaustive: Whether all combinations are evaluated.
         runs: Makes the runs of the solver, each of which ends.
         known: Feasible designs of earlier stages, from which the search starts.

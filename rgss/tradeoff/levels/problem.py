@@ -24,7 +24,7 @@ LARGEST_ENUMERATED = 5_000_000
 """Up to so many combinations are evaluated, block by block, to check each stage of the solver's answer."""
 
 LARGEST_TABULATED = 1_000_000
-"""Up to so many combinations are held in one table, by which the whole program is checked at once."""
+"""Largest number of combinations that are kept in one table, so that the whole program is checked at once."""
 
 MOST_ROUNDS = 3
 """So often a program is solved anew where a later stage finds better designs than an earlier one."""
@@ -41,11 +41,11 @@ class LevelProblem(Preferences):
         tables: For each measure the tables whose sum it is: each over the levels, or the
             combinations of levels, that the part depends on; None where a part is unknown. A cost,
             for instance, is the sum of one table for each component.
-        thresholds: What the requirements demand.
+        thresholds: Thresholds of the requirements.
         value_functions: One for every measure that has a weight, and for no other.
         weighting: The weights.
-        program: How is decided; by the highest weighted value by default.
-        weight_bounds: What is known of the weights beside their values.
+        program: Decision program; the highest weighted value by default.
+        weight_bounds: Bounds and orders of the weights.
         risks: None, because tables have no replicates.
 
     Raises:
@@ -148,8 +148,8 @@ class LevelDecision:
         levels: The level of each factor; empty if infeasible.
         variant: The number of the combination among all, from 1; None if infeasible.
         measures: What the design is in every measure; empty if infeasible.
-        combinations: How many combinations of levels there are, excluded ones included.
-        certificate: What was proved and by which checks, recomputed from the tables.
+        combinations: Number of combinations of levels, excluded ones included.
+        certificate: Certificate: proven results and checks, recomputed from the tables.
         enumerated: Whether each stage was compared with all combinations, which is done up to
             `LARGEST_ENUMERATED`.
     """
@@ -282,6 +282,6 @@ def _check_table(space: LevelSpace, measure: str, table: Table) -> None:
             )
         if entry is not None and not math.isfinite(entry):
             raise TradeoffError(
-                f"{measure!r} at {', '.join(combination)} is {entry:g}",
-                hint="an entry is a finite number, or None where it is unknown",
+                f"{measure!r} at {', '.join(combination)} must be finite or None, got {entry:g}",
+                hint="give None where it is unknown",
             )

@@ -13,7 +13,7 @@ from rgss.tradeoff.milp import Constraint, Stage
 from rgss.tradeoff.problem import Threshold
 
 SAMPLED = 20_000
-"""So many random designs are looked at; the best of them are improved."""
+"""Number of random designs that are evaluated; the best of them are improved."""
 
 STARTS = 24
 """So many designs are improved, beside those that are given."""

@@ -69,7 +69,7 @@ class LevelModel:
         Args:
             structure: The levels that make each alternative.
             alternatives: The alternatives.
-            measures: The measures that the program looks at.
+            measures: The measures that the program uses.
         """
         by_levels = {structure.levels[alternative.variant]: alternative for alternative in alternatives}
         factors = tuple(factor.id for factor in structure.space.factors)
@@ -162,7 +162,7 @@ class LevelSelection:
         return LinearQuantity(measure=measure, expression=sum(parts), low=low, high=high, require=self.require)
 
     def require(self, constraint: Any) -> None:
-        """Take a constraint on variables that a term added."""
+        """Add a constraint on variables that a term added."""
         self._structure.append(("auxiliary", constraint))
 
     def exclusion(self, alternative: Alternative) -> Any:

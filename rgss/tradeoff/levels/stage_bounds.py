@@ -113,7 +113,7 @@ def _(term: WorstOf, quantities: Quantities) -> Column:
 
 @singledispatch
 def can_hold(constraint: Constraint, quantities: Quantities) -> Mask:  # noqa: ARG001 - read by the terms' own
-    """Whether a constraint can hold, shape (n,).
+    """True where a constraint can hold, shape (n,).
 
     Raises:
         TradeoffError: There is no such test for this kind of constraint.

@@ -1,4 +1,4 @@
-"""Solver runs that end: each in a process of its own, with a limit of time beside the solver's own limits."""
+"""Solver runs with a hard time limit: each in its own process, which is ended if the solver ignores its limits."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class LimitedRuns:
     Args:
         time_limit: Seconds for all runs together; each may take half of what is left, or a quarter. None for the
             default limits.
-        process: Where the runs are made; by default a new process.
+        process: Process of the runs; a new one by default.
         clock: The clock of the time limit, in seconds.
 
     Raises:

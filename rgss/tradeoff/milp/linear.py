@@ -23,7 +23,7 @@ def solve_linear(
     """Minimise a linear cost.
 
     Args:
-        cost: What is minimised, shape (v,).
+        cost: Cost vector, shape (v,).
         rows: Inequalities a x <= c, shape (k, v).
         limits: Their right-hand sides.
         equation_rows: Equations, shape (q, v).

@@ -1,6 +1,6 @@
-"""A process of its own in which a solver runs, so that a run that does not return can be ended from outside.
+"""Separate process for a solver, so that a run that does not return can be ended from outside.
 
-HiGHS 1.15.1 looks at none of its limits in some loops: its presolve removes doubleton equations for ever on a
+HiGHS 1.15.1 checks none of its limits in some loops: its presolve removes doubleton equations for ever on a
 program of 88 rows (benchmarks/tradeoff_guard_cases.py, level_case(1020)), whatever `time_limit` is; see
 ERGO-Code/HiGHS#1278 and #2226, both open.
 """
@@ -78,7 +78,7 @@ class SolverProcess:
 
         Args:
             request: The solver, its options and the program's arrays.
-            limit: When the run is ended.
+            limit: Limit of the run.
 
         Returns:
             What the solver answered.

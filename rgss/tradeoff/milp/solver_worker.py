@@ -58,7 +58,7 @@ def serve(descriptor: int) -> None:
             answer = (f"{type(error).__name__}: {error}", None)
         for timer in (signal.ITIMER_PROF, signal.ITIMER_REAL):
             signal.setitimer(timer, 0.0)
-        # A parent that is gone is noticed by the other thread.
+        # The other thread detects that the parent has ended.
         with contextlib.suppress(OSError):
             connection.send(answer)
 

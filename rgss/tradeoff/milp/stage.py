@@ -34,7 +34,7 @@ class SolverRun:
 
 
 _COMMON = {
-    # HiGHS stops by default within 1e-4 of the optimum; here the optimum itself is wanted.
+    # HiGHS stops by default within 1e-4 of the optimum; here the optimum itself is needed.
     "mip_rel_gap": 0.0,
     "mip_abs_gap": 0.0,
     # Below 1e-6 HiGHS 1.15 proves wrong bounds: benchmarks/tradeoff_guard.py measures it.
@@ -66,7 +66,7 @@ THIRD_RUN = SolverRun(
         "mip_allow_restart": False,
     },
 )
-"""Asked where the first two do not agree."""
+"""Used where the first two do not agree."""
 
 RUNS = (FIRST_RUN, SECOND_RUN, THIRD_RUN)
 
@@ -76,10 +76,10 @@ class Stage:
     """One program: maximise the sum of the objective terms under all constraints.
 
     Attributes:
-        name: What is maximised or minimised, for people.
+        name: Name of the objective, for people.
         objective: The terms that are summed.
         constraints: The conditions beyond those of the trade-off itself.
-        scale: What the objective is multiplied by in the solver.
+        scale: Factor of the objective in the solver.
         sign: -1 where people read the objective with the other sign, for it is minimised.
         quantity: The measure whose quantity people read in place of the objective, which is then
             only its rank.
@@ -101,10 +101,10 @@ class StageSolution:
         name: The name of the stage.
         status: Optimal, best found or infeasible.
         alternative: The selected alternative; None if infeasible.
-        objective: What was optimised, as people read it; None if infeasible.
-        gap: How far the bound that the solver proved is from its objective, in the objective's own
+        objective: The objective, as people read it; None if infeasible.
+        gap: Distance of the bound that the solver proved from its objective, in the objective's own
             unit (or ranks); None if infeasible.
-        selection_error: How far the solver's variables are from selecting exactly that
+        selection_error: Distance of the solver's variables from selecting exactly that
             alternative: the largest difference from 0 or 1; 0 if infeasible.
         checks: The independent checks of the answer.
         exhaustive: Whether one of them evaluated every alternative.
@@ -125,7 +125,7 @@ class StageSolution:
     def chosen(self) -> Alternative:
         """The selected alternative of an optimal stage."""
         if self.alternative is None:
-            raise TradeoffError(f"stage {self.name!r} is infeasible", hint="look at its status first")
+            raise TradeoffError(f"stage {self.name!r} is infeasible", hint="check its status first")
         return self.alternative
 
 
@@ -227,7 +227,7 @@ def proven_gap(problem: Any) -> float:
     information = problem.solver_stats.extra_stats
     if isinstance(information, Mapping):
         if "gap" in information:
-            # SCIP in a process of its own.
+            # SCIP in its own process.
             return float(information["gap"])
         # SCIP minimises, and its model outlives the run.
         model = information["model"]

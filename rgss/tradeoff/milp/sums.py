@@ -34,7 +34,7 @@ class LinearQuantity:
 
     @property
     def span(self) -> float:
-        """Its range, by which constraints are scaled; 1 where there is none."""
+        """Its range, the scale of its constraints; 1 if it has none."""
         return self.high - self.low or 1.0
 
 

@@ -70,7 +70,7 @@ class WeightedValue:
         return row[self.replicate] if self.replicate < len(row) else None
 
     def _coefficient(self, quantity: float | None) -> float:
-        # An unknown measure has no value; the constraints forbid to select it, whatever stands here.
+        # An unknown measure has no value; the constraints forbid to select it, whatever this entry is.
         return 0.0 if quantity is None else self.weight * self.function.value_at(quantity)
 
 
@@ -177,7 +177,7 @@ class Exclusion:
 
 
 Constraint = Condition | EvidenceConstraint | Exclusion
-"""Anything that the selected alternative must keep; each has a `name` by which results refer to it."""
+"""Anything that the selected alternative must keep; each has a `name` that results refer to."""
 
 
 def compile_constraint(constraint: Constraint, selection: Selection) -> Any:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 MOST_ENTRIES = 20_000_000
-"""So many values of members in tasks are looked at to enumerate all portfolios."""
+"""Largest number of values of members in tasks that are evaluated to enumerate all portfolios."""
 
 LARGEST_SOLVED = 2_500
 """Up to so many values of members in tasks the mixed-integer program is solved as well."""
@@ -55,7 +55,7 @@ def solved_portfolio(
     ``Σ_g y_g <= k``, y boolean: the facility-location model.
 
     Raises:
-        TradeoffError: The solver failed, proved neither, or its answer is no portfolio.
+        TradeoffError: The solver failed, proved neither, or its answer is not a portfolio.
     """
     import cvxpy
     import numpy as np
@@ -89,7 +89,7 @@ def solved_portfolio(
 def best_portfolio(
     values: NDArray[np.float64], weights: NDArray[np.float64], at_most: int, aim: PortfolioAim
 ) -> tuple[tuple[int, ...] | None, float] | None:
-    """The best portfolio of all, with the fewest members; None if there are too many to look at."""
+    """The best portfolio of all, with the fewest members; None if there are too many to enumerate."""
     import numpy as np
 
     count = len(values)

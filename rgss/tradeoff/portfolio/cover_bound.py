@@ -22,7 +22,7 @@ LARGEST_PROGRAM = 500_000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CoverBound:
-    """Task weights by which covers are bounded.
+    """Task weights that bound covers.
 
     The weights of the tasks that a member serves add up to its share. Members whose shares together
     are less than the weights of all tasks do not cover them, whatever the weights are; so a bound
@@ -42,7 +42,7 @@ class CoverBound:
         the set-covering problem", 1979).
 
         Args:
-            reached: Which member serves which task.
+            reached: True where a member serves a task.
         """
         from rgss.tradeoff.milp import solve_linear
 

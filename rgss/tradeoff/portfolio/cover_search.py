@@ -26,7 +26,7 @@ def raised(values: Values, size: int, start: Rows, work: WorkBudget) -> Rows:
         values: The value of each member in each task, shape (members, tasks); negative where it does not serve.
         size: So many members.
         start: The portfolio to start from; any size up to that.
-        work: What the search may take.
+        work: Work limit of the search.
     """
     draw = np.random.default_rng(size)
     rows = list(start)

@@ -34,15 +34,15 @@ class PortfolioDecision:
             serves every task; undecided where a limit ended the search for one.
         members: The chosen members: of the tied best portfolios one with the fewest, and of these,
             where all were enumerated, the first in the order of their smallest variants.
-        assignments: Who serves each task.
+        assignments: Member that serves each task.
         objective: Mean or worst value; None if there is none.
         by_size: The best objective with at most 1, 2, … members that was found; None where there is
             none. It never falls.
         by_size_gap: How much better a portfolio of each size can be at most; None where none was found.
         unserved: Tasks that no alternative serves at all.
-        gap: How far the bound that was proved is from the objective; None if there is none.
+        gap: Distance of the bound that was proved from the objective; None if there is none.
         objective_recomputed: The objective of the chosen members in NumPy; None if there is none.
-        considered: How many members were left after exact reduction.
+        considered: Number of members after exact reduction.
         enumeration_agrees: Whether enumeration of all portfolios comes to the same objective.
         checks: The independent checks that were made.
         cut: The limit that ended a proof; None if all are complete. Under a time limit the answer

@@ -49,11 +49,11 @@ def best_mean(profits: Values, size: int, start: Rows, tolerance: float, work: W
     whose choice would bring the bound below the best known portfolio are left out.
 
     Args:
-        profits: What each member adds by serving each task, shape (members, tasks).
+        profits: Gain of each member in each task, shape (members, tasks).
         size: At most so many members.
         start: A portfolio to start from.
         tolerance: Differences up to it do not count.
-        work: What is left of the work limit.
+        work: The rest of the work limit.
     """
     best = search_portfolio(profits, size, (start,))
     known = merit(profits, best)
@@ -118,7 +118,7 @@ def _bounded(profits: Values, size: int, node: _Node, known: float, steps: int, 
 
 
 def _branches(profits: Values, size: int, node: _Node, known: float, tolerance: float) -> list[_Node]:
-    """The node without and with the member that counts most, the latter to be looked at first."""
+    """The nodes without and with the member that counts most, the latter to be examined first."""
     free = size - len(node.inside)
     if free == 0 or not len(node.open):
         return []

@@ -50,7 +50,7 @@ def decide_portfolio(
         problem: The problem.
         time_limit: Seconds for the proofs, in place of the work limit; the answer then depends on the
             machine.
-        most_work: The work limit: so many values are looked at, the same on every machine.
+        most_work: Work limit: number of values that are evaluated, the same on every machine.
         independent: Runs of other solvers than HiGHS, made wherever HiGHS solves the program.
 
     Raises:
@@ -232,7 +232,7 @@ def _assignment(task: PortfolioTask, offers: list[tuple[float, int, str]]) -> As
 
 
 def _member_values(problem: PortfolioProblem) -> tuple[list[str], NDArray[np.float64], list[list[int]]]:
-    """Every member's best value in every task, -1 where it cannot serve it, and by which alternative."""
+    """Every member's best value in every task, -1 where it cannot serve it, and the alternative that gives it."""
     import numpy as np
 
     from rgss.tradeoff.programs import enumerate_alternatives

@@ -6,7 +6,7 @@ import time
 from enum import Enum
 
 MOST_WORK = 2_000_000_000
-"""So many entries of members in tasks are looked at by default to prove a portfolio best: some 20 seconds."""
+"""Default work limit to prove a portfolio best, in evaluated values of members in tasks: some 20 seconds."""
 
 
 class Cut(str, Enum):

@@ -22,7 +22,7 @@ SEARCH_PARTS = 3
 """The primal search takes at most one such part of the work."""
 
 BOUND_WORK = 20
-"""The linear program of a bound counts as so many looks at every value."""
+"""Work of the linear program of a bound, in evaluations of every value."""
 
 
 class _Cover(Enum):
@@ -44,7 +44,7 @@ def best_worst(values: Values, size: int, start: Rows, tolerance: float, work: W
         size: At most so many members.
         start: A portfolio to start from; empty if none is known.
         tolerance: Differences up to it do not count.
-        work: What is left of the work limit.
+        work: The rest of the work limit.
     """
     ideal = float(values.max(axis=0).min())
     best, known = start, worst_of(values, start)
@@ -150,8 +150,8 @@ class _CoverSearch:
         reached: 1 where a member serves a task, shape (members, tasks).
         masks: The same as the bits of whole numbers.
         by_task: The members that serve each task.
-        bound: The weights by which covers are bounded.
-        work: What is left of the work limit.
+        bound: The task weights that bound covers.
+        work: The rest of the work limit.
         failed: With how many members the tasks that are left cannot be covered, by their mask.
     """
 

@@ -22,7 +22,7 @@ def checked_values(values: Array, *, what: str = "the values") -> Array:
         what: What they are, for messages.
 
     Raises:
-        TradeoffError: It is no table, or an entry is not a number from 0 to 1.
+        TradeoffError: It is not a table, or an entry is not a number from 0 to 1.
     """
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or 0 in table.shape:
@@ -45,7 +45,7 @@ def checked_weights(weights: Array, size: int) -> Array:
 
     Args:
         weights: The weights.
-        size: How many there must be.
+        size: Required number.
 
     Raises:
         TradeoffError: Their number is another, one is negative, or they do not sum to 1.

@@ -113,7 +113,7 @@ class Threshold(BoundedMeasure):
         return self.comparison.margin(quantity, self.value)
 
     def is_met_by(self, quantity: float | None) -> bool:
-        """Tell whether a quantity meets the threshold; an unknown one (None) does not."""
+        """True if a quantity meets the threshold; an unknown one (None) does not."""
         return self.comparison.holds(quantity, self.value)
 
     def tolerated(self, share: float) -> Threshold:

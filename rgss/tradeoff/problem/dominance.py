@@ -9,7 +9,7 @@ from rgss.errors import TradeoffError
 
 
 def nondominated(values: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell which rows no other row dominates.
+    """Mask of the rows that no other row dominates.
 
     A row dominates another if it is at least as high in every column and higher in one. Rows that
     are equal do not dominate each other, so duplicates of an undominated row are all kept.

@@ -22,7 +22,7 @@ class Alternative:
         variant: Id of the design variant.
         measures: What is known of it, in each measure's unit; None where it is
             unknown, for instance because no trial succeeded.
-        samples: What each replicate showed of a measure, in the order of their seeds, in the
+        samples: Values of each measure in each replicate, in the order of their seeds, in the
             measure's unit; None where a replicate lacks it. A measure that follows from the
             design alone needs none.
     """
@@ -42,7 +42,7 @@ class Samples:
 
     Attributes:
         values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
-        ran: Which replicates were run, shape (n, r).
+        ran: Mask of the replicates that were run, shape (n, r).
     """
 
     values: NDArray[np.float64]
@@ -56,7 +56,7 @@ class EvidenceTable(Sequence[Alternative]):
     Attributes:
         variants: Ids, shape (n,), ascending.
         measures: The m measures.
-        quantities: What is known, shape (n, m), in each measure's unit; NaN exactly where it is
+        quantities: Known quantities, shape (n, m), in each measure's unit; NaN exactly where it is
             unknown.
         samples: The replicates of each measure that has any.
     """
@@ -79,7 +79,7 @@ class EvidenceTable(Sequence[Alternative]):
             variants: Ids, shape (n,), in any order.
             columns: The quantities of each measure, shape (n,).
             known: Where a measure is known, shape (n,); everywhere by default. What
-                stands elsewhere in the column is not looked at.
+                is elsewhere in the column is ignored.
 
         Raises:
             TradeoffError: An id is given twice, a column has another length, or a quantity that is
@@ -196,7 +196,7 @@ def tabulated(alternatives: Sequence[Alternative]) -> EvidenceTable:
 
 
 def check_evidence(alternatives: Sequence[Alternative]) -> None:
-    """Make sure that there are alternatives, each given once, with finite quantities.
+    """Check that there are alternatives, each given once, with finite quantities.
 
     Raises:
         TradeoffError: It is not so.
@@ -236,11 +236,11 @@ def _or_none(quantity: float) -> float | None:
 
 
 def _given_twice(variant: int) -> TradeoffError:
-    return TradeoffError(f"variant {variant} is given twice", hint="give every alternative an id of its own")
+    return TradeoffError(f"variant {variant} is given twice", hint="give every alternative its own id")
 
 
 def _not_finite(measure: str, variant: int, quantity: float) -> TradeoffError:
     return TradeoffError(
-        f"{measure!r} of variant {variant} is {quantity:g}",
-        hint="a measure is a finite number, or None where it is unknown",
+        f"{measure!r} of variant {variant} must be finite or None, got {quantity:g}",
+        hint="give None where it is unknown",
     )

@@ -14,7 +14,7 @@ class CriterionNode:
     """A measure, or a group of criteria, with its weight among its siblings.
 
     Attributes:
-        name: The measure; of a group, the criterion that its members stand for.
+        name: The measure; of a group, the criterion that its members make up.
         weight: Its share of the group that it belongs to.
         members: What a group is made of; empty for a measure.
     """

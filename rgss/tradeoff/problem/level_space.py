@@ -36,7 +36,7 @@ class Incompatibility:
 
     Attributes:
         id: The id of the rule that excludes them.
-        factors: The factors that the rule looks at.
+        factors: The factors that the rule depends on.
         combinations: The combinations of their levels that it excludes.
     """
 
@@ -51,7 +51,7 @@ class LevelSpace:
 
     Attributes:
         factors: The factors; the last one varies fastest in `combinations`.
-        rules: What combinations the compatibility rules exclude.
+        rules: Combinations that the compatibility rules exclude.
 
     Raises:
         TradeoffError: A factor is given twice, or a rule names one that is not there.
@@ -106,11 +106,11 @@ class LevelStructure:
     levels: Mapping[int, tuple[str, ...]] = field(hash=False)
 
     def check(self, alternatives: Sequence[Alternative]) -> None:
-        """Make sure that alternatives and allowed combinations are the same.
+        """Check that alternatives and allowed combinations are the same.
 
         Raises:
             TradeoffError: An alternative has no levels or excluded ones, two have the same, or a
-                combination that the rules allow is no alternative.
+                combination that the rules allow has no alternative.
         """
         allowed = {levels for _, levels in self.space.combinations()}
         taken: dict[tuple[str, ...], int] = {}

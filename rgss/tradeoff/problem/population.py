@@ -6,8 +6,8 @@ through noise that alternatives have in common as far as their trials do:
     θ = μ 1 + Σ_f Z_f a_f + r,   a_f ~ N(0, v_f I),   r ~ N(0, v_r I),   estimates ~ N(θ, C)
 
 (Gelman, "Analysis of variance", Annals of Statistics 33, 2005). What a factor does decides how far its
-levels are drawn together: a factor that separates designs is left alone, one that does nothing is
-pooled. Nobody says which.
+levels are drawn together: a factor that separates designs is hardly shrunk, one without an effect is
+pooled. The data decide which.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def drawn_with_population(
         groups: The group of each alternative, shape (n,), whose draws are the same.
         levels: The level of each alternative in each factor, shape (n, f); None where it is unknown.
         seeds: Number of replicates that correlations of the noise were seen in.
-        generator: Where randomness comes from.
+        generator: Source of randomness.
 
     Returns:
         Draws that the population has its share in, shape (draws, n).
@@ -69,7 +69,7 @@ def drawn_with_population(
 def _alikeness(group: NDArray[np.intp], count: int, levels: NDArray[np.intp] | None) -> list[Array]:
     """Share of a level's effect that two distinct alternatives have in common, (count, count) for each factor.
 
-    An alternative that stands for several of other levels has their mean effect.
+    An alternative that represents several of other levels has their mean effect.
     """
     shares = []
     for column in () if levels is None else np.asarray(levels).T:

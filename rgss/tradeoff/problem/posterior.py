@@ -2,7 +2,7 @@
 
 Alternatives are taken as draws from one population whose spread is learnt from them (Gelman et al.,
 "Bayesian Data Analysis", chapter 5), factor by factor of their design: the best of many estimates is too
-good on average, and more so the fewer replicates there are; but what a factor plainly does is no luck.
+good on average, and more so the fewer replicates there are; but a plain effect of a factor is not noise.
 What their trials have in common stays so: replicate k of every alternative has the same seed.
 """
 
@@ -22,7 +22,7 @@ _POOL_DRAWS = 2_000
 _LEAST_RATIO = 0.02
 _LEAST_OWN = 0.05
 _UNSEEN = 0.5
-"""Jeffreys's prior count of seeds that tell alternatives apart of which none did: one side of Beta(1/2, 1/2)."""
+"""Jeffreys's prior count of seeds that separate alternatives where none did: one side of Beta(1/2, 1/2)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -50,8 +50,8 @@ def posterior_means(
 
     Args:
         observed: The replicates of each measure, of the same n alternatives.
-        draws: How many draws.
-        generator: Where randomness comes from.
+        draws: Number of draws.
+        generator: Source of randomness.
         levels: The level of each alternative in each factor of its design, as numbers of any kind,
             shape (n, f); None where designs are not made of levels.
         apart: Whether any two alternatives may differ in seeds to come as in none so far. A seed in which one of
@@ -80,9 +80,9 @@ def posterior_means(
 def alike_groups(observed: Sequence[ObservedRows]) -> NDArray[np.intp]:
     """The group of each alternative, shape (n,), that shares the trials behind its proportions.
 
-    Alternatives are alike where no replicate of a proportion, and none of some mean, tells them
-    apart: planning limits that never bind, or tool speeds of the same plans. Equal proportions alone
-    say nothing, for they are often equal by chance.
+    Alternatives are alike where no replicate of a proportion, and none of some mean, separates
+    them: planning limits that never bind, or tool speeds of the same plans. Equal proportions alone
+    are not enough: they are often equal by chance.
     """
     count = len(observed[0].values)
     proportions = [one for one in observed if one.is_proportion]
@@ -128,7 +128,7 @@ def _proportions(
     strength = strength * own
     more = generator.standard_gamma(mean * strength)[:, group]
     less = generator.standard_gamma((1.0 - mean) * strength)[:, group]
-    # Alternatives that no seed separated may differ in later seeds: each has half a seed of its own.
+    # Alternatives that no seed separated may differ in later seeds: each has its own half seed.
     unseen = np.ones(len(rows), dtype=np.bool_) if apart else np.bincount(group)[group] > 1
     shape = (len(weights), int(unseen.sum()))
     size = _UNSEEN if apart else _UNSEEN / 2.0
@@ -154,7 +154,7 @@ def _own_share(noise: Array, known: NDArray[np.bool_]) -> float:
 
 
 def _means(values: Array, levels: NDArray[np.intp] | None, shared: Array, generator: np.random.Generator) -> Array:
-    """Draws of means, by pivots with pooled noise, drawn to the population as far as noise asks for it.
+    """Draws of means, by pivots with pooled noise, shrunk to the population as far as the noise requires.
 
     Where all values are positive noise is a factor and the population is one of logarithms.
     """

@@ -1,7 +1,7 @@
 """Population of proportions of no particular shape: a mixture of beta distributions, learnt from counts.
 
 One beta distribution cannot be many good designs beside a few hopeless ones; fitted to both it takes the good
-for worse than they are. A mixture with a Dirichlet process prior has as many parts as the counts ask for
+for worse than they are. A mixture with a Dirichlet process prior has as many parts as the counts support
 (Ishwaran and James, "Gibbs sampling methods for stick-breaking priors", Journal of the American Statistical
 Association 96, 2001); with one part it is the beta-binomial model.
 """
@@ -32,8 +32,8 @@ def proportion_population(
     Args:
         successes: Successes, shape (n,); of correlated trials their effective number.
         trials: Trials, shape (n,); all positive.
-        draws: How many draws.
-        generator: Where randomness comes from.
+        draws: Number of draws.
+        generator: Source of randomness.
 
     Returns:
         Means and strengths, shape (draws, n). A draw of the proportion has beta parameters

@@ -26,7 +26,7 @@ class Resamples:
     them at once; what their trials have in common stays in the differences.
 
     Attributes:
-        counts: How often each replicate is in each resample, shape (b, r); rows sum to r.
+        counts: Count of each replicate in each resample, shape (b, r); rows sum to r.
         probabilities: The probability of each resample, shape (b,).
         exact: Whether these are all the distinct resamples there are.
     """
@@ -91,8 +91,8 @@ def bootstrap(replicates: int, *, draws: int, generator: np.random.Generator) ->
 
     Args:
         replicates: The number r of replicates.
-        draws: How many resamples are drawn where there are too many.
-        generator: Where randomness comes from; not used where all are taken.
+        draws: Number of resamples where there are too many.
+        generator: Source of randomness; not used where all are taken.
 
     Raises:
         TradeoffError: There are too few replicates.

@@ -99,14 +99,14 @@ class WeightBounds:
 
     Attributes:
         intervals: Intervals of weights.
-        orders: Which criterion weighs more than which.
+        orders: Orders of criteria by weight.
     """
 
     intervals: tuple[ElicitedInterval, ...] = ()
     orders: tuple[ElicitedOrder, ...] = ()
 
     def check(self, weights: Mapping[str, float]) -> None:
-        """Make sure that weights agree with the bounds.
+        """Check that weights agree with the bounds.
 
         Raises:
             TradeoffError: They do not, so weights and bounds contradict each other.

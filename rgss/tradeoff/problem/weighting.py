@@ -48,11 +48,13 @@ class Weighting:
             raise TradeoffError("there are no weights", hint="give a weight to at least one measure")
         for measure, weight in self.weights.items():
             if not (math.isfinite(weight) and weight >= 0.0):
-                raise TradeoffError(f"the weight of {measure!r} is {weight:g}", hint="a weight is a number from 0 to 1")
+                raise TradeoffError(
+                    f"weight of {measure!r} must be at least 0, got {weight:g}", hint="give a number from 0 to 1"
+                )
         total = _exact_sum(self.weights.values())
         if abs(total - 1.0) > WEIGHT_SUM_TOLERANCE:
             raise TradeoffError(
-                f"the weights sum to {total:.12g}, not to 1",
+                f"weights must sum to 1, got {total:.12g}",
                 hint=f"change them by {1.0 - total:+.12g} in all, or divide each by {total:.12g}"
                 if total > 0.0
                 else "give a positive weight to at least one measure",
@@ -71,7 +73,7 @@ def weights_from_ranks(ranks: Mapping[str, int], rule: RankRule) -> dict[str, fl
     and the next rank follows after these places (1, 2, 2, 4).
 
     Args:
-        ranks: Rank by measure; 1 is the measure whose swing from worst to best matters most.
+        ranks: Rank by measure; 1 is the measure whose swing from worst to best is worth most.
         rule: The formula.
 
     Returns:
@@ -86,7 +88,7 @@ def weights_from_ranks(ranks: Mapping[str, int], rule: RankRule) -> dict[str, fl
         shared = place > 1 and ranks[measure] == ranks[places[place - 2]]
         if ranks[measure] != place and not shared:
             raise TradeoffError(
-                f"the rank of {measure!r} is {ranks[measure]}, where {place} is next",
+                f"rank of {measure!r} must be {place}, got {ranks[measure]}",
                 hint="count from 1; equal ranks take as many places as they are, such as 1, 2, 2, 4",
             )
     if not count:
@@ -112,11 +114,14 @@ def weights_from_points(points: Mapping[str, float]) -> dict[str, float]:
     for measure, number in points.items():
         if not (math.isfinite(number) and number >= 0.0):
             raise TradeoffError(
-                f"the points of {measure!r} are {number:g}", hint="points are numbers from 0, such as 100 for the most"
+                f"points of {measure!r} must be at least 0, got {number:g}",
+                hint="give a number such as 100 for the most",
             )
     total = _exact_sum(points.values())
     if not (math.isfinite(total) and total > 0.0):
-        raise TradeoffError(f"the points sum to {total:g}", hint="give points to at least one measure")
+        raise TradeoffError(
+            f"points must sum to more than 0, got {total:g}", hint="give points to at least one measure"
+        )
     return {measure: number / total for measure, number in points.items()}
 
 

@@ -38,10 +38,10 @@ class StageCertificate:
     """Proof of the solver for one stage.
 
     Attributes:
-        name: What was optimised.
+        name: Name of the objective.
         variant: The alternative that it selected.
         objective: The objective, as people read it.
-        gap: How far the bound that the solver proved is from it.
+        gap: Distance of the bound that the solver proved from it.
     """
 
     name: str
@@ -52,15 +52,15 @@ class StageCertificate:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Certificate:
-    """Why a decision can be trusted.
+    """Certificate of a decision: recomputed objective and constraints, agreement, gap.
 
     Attributes:
-        status: What was proved; best found where a stage's optimality was not.
+        status: Proven status; best found where a stage's optimality was not proven.
         solver: Which solver; where an independent one was run too, those that came to the answer.
-        program: Which program.
-        alternatives: How many alternatives the problem has.
-        considered: How many of them the program held after exact reduction.
-        stages: What was proved in turn; empty if infeasible.
+        program: The program.
+        alternatives: Number of alternatives of the problem.
+        considered: Number of them in the program after exact reduction.
+        stages: Proven results of the stages, in turn; empty if infeasible.
         solver_choice: The alternative that the solver selected last, one of the tied; None if
             infeasible.
         objective: The last stage's objective as the solver has it; None if infeasible.
@@ -103,10 +103,10 @@ def certify(
     """Compare the solver's answer with the evidence and with enumeration.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         enumeration: Every alternative evaluated, or those that are known.
-        solutions: The solver's answers, stage by stage; of an infeasible problem the one that says so.
-        considered: How many alternatives the program held.
+        solutions: The solver's answers, stage by stage; of an infeasible problem the one that shows it.
+        considered: Number of alternatives in the program.
         whole: Whether the enumeration has every alternative.
 
     Returns:
@@ -206,9 +206,9 @@ def residuals_at(
     """Every constraint of a program recomputed at an alternative.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         choice: The alternative.
-        selection_error: How far the solver's variables are from selecting exactly it.
+        selection_error: Distance of the solver's variables from selecting exactly it.
     """
     residuals = [ConstraintResidual(name="choose exactly one", residual=selection_error, margin=None)]
     for condition in preferences.conditions:

@@ -26,10 +26,10 @@ class Enumeration:
             measure is unknown. Rounded to 12 decimals, so that alternatives that are equal on
             paper are equal here, in whatever order their terms were added.
         requirements: Ids of the r demands.
-        violated: Which alternative violates which demand, shape (n, r).
-        feasible: Which alternatives violate nothing, shape (n,).
-        tied: Which feasible alternatives are tied best, shape (n,).
-        ordering: How the alternatives compare under the program.
+        violated: True where an alternative violates a demand, shape (n, r).
+        feasible: Mask of the alternatives that violate nothing, shape (n,).
+        tied: Mask of the feasible alternatives that are tied best, shape (n,).
+        ordering: Order of the alternatives under the program.
     """
 
     table: EvidenceTable

@@ -1,4 +1,4 @@
-"""Programs that look at one measure after another: lexicographic, and epsilon-constraint."""
+"""Programs that optimise one measure after another: lexicographic, and epsilon-constraint."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Aim:
-    """A measure of which the best is wanted, and how much of it may be given up.
+    """Measure that is optimised, and how much of it may be given up.
 
     Attributes:
         measure: The measure.
         sense: At least if more of it is better, at most if less is.
-        absolute: What may be given up, in the measure's unit.
-        relative: What may be given up, as a share of the best quantity.
+        absolute: Tolerance, in the measure's unit.
+        relative: Tolerance, as a share of the best quantity.
 
     Raises:
-        TradeoffError: The tolerances contradict each other or are no tolerances.
+        TradeoffError: The tolerances contradict each other or are out of range.
     """
 
     measure: str
@@ -40,7 +40,8 @@ class Aim:
         for kind, tolerance in (("absolute", self.absolute), ("relative", self.relative)):
             if not (math.isfinite(tolerance) and tolerance >= 0.0):
                 raise TradeoffError(
-                    f"the {kind} tolerance of {self.measure!r} is {tolerance:g}", hint="a tolerance is not negative"
+                    f"{kind} tolerance of {self.measure!r} must be at least 0, got {tolerance:g}",
+                    hint="give 0 for no tolerance",
                 )
         if self.absolute and self.relative:
             raise TradeoffError(
@@ -50,8 +51,8 @@ class Aim:
             )
         if self.relative >= 1.0:
             raise TradeoffError(
-                f"the relative tolerance of {self.measure!r} is {100.0 * self.relative:g} %",
-                hint="give less than 100 %, or leave the measure out: such a tolerance bounds nothing",
+                f"relative tolerance of {self.measure!r} must be below 100 %, got {100.0 * self.relative:g} %",
+                hint="leave the measure out: such a tolerance bounds nothing",
             )
 
     def bound(self, best: float) -> float:

@@ -18,7 +18,7 @@ Rows = NDArray[np.intp]
 Column = NDArray[np.float64]
 
 MOST_COMPARED = 5_000_000
-"""So many alternatives are looked at in all to rank them one after another."""
+"""Largest number of alternatives that are evaluated in all to rank them one after another."""
 
 
 class Ordering(Protocol):
@@ -66,7 +66,7 @@ class ScoreOrdering:
     """By one score, of which more is better.
 
     Attributes:
-        name: What the score is.
+        name: Name of the score.
         scores: Scores, shape (n,); NaN where unknown.
         monotone: The criteria, shape (n, k).
         reported: 1, or -1 where people read the score with the other sign.
@@ -127,8 +127,8 @@ class Step:
     Attributes:
         name: What it is.
         column: More is better, shape (n,); NaN where unknown.
-        absolute: What may be given up.
-        relative: What may be given up, as a share of the best.
+        absolute: Tolerance.
+        relative: Tolerance, as a share of the best.
         reported: 1, or -1 where people read the column with the other sign.
     """
 

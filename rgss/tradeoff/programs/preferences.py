@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 
 
 class Program(ABC):
-    """Decision program: the objectives by which a feasible alternative is chosen, stage by stage.
+    """Decision program: the objectives that choose a feasible alternative, stage by stage.
 
-    Base of the frozen dataclasses; what it says here of limits and needs is that of a program by weighted values.
+    Base of the frozen dataclasses; its defaults for limits and needs are those of a program by weighted values.
 
     Attributes:
         name: Its name.
@@ -58,7 +58,7 @@ class Program(ABC):
         return dict.fromkeys(preferences.weighting.deciding_measures, False)
 
     def check(self, preferences: Preferences) -> None:  # noqa: B027 - most can decide any trade-off
-        """Make sure that it can decide a trade-off.
+        """Check that the program can decide a trade-off.
 
         Raises:
             TradeoffError: It cannot.
@@ -77,12 +77,12 @@ class Preferences(ABC):
     ``evidence:<measure>`` does. Nothing is imputed.
 
     Attributes:
-        thresholds: What the requirements demand.
+        thresholds: Thresholds of the requirements.
         value_functions: One for every measure that has a weight, and for no other.
         weighting: The weights.
-        risks: What is demanded of the replicates.
-        program: How is decided.
-        weight_bounds: What is known of the weights beside their values.
+        risks: Demands on the replicates.
+        program: The decision program.
+        weight_bounds: Bounds and orders of the weights.
     """
 
     __slots__ = ()
@@ -164,7 +164,7 @@ class Preferences(ABC):
         """The corners of the set of weights that agree with the bounds, shape (c, m), in the weights' order.
 
         Raises:
-            TradeoffError: There are too many bounds to look at every corner.
+            TradeoffError: There are too many bounds to enumerate every corner.
         """
         from rgss.tradeoff.programs.weight_vertices import weight_vertices
 
@@ -184,7 +184,7 @@ class Preferences(ABC):
         """The number of replicates that alternatives have in common.
 
         Args:
-            measures: The measures that are looked at; those that follow from the design alone have none.
+            measures: The measures that are used; those that follow from the design alone have none.
 
         Raises:
             TradeoffError: There are none, or alternatives have different numbers of them.
@@ -192,7 +192,7 @@ class Preferences(ABC):
 
 
 def check_preferences(preferences: Preferences) -> None:
-    """Make sure that what is wanted is well posed by itself.
+    """Check that the preferences are well posed by themselves.
 
     Raises:
         TradeoffError: It is not.
@@ -224,16 +224,17 @@ def _check_value_functions(preferences: Preferences) -> None:
 def _check_conditions(preferences: Preferences) -> None:
     for condition in (*preferences.thresholds, *preferences.program.limits, *preferences.risks):
         if not math.isfinite(condition.value):
+            subject = f"threshold of {condition.requirement} on {condition.measure!r}"
             raise TradeoffError(
-                f"the threshold of {condition.requirement} on {condition.measure!r} is {condition.value:g}",
-                hint="a threshold is a finite number",
+                f"{subject} must be finite, got {condition.value:g}",
+                hint="give a number",
             )
     for threshold in preferences.thresholds:
         if threshold.requirement.startswith(PREFIXES):
             reserved = threshold.requirement.partition(":")[0] + ":"
             raise TradeoffError(
                 f"the requirement id {threshold.requirement!r} is reserved",
-                hint=f"ids that begin with {reserved!r} stand for demands of other kinds; choose another",
+                hint=f"ids that begin with {reserved!r} are reserved for demands of other kinds; choose another",
             )
     seen: set[str] = set()
     for risk in preferences.risks:

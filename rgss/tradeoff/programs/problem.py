@@ -1,4 +1,4 @@
-"""The trade-off as it is put: alternatives with their evidence, and what is wanted of a choice."""
+"""Trade-off problem: alternatives with their evidence, and the preferences of the choice."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class TradeProblem(Preferences):
     """Choose one of several alternatives that meets every demand.
 
     Attributes:
-        alternatives: What there is to choose from, in any order.
-        thresholds: What the requirements demand.
+        alternatives: The alternatives, in any order.
+        thresholds: Thresholds of the requirements.
         value_functions: One for every measure that has a weight, and for no other.
         weighting: The weights.
-        risks: What is demanded of the replicates.
-        program: How is decided; by the highest weighted value by default.
-        weight_bounds: What is known of the weights beside their values.
+        risks: Demands on the replicates.
+        program: Decision program; the highest weighted value by default.
+        weight_bounds: Bounds and orders of the weights.
         levels: The levels of factors that make each alternative, where levels are to be chosen
             instead of alternatives.
 
@@ -59,7 +59,7 @@ class TradeProblem(Preferences):
             self.levels.check(self.alternatives)
 
     def is_feasible(self, alternative: Alternative) -> bool:
-        """Tell whether an alternative meets every condition and is known in every measure that decides."""
+        """True if an alternative meets every condition and is known in every measure that decides."""
         return all(
             condition.sense.holds(condition.statistic(alternative), condition.limit) for condition in self.conditions
         ) and all(

@@ -30,9 +30,9 @@ def ordering_of(program: Program, preferences: Preferences, table: EvidenceTable
 
     Args:
         program: The program.
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         table: The alternatives.
-        feasible: Which of them meet every demand, shape (n,).
+        feasible: Mask of those that meet every demand, shape (n,).
 
     Raises:
         TradeoffError: There is no enumeration for the program.
@@ -82,7 +82,7 @@ def orderings_of(program: Program, preferences: Preferences, table: EvidenceTabl
 
     Args:
         program: The program.
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         table: The alternatives.
     """
     if isinstance(program, MinimaxRegret):

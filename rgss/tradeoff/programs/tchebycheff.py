@@ -41,11 +41,13 @@ class Tchebycheff(Program):
         for measure, value in self.reference.items():
             if not 0.0 <= value <= 1.0:
                 raise TradeoffError(
-                    f"the reference value of {measure!r} is {value:g}", hint="a value is a number from 0 to 1"
+                    f"reference value of {measure!r} must be from 0 to 1, got {value:g}",
+                    hint="give a value, not a quantity",
                 )
         if not 0.0 < self.augmentation <= 1.0:
             raise TradeoffError(
-                f"the augmentation is {self.augmentation:g}", hint="give a small positive number, such as 0.001"
+                f"augmentation must be above 0 and at most 1, got {self.augmentation:g}",
+                hint="give a small number, such as 0.001",
             )
 
     def check(self, preferences: Preferences) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rgss.errors import TradeoffError
 
 MOST_CANDIDATES = 2_000_000
-"""So many choices of binding bounds are looked at; more would take minutes."""
+"""Largest number of sets of binding bounds that are examined; more would take minutes."""
 
 FEW_CANDIDATES = 5_000
 """Up to so many, looking at every corner is the simplest; beyond, linear programs generate the binding weights."""
@@ -45,7 +45,7 @@ def weight_vertices(matrix: NDArray[np.float64], limits: NDArray[np.float64]) ->
         The corners in lexicographic order, shape (c, m); none if the bounds contradict each other.
 
     Raises:
-        TradeoffError: There are too many bounds to look at every corner.
+        TradeoffError: There are too many bounds to enumerate every corner.
     """
     count = matrix.shape[1]
     rows = np.vstack([matrix, -np.eye(count)])
@@ -54,7 +54,7 @@ def weight_vertices(matrix: NDArray[np.float64], limits: NDArray[np.float64]) ->
     if candidates > MOST_CANDIDATES:
         raise TradeoffError(
             f"{count} weights with {len(matrix)} bounds may have {candidates} corners",
-            hint=f"at most {MOST_CANDIDATES} are looked at; weigh fewer measures or give fewer bounds",
+            hint=f"at most {MOST_CANDIDATES} are examined; weigh fewer measures or give fewer bounds",
         )
     found: list[NDArray[np.float64]] = []
     choices = itertools.combinations(range(len(rows)), count - 1)

@@ -54,7 +54,7 @@ class Outcomes:
 
     Attributes:
         values: Single values, shape (b, n, m), from 0 to 1; NaN only where not feasible.
-        feasible: Which alternatives can be chosen in each outcome, shape (b, n).
+        feasible: Mask of the alternatives that can be chosen in each outcome, shape (b, n).
         probabilities: The probability of each outcome, shape (b,).
         exact: Whether these are all the outcomes there are, so that sums over them have no
             sampling error.
@@ -90,8 +90,8 @@ class Acceptability:
     """The indices of SMAA-2 for each alternative.
 
     Attributes:
-        iterations: How many pairs of weights and outcomes were drawn.
-        drawn_by: How the weights were drawn.
+        iterations: Number of drawn pairs of weights and outcomes.
+        drawn_by: Method of sampling the weights.
         ranks: The rank acceptability b_i^r: the share of draws in which alternative i has rank r,
             shape (n, r), rank 1 in the first column. Equals share the better rank, so that the
             first column may sum to more than 1. All n ranks are there of up to `ALL_RANKS_TO`
@@ -132,10 +132,10 @@ def smaa2(
     that misses a threshold in an outcome has no rank in it.
 
     Args:
-        outcomes: What the evidence may say.
+        outcomes: Possible outcomes.
         weights: The admitted weights; they are drawn uniformly.
-        iterations: How many draws.
-        generator: Where randomness comes from.
+        iterations: Number of draws.
+        generator: Source of randomness.
 
     Returns:
         The indices; the same for the same generator state, on any machine up to ties.

@@ -25,7 +25,7 @@ class Standing:
 
     Attributes:
         totals: Weighted values, shape (n,); NaN only where not feasible.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
     """
 
     totals: Array
@@ -70,12 +70,12 @@ class AssumptionRange:
 
 
 def linear_range(
-    stand: Callable[[float], Standing], chosen: int, start: float, *, kinks: Array, lowest: float, highest: float
+    evaluate: Callable[[float], Standing], chosen: int, start: float, *, kinks: Array, lowest: float, highest: float
 ) -> AssumptionRange:
     """The exact range where every total is linear and feasibility constant between given kinks.
 
     Args:
-        stand: What the alternatives are worth at a value.
+        evaluate: Callback: weighted values and feasibility of the alternatives at a value.
         chosen: The alternative that is best at `start`, alone or tied.
         start: The assumed value.
         kinks: Every value at which a total has a kink or an alternative meets or misses a
@@ -83,39 +83,39 @@ def linear_range(
         lowest: The least value that makes sense, such as 0 for a cost.
         highest: The largest; may be infinite.
     """
-    low, below = _walk(stand, chosen, start, kinks, lowest)
-    high, above = _walk(stand, chosen, start, kinks, highest)
+    low, below = _walk(evaluate, chosen, start, kinks, lowest)
+    high, above = _walk(evaluate, chosen, start, kinks, highest)
     return AssumptionRange(low=low, high=high, lowest=lowest, highest=highest, below=below, above=above, exact=True)
 
 
 def scanned_range(
-    stand: Callable[[float], Standing], chosen: int, start: float, *, lowest: float, highest: float
+    evaluate: Callable[[float], Standing], chosen: int, start: float, *, lowest: float, highest: float
 ) -> AssumptionRange:
     """The range by scan and bisection, for any dependence.
 
     Args:
-        stand: What the alternatives are worth at a value.
+        evaluate: Callback: weighted values and feasibility of the alternatives at a value.
         chosen: The alternative that is best at `start`, alone or tied.
         start: The assumed value.
         lowest: Down to where it is followed; finite.
         highest: Up to where it is followed; finite.
     """
-    low, below = _scan(stand, chosen, start, lowest)
-    high, above = _scan(stand, chosen, start, highest)
+    low, below = _scan(evaluate, chosen, start, lowest)
+    high, above = _scan(evaluate, chosen, start, highest)
     return AssumptionRange(low=low, high=high, lowest=lowest, highest=highest, below=below, above=above, exact=False)
 
 
 def _walk(
-    stand: Callable[[float], Standing], chosen: int, start: float, kinks: Array, end: float
+    evaluate: Callable[[float], Standing], chosen: int, start: float, kinks: Array, end: float
 ) -> tuple[float | None, tuple[int, ...]]:
     """Go from kink to kink until the chosen one is no longer best; where, and what then is."""
     for near, far in _segments(start, kinks, end):
-        if chosen not in stand(near).best():
-            return near, stand(near).best()
+        if chosen not in evaluate(near).best():
+            return near, evaluate(near).best()
         if near == far:
             continue
         points = _inner_points(near, far)
-        first, second = (stand(point) for point in points)
+        first, second = (evaluate(point) for point in points)
         rivals = np.flatnonzero(first.feasible)
         slope = (second.totals[rivals] - first.totals[rivals]) / (points[1] - points[0])
         entering = first.totals[rivals] + (near - points[0]) * slope
@@ -127,8 +127,8 @@ def _walk(
         if loss is not None:
             there = entering + loss * outward
             return near + math.copysign(loss, far - near), tuple(int(row) for row in rivals[_leaders(there, outward)])
-    if math.isfinite(end) and chosen not in stand(end).best():
-        return end, stand(end).best()
+    if math.isfinite(end) and chosen not in evaluate(end).best():
+        return end, evaluate(end).best()
     return None, ()
 
 
@@ -170,21 +170,21 @@ def _leaders(totals: Array, rate: Array) -> NDArray[np.intp]:
 
 
 def _scan(
-    stand: Callable[[float], Standing], chosen: int, start: float, end: float
+    evaluate: Callable[[float], Standing], chosen: int, start: float, end: float
 ) -> tuple[float | None, tuple[int, ...]]:
     inside = start
     for step in range(1, SCANNED + 1):
         outside = start + (end - start) * step / SCANNED
-        if chosen in stand(outside).best():
+        if chosen in evaluate(outside).best():
             inside = outside
             continue
         for _ in range(_HALVINGS):
             middle = 0.5 * (inside + outside)
             if middle in (inside, outside):
                 break
-            if chosen in stand(middle).best():
+            if chosen in evaluate(middle).best():
                 inside = middle
             else:
                 outside = middle
-        return inside, stand(outside).best()
+        return inside, evaluate(outside).best()
     return None, ()

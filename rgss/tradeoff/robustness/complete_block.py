@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 MOST_BLOCKS = 300_000
-"""So many choices of levels are looked at for the largest complete block."""
+"""Largest number of choices of levels that are examined for the largest complete block."""
 
 
 def largest_complete_block(known: NDArray[np.bool_]) -> tuple[tuple[int, ...], ...] | None:
@@ -19,12 +19,12 @@ def largest_complete_block(known: NDArray[np.bool_]) -> tuple[tuple[int, ...], .
     up for them; what is left is a smaller balanced design.
 
     Args:
-        known: Which designs have an estimate, one axis for each factor.
+        known: Mask of the designs with an estimate, one axis for each factor.
 
     Returns:
         The levels kept of each factor; of the largest blocks that which keeps most levels of the
         earlier factors. None if there is no block with two levels of some factor, or more than
-        `MOST_BLOCKS` to look at.
+        `MOST_BLOCKS` to examine.
     """
     if known.all() and known.size > 1:
         return tuple(tuple(range(length)) for length in known.shape)

@@ -28,14 +28,14 @@ class BoxProblem:
     prices c. Every other measure is as it is.
 
     Attributes:
-        base: What of the measure does not depend on the assumptions, shape (n,).
+        base: Part of the measure that does not depend on the assumptions, shape (n,).
         coefficients: Shape (n, p).
         assumed: The assumed numbers c, shape (p,); none is negative.
         points: The measure's value function as points (quantity, value) by rising quantity,
             level outside of them, shape (k, 2).
         weight: The measure's weight.
         rest: The weighted value of all other measures, shape (n,); NaN only where not feasible.
-        feasible: Which alternatives meet every threshold on other measures, shape (n,).
+        feasible: Mask of the alternatives that meet every threshold on other measures, shape (n,).
         at_least: The least quantity that the thresholds on the measure allow; -inf if any will do.
         at_most: The largest; inf if any will do.
     """
@@ -82,7 +82,7 @@ def box_range(problem: BoxProblem, chosen: int, *, most: float = 1.0) -> BoxRang
     Args:
         problem: The choice.
         chosen: The alternative that is best at the assumed numbers, alone or tied.
-        most: The largest factor that is looked at.
+        most: The largest factor that is examined.
 
     Raises:
         TradeoffError: An assumed number is negative, or the choice is not best to begin with.
@@ -100,7 +100,7 @@ def box_range(problem: BoxProblem, chosen: int, *, most: float = 1.0) -> BoxRang
         factor = _bisect(lambda x: _violation(problem, chosen, x), most)
     overtaken = False
     for rival in rivals:
-        # A rival that does not draw level before the nearest one so far need not be looked at closely.
+        # A rival that does not draw level before the nearest one so far need not be bisected.
         if _lead(problem, chosen, rival, factor)[0] < -TIE_TOLERANCE:
             factor = _bisect(lambda x, rival=rival: _lead(problem, chosen, rival, x)[0] < -TIE_TOLERANCE, factor)  # type: ignore[misc]
             overtaken = True

@@ -71,7 +71,7 @@ class FactorialAnalysis:
         first_order: The Sobol index of each factor alone: its main effect's share.
         total_order: The share of all terms that a factor takes part in, to the highest order.
         used: The share of the resamples in which every design had an estimate, and on which the
-            intervals stand; 1 where none is lost, 0 without replicates.
+            intervals are valid; 1 where none is lost, 0 without replicates.
     """
 
     mean: float

@@ -59,7 +59,7 @@ def weight_shifts(
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
         weights: The weights of the decision, shape (m,).
         among: The admitted weights; all by default.
 
@@ -109,7 +109,7 @@ def weight_ranges(values: Array, feasible: Mask, weights: Array, chosen: int) ->
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
         weights: The weights of the decision, shape (m,).
         chosen: The alternative that is best there.
 

@@ -27,7 +27,7 @@ _SHARE_OF_MIXTURE = 1e-6
 
 
 class KeptFor(str, Enum):
-    """Why an alternative is kept, or not.
+    """Reason that an alternative is kept, or not.
 
     Attributes:
         BEST_AS_STATED: It is best at the weights of the study.
@@ -50,10 +50,10 @@ class KeptAlternative:
 
     Attributes:
         row: The alternative.
-        reason: Why.
+        reason: The reason.
         shortfall: The least by which the best is worth more, over all admitted weights; of one that another
             dominates, the least lead of that one. At least 0.
-        behind: What the best is worth more at the weights of the study.
+        behind: Lead in value of the best at the weights of the study.
         weights: The admitted weights nearest to the study's, by the sum of differences, at which it is best, or
             within the margin of the best, shape (m,); of one that is not kept for a mixture, weights at which
             the shortfall is reached; None of one that another dominates.
@@ -83,7 +83,7 @@ def worth_keeping(
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
         weights: The weights of the decision, shape (m,).
         among: The admitted weights.
         margin: Difference in weighted value that counts as nothing; at least 0.
@@ -164,7 +164,7 @@ def _least_shortfall(leads: Array, among: WeightSet) -> tuple[float, Array, Arra
     """The least t with ``leads w <= t`` for admitted weights w, such weights, and the shares of the dual.
 
     Args:
-        leads: What each other alternative is worth more, shape (k, m).
+        leads: Lead in value of each other alternative, shape (k, m).
         among: The admitted weights.
     """
     from scipy.optimize import linprog

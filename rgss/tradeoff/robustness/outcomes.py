@@ -45,7 +45,7 @@ def noisy_outcomes(preferences: Preferences, table: EvidenceTable, resamples: Re
     """The outcomes of `ResampledOutcomes` as arrays, for as few alternatives as fit in memory.
 
     Args:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         table: The evidence.
         resamples: The resamples.
     """

@@ -31,7 +31,7 @@ class SharedPart:
     Attributes:
         first: The one measure.
         second: The other.
-        parts: What both contain.
+        parts: Parts that both contain.
     """
 
     first: str
@@ -53,7 +53,7 @@ def overlapping_measures(
         contains: All measures that the expression of a measure contains, directly or through
             other measures.
         candidates: Measures that could be valued in place of others.
-        alike: Tells whether two measures are in the same unit.
+        alike: Predicate: True if two measures are in the same unit.
 
     Returns:
         The pairs, in the order of the weights: by the whole, then by the part.

@@ -85,7 +85,7 @@ def pareto_front(values: Array, feasible: Mask) -> ParetoFront:
     Args:
         values: The single values, shape (n, m), more being better; those of alternatives that are
             not feasible may be NaN.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
 
     Raises:
         TradeoffError: A value of a feasible alternative is not a number from 0 to 1.

@@ -41,7 +41,7 @@ class PosteriorOutcomes:
     """Posterior draws of the evidence of n alternatives, and what they mean.
 
     Attributes:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         table: The evidence.
         drawn: Draws of each measure that is observed in trials, shape (b, n); NaN where unknown.
         outcomes: Values and feasibility in each draw.
@@ -68,13 +68,13 @@ class PosteriorOutcomes:
         Demands on replicates are judged by replicates that are drawn anew with replacement.
 
         Args:
-            preferences: What is wanted.
+            preferences: Preferences that the alternatives are compared by.
             table: The evidence.
             proportions: The measures that are shares of trials.
-            generator: Where randomness comes from.
+            generator: Source of randomness.
             levels: The level of each alternative in each factor of its design, shape (n, f), in the
                 table's order; None where designs are not made of levels.
-            draws: How many draws; fewer where their values would not fit in memory.
+            draws: Number of draws; fewer where their values would not fit in memory.
             apart: As for `rgss.tradeoff.problem.posterior_means`.
         """
         size = max(1, len(table) * len(preferences.weighting.deciding_measures))
@@ -95,7 +95,7 @@ class PosteriorOutcomes:
         return np.asarray(self.outcomes.values @ weights, dtype=np.float64)
 
     def as_required(self, row: int) -> Array:
-        """Whether an alternative is feasible in each draw without the tolerances of thresholds, shape (b,).
+        """True where an alternative is feasible in each draw without the tolerances of thresholds, shape (b,).
 
         Args:
             row: Its row.
@@ -116,7 +116,7 @@ class PosteriorOutcomes:
 
         Args:
             weights: The admitted weights.
-            generator: Where randomness comes from.
+            generator: Source of randomness.
         """
         count = len(self.table)
         inner = max(FEWEST_DRAWS, min(_DRAWS_OF_A_STUDY, _MOST_VALUES // max(1, self.outcomes.shape[1])))

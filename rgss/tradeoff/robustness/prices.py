@@ -23,7 +23,7 @@ class PriceStep:
         tightest: The tightest, which is; infinite where nothing is feasible however tight.
         best: The best alternatives, ascending; empty where none is feasible.
         value: Their value; None where none is feasible.
-        feasible: How many alternatives are feasible.
+        feasible: Number of feasible alternatives.
         leaving: The alternatives that a tighter threshold than `tightest` excludes, ascending.
     """
 
@@ -48,12 +48,12 @@ def price_list(
     It falls (or stays) as the threshold tightens, and jumps only at quantities of alternatives.
 
     Args:
-        quantities: What the threshold is on, shape (n,); NaN where unknown, and
+        quantities: Quantities that the threshold bounds, shape (n,); NaN where unknown, and
             then no threshold is met.
         totals: The weighted values, shape (n,); NaN only where not feasible.
-        otherwise_feasible: Which alternatives meet everything else, shape (n,).
+        otherwise_feasible: Mask of the alternatives that meet everything else, shape (n,).
         at_least: Whether the threshold is a lower bound; an upper one otherwise.
-        best_of: Tells which of some alternatives are best, where it is not those of the highest
+        best_of: Callback that returns the best of some alternatives, where it is not those of the highest
             weighted value; the value then need not fall.
 
     Returns:

@@ -15,7 +15,7 @@ Scoring = Callable[[NDArray[np.intp]], Array]
 
 
 _PAIRS_UP_TO = 500
-"""Of at most so many alternatives every pair is looked at."""
+"""Largest number of alternatives of which every pair is compared."""
 
 _PAIRS_AT_ONCE = 4_000_000
 
@@ -28,7 +28,7 @@ class RankReversal:
         removed: The alternative that is taken away.
         best_before: The best of the others while it was there; the first of equals.
         best_after: The best without it.
-        swapped: How many pairs of the others change their order; ties that open or close count.
+        swapped: Number of pairs of the others that change their order; ties that open or close count.
     """
 
     removed: int
@@ -38,7 +38,7 @@ class RankReversal:
 
 
 def rank_reversals(count: int, score: Scoring) -> tuple[RankReversal, ...]:
-    """Take each alternative away in turn and see whether the others keep their order.
+    """Rank reversal: each alternative is removed in turn, and the order of the others is compared.
 
     Scores that depend on the alternative alone, such as weighted values anchored on requirements,
     never reverse: the order of two alternatives is that of two numbers which nothing else touches.
@@ -47,7 +47,7 @@ def rank_reversals(count: int, score: Scoring) -> tuple[RankReversal, ...]:
 
     Args:
         count: The number of alternatives.
-        score: What orders them.
+        score: Score that orders them.
 
     Returns:
         The removals that change an order, by ascending alternative; empty where none does.
@@ -116,7 +116,7 @@ def _order(scores: Array, others: Array) -> NDArray[np.int8]:
 
 
 def _same_order(old: Array, new: Array) -> bool:
-    """Tell whether no pair changes its order, by two sorted sequences instead of all pairs."""
+    """True if no pair changes its order, by two sorted sequences instead of all pairs."""
     by_old, by_new = np.argsort(old, kind="stable"), np.argsort(new, kind="stable")
     worse = np.searchsorted(old[by_old], old - TIE_TOLERANCE)
     if not np.array_equal(worse, np.searchsorted(new[by_new], new - TIE_TOLERANCE)):

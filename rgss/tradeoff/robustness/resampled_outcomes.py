@@ -75,7 +75,7 @@ class ResampledOutcomes:
     Conditions on replicates are judged by those of the resample.
 
     Attributes:
-        preferences: What is wanted.
+        preferences: Preferences that the alternatives are compared by.
         tables: The evidence in each resample.
         shape: The numbers of resamples b, alternatives n and weighted measures m.
         probabilities: The probability of each resample, shape (b,).
@@ -95,7 +95,7 @@ class ResampledOutcomes:
         """The outcomes of resamples of a table.
 
         Args:
-            preferences: What is wanted.
+            preferences: Preferences that the alternatives are compared by.
             table: The evidence.
             resamples: The resamples.
         """
@@ -120,7 +120,7 @@ class ResampledOutcomes:
 
 
 class _DrawnSamples(Mapping[str, Samples]):
-    """The replicates of a resample, drawn when a condition looks at them."""
+    """The replicates of a resample, drawn when a condition needs them."""
 
     def __init__(self, samples: Mapping[str, Samples], draw: NDArray[np.intp]) -> None:
         self._samples = samples

@@ -13,7 +13,7 @@ def dominating_rival(leads: Array, here: Array, among: WeightSet, *, margin: flo
     """The alternative that is never worth less than another, and worth more by over a margin at some weights.
 
     Args:
-        leads: What each other alternative is worth more in each measure, shape (k, m).
+        leads: Lead in value of each other alternative in each measure, shape (k, m).
         here: Weights that are admitted, shape (m,); of several that dominate, the one that leads by most there
             is taken, and of equal ones the first.
         among: The admitted weights.
@@ -36,7 +36,7 @@ def lead_range(lead: Array, among: WeightSet) -> tuple[float, float]:
     """The least and the greatest of ``lead w`` over the admitted weights w, of which there are some.
 
     Args:
-        lead: What one alternative is worth more than another in each measure, shape (m,).
+        lead: Lead in value of one alternative over another in each measure, shape (m,).
         among: The admitted weights.
     """
     if among.is_simplex:

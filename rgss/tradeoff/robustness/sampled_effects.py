@@ -65,7 +65,7 @@ def first_order_indices(
         classes: The class of each design in each factor, shape (n, d).
         values: The measure of each design, shape (n,); finite.
         resamples: Resamples of the designs, for the intervals.
-        generator: Where their randomness comes from.
+        generator: Source of their randomness.
 
     Returns:
         One index for each factor; all 0 where the designs do not differ.

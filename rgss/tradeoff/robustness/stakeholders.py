@@ -22,7 +22,7 @@ class StakeholderView:
         best: The best alternatives, ascending.
         best_value: Their weighted value.
         accepted: The alternatives within the stated distance of the best, ascending.
-        regrets: What each alternative is worth less than the best, shape (n,); NaN where not feasible.
+        regrets: Difference in value of each alternative to the best, shape (n,); NaN where not feasible.
     """
 
     name: str
@@ -69,7 +69,7 @@ def stakeholder_agreement(
 
     Args:
         values: The single values, shape (n, m); rows that are not feasible may hold NaN.
-        feasible: Which alternatives can be chosen, shape (n,); at least one.
+        feasible: Mask of the alternatives that can be chosen, shape (n,); at least one.
         stakeholders: Name and weights, shape (m,), of each; at least one.
         within: Distance from a stakeholder's best value up to which an alternative is accepted; at least 0.
 

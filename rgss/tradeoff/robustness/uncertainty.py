@@ -56,7 +56,7 @@ class ChoiceUncertainty:
         good: Probability that the choice is feasible and within the practical margin of the best.
         as_required: Probability that the choice is feasible without the tolerances of thresholds.
         none_feasible: Probability that nothing is feasible.
-        rivals: What is tied with the choice, by falling probability.
+        rivals: Alternatives tied with the choice, by falling probability.
         gains: Expected gain of value by so many more replicates of every alternative.
         perfect: Expected gain by perfect knowledge.
     """
@@ -89,7 +89,7 @@ def choice_uncertainty(
         chosen: Row of the choice.
         margin: The practical margin of values.
         replicates: Replicates that the estimates of each alternative come from, shape (n,).
-        estimated: Which alternatives are feasible by their estimates, shape (n,).
+        estimated: Mask of the alternatives that are feasible by their estimates, shape (n,).
         single: Their single values by their estimates, shape (n, m).
         more: Numbers of more replicates that are valued.
     """

@@ -1,7 +1,7 @@
-"""Where a budget of replicates goes: to the alternatives that may be the best, as far as is known.
+"""Allocation of a budget of replicates to the alternatives that may be the best.
 
-Without a budget every alternative that is not settled is replicated, so that the promise of the rule is kept as soon
-as it can be. A budget that is too small for that is spent where the choice is open: on the alternatives that the
+Without a budget every alternative that is not settled is replicated, so that the guarantee of the rule is reached as
+soon as it can be. A budget that is too small for that is spent where the choice is open: on the alternatives that the
 posterior draws (`rgss.tradeoff.sequential.probability`) find better than the choice most often, as top-two
 procedures do (Russo, "Simple Bayesian algorithms for best-arm identification", 2020). What is tied with the choice in
 every draw gets nothing for that. They are raised together, those with the fewest replicates first, so that all of them
@@ -64,16 +64,17 @@ def likely_better(
 def leaders(evidence: SequentialEvidence, progress: Progress, finalists: int) -> tuple[int, ...]:
     """The alternatives that a budget is spent on: those that would be chosen, then those that may come to be.
 
-    The first are those of the highest value among the feasible by the estimates, equals together: whoever leads by a
-    few lucky replicates is given as many as the others, which ends it, so that the choice rests on the most replicates.
+    The first are those of the highest value among the feasible by the estimates, equals together: an
+    alternative that leads by a few lucky replicates gets as many as the others, so that the choice has the most
+    replicates.
     The others are taken by what they would be worth if their estimates erred to their disadvantage by a standard error
     (`SequentialEvidence.hopes`), an upper confidence bound as in Auer, Cesa-Bianchi and Fischer ("Finite-time analysis
-    of the multiarmed bandit problem", 2002): an unlucky pilot does not end anyone. All are brought to the same number
-    of replicates, and so to the same seeds, on which alternatives that differ in few trials are told apart.
+    of the multiarmed bandit problem", 2002): an unlucky pilot eliminates no alternative. All are brought to the same
+    number of replicates, and so to the same seeds, on which alternatives that differ in few trials are separated.
 
     Args:
         evidence: The evidence so far.
-        progress: What earlier looks found: who is proven to be infeasible does not lead.
+        progress: Results of earlier looks: an alternative that is proven to be infeasible does not lead.
         finalists: So many lead, and all that are equal to the first.
 
     Returns:

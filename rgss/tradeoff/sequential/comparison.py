@@ -1,4 +1,4 @@
-"""What the replicates so far prove: alternatives that cannot be chosen, and verdicts that cannot change."""
+"""Tests on the replicates so far: alternatives that cannot be chosen, and verdicts that cannot change."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ def threshold_evidence(
 
 
 def is_infeasible(evidence: SequentialEvidence, row: int, level: float) -> bool:
-    """Tell whether an alternative is proven to violate a threshold.
+    """True if an alternative is proven to violate a threshold.
 
     Args:
         evidence: The evidence.
         row: The alternative.
-        level: Probability that one is ever taken for infeasible that is not.
+        level: Error probability over all looks: one is taken for infeasible that is not.
     """
     if not evidence.fixed_met[row]:
         return True
@@ -53,12 +53,12 @@ def is_infeasible(evidence: SequentialEvidence, row: int, level: float) -> bool:
 
 
 def is_acceptable(evidence: SequentialEvidence, row: int, *, level: float, slack: float, after: int) -> bool:
-    """Tell whether an alternative is proven to meet every threshold but for a slack.
+    """True if an alternative is proven to meet every threshold but for a slack.
 
     Args:
         evidence: The evidence.
         row: The alternative.
-        level: Probability that one is ever taken for acceptable that is not.
+        level: Error probability over all looks: one is taken for acceptable that is not.
         slack: As for `threshold_evidence`.
         after: So many first replicates are left out.
     """
@@ -73,7 +73,7 @@ def is_acceptable(evidence: SequentialEvidence, row: int, *, level: float, slack
 def is_beaten(
     evidence: SequentialEvidence, row: int, rival: int, *, level: float, after: int, lead: float, slack: float
 ) -> bool:
-    """Tell whether an alternative is proven not to be worth choosing before a rival.
+    """True if an alternative is proven not to be worth choosing before a rival.
 
     It would be if it met every threshold and either were worth more than the rival by the lead, or
     the rival violated a threshold by more than the slack. Both must be refuted. The level
@@ -84,9 +84,9 @@ def is_beaten(
         evidence: The evidence.
         row: The alternative.
         rival: The rival.
-        level: Probability that this is ever said wrongly of these two.
+        level: Error probability over all looks, for these two.
         after: So many first replicates are left out, because they chose the rival.
-        lead: How much more the alternative may be worth.
+        lead: Lead in value that the alternative may have.
         slack: As for `threshold_evidence`.
     """
     if not evidence.fixed_met[rival]:
@@ -120,7 +120,7 @@ def _most_more(one: Observed, row: int, rival: int, level: float, after: int) ->
 
 
 def _keeps_up(threshold: Threshold, most_more: float | None, slack: float) -> bool:
-    """Tell whether a rival is near enough to an alternative that meets the threshold."""
+    """True if a rival is near enough to an alternative that meets the threshold."""
     if most_more is None or threshold.comparison is not Comparison.AT_LEAST:
         return False
     return most_more <= slack * abs(threshold.value)

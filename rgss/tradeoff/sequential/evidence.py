@@ -23,7 +23,7 @@ class Observed:
         values: Quantities, shape (n, r); NaN where a replicate lacks it or was not run.
         weight: Its weight in the value; 0 if it has none.
         function: Its value function; None if it has no weight.
-        thresholds: What bounds it, by their place among all thresholds.
+        thresholds: Its thresholds, by their place among all thresholds.
     """
 
     measure: str
@@ -71,7 +71,7 @@ class Observed:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Hopes:
-    """What n alternatives come to if their estimates err to their disadvantage.
+    """Values and shortfalls of n alternatives if their estimates err to their disadvantage.
 
     Attributes:
         values: Weighted value, shape (n,); NaN where a measure is unknown.
@@ -89,13 +89,13 @@ class SequentialEvidence:
 
     Attributes:
         table: The alternatives, by ascending id.
-        replicates: How many replicates of each were run, shape (n,).
-        thresholds: What the requirements demand.
+        replicates: Number of replicates of each that were run, shape (n,).
+        thresholds: Thresholds of the requirements.
         observed: The measures that are observed in trials and that decide.
         fixed_value: What the measures that follow from the design add to the value, shape (n,).
-        fixed_met: Which alternatives meet every threshold on such measures, shape (n,).
+        fixed_met: Mask of the alternatives that meet every threshold on such measures, shape (n,).
         values: Weighted value by the estimates, shape (n,); NaN where a measure is unknown.
-        feasible: Which alternatives meet everything by their estimates, but for the tolerance, shape (n,).
+        feasible: Mask of the alternatives that meet everything by their estimates, but for the tolerance, shape (n,).
         tolerance: Share of a threshold on what trials observe by which the choice may miss it.
         last_of_equals: Whether the largest id of equals is the choice; the smallest otherwise.
         twins: The group of alternatives with which each has all trials in common, whatever the seed, shape (n,).
@@ -185,7 +185,7 @@ class SequentialEvidence:
     def is_settled_by_design(self, row: int, rival: int, margin: float) -> bool:
         """True if no replicate can show that an alternative is worth more than a rival by a margin.
 
-        So it is where both have the same trials whatever the seed, and no measure tells them apart in those that
+        So it is where both have the same trials whatever the seed, and no measure separates them in those that
         were run: then they differ by their designs alone, which are known.
 
         Args:
@@ -244,7 +244,7 @@ class SequentialEvidence:
         return Hopes(values=values, shortfalls=short)
 
     def is_nearly_feasible(self, row: int, slack: float) -> bool:
-        """Tell whether an alternative's estimates miss no threshold by more than a share of it.
+        """True if an alternative's estimates miss no threshold by more than a share of it.
 
         Args:
             row: The alternative.
@@ -263,12 +263,12 @@ class SequentialEvidence:
 def _check(problem: TradeProblem) -> None:
     if problem.program.name != "additive":
         raise TradeoffError(
-            f"replication until decided knows no {problem.program.name} program",
+            f"replication until decided does not support the {problem.program.name} program",
             hint="decide by the weighted value, or run a fixed number of replicates",
         )
     if problem.risks:
         raise TradeoffError(
-            f"replication until decided knows no demand on replicates, such as {problem.risks[0].requirement}",
+            f"replication until decided does not support demands on replicates, such as {problem.risks[0].requirement}",
             hint="take the risks out, or run a fixed number of replicates",
         )
     for threshold in problem.thresholds:

@@ -40,12 +40,12 @@ def forecast(
     """Forecast what would settle a choice, by repeating the replicates in their order and testing again.
 
     Numbers are doubled until the tests settle, so that they are right within a factor of two if the trials
-    go on as they are: an order of magnitude for a budget, no promise.
+    go on as they are: an order of magnitude for a budget, without a guarantee.
 
     Args:
         evidence: The evidence.
         rule: The rule.
-        progress: What the looks found.
+        progress: Results of the looks.
         chosen: The choice.
         open_: The alternatives that may be worth more than it by the margin.
     """

@@ -33,7 +33,7 @@ def probability_of_good_selection(
         chosen: The choice; None that there is nothing feasible.
         margin: The difference of value that is practically none.
         seed: Seed of the draws.
-        draws: How many.
+        draws: Number of draws.
 
     Returns:
         The share of the draws in which the choice is feasible, within the tolerance, and good, or nothing is.
@@ -59,7 +59,7 @@ def probabilities_of_loss(
         chosen: The choice; None if nothing is feasible by the estimates, which is never good.
         margin: The difference of value that is practically none.
         seed: Seed of the draws.
-        draws: How many.
+        draws: Number of draws.
     """
     values, feasible = _posterior(evidence, draws=draws, seed=seed)
     worth = np.where(feasible, values, -np.inf)

@@ -18,7 +18,7 @@ class SequentialRule:
         error_rate: α: probability that the decision is called decided and is wrong; and, of each
             verdict that is not inconclusive, that it is wrong.
         margin: Difference of value that is practically none: the indifference zone.
-        slack: Share of a threshold by which it may be missed before it matters to the decision.
+        slack: Share of a threshold by which it may be missed without an effect on the decision.
         pilot: Replicates that every alternative gets.
         batch: Replicates that are added at a look.
         cap: Most replicates of an alternative.
@@ -48,11 +48,13 @@ class SequentialRule:
             )
         for name, number in (("margin", self.margin), ("slack", self.slack)):
             if not (math.isfinite(number) and 0.0 <= number < 1.0):
-                raise TradeoffError(f"the {name} is {number:g}", hint="give a number from 0 to 1, such as 0.05")
+                raise TradeoffError(
+                    f"{name} must be from 0 to below 1, got {number:g}", hint="give a number such as 0.05"
+                )
         if self.pilot < 2 or self.batch < 1:
             raise TradeoffError(
-                f"a pilot of {self.pilot} and batches of {self.batch} replicates are too small",
-                hint="give a pilot of at least 2 and batches of at least 1",
+                f"pilot must be at least 2 and batch at least 1, got {self.pilot} and {self.batch}",
+                hint="give numbers of replicates",
             )
         if self.finalists is not None and self.finalists < 2:
             raise TradeoffError(
@@ -60,13 +62,14 @@ class SequentialRule:
             )
         if self.cap < self.pilot or not 0 <= self.verdict_cap <= self.cap:
             raise TradeoffError(
-                f"a cap of {self.cap}, one for verdicts of {self.verdict_cap} and a pilot of {self.pilot} do not agree",
+                f"cap must be at least the pilot of {self.pilot} and the verdict cap of {self.verdict_cap}, "
+                f"got {self.cap}",
                 hint="the cap is the largest of the three",
             )
 
 
 def check_pilot(rule: SequentialRule, count: int) -> None:
-    """Make sure that the budget has room for the pilot.
+    """Check that the budget has room for the pilot.
 
     Args:
         rule: The rule.

@@ -1,4 +1,4 @@
-"""What is settled of a choice: who cannot be worth more by the margin, and whether it is acceptable itself."""
+"""Settled alternatives: those that cannot be worth more than the choice by the margin; acceptance of the choice."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _RIVALS_SHARE = 0.9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Progress:
-    """What earlier looks found; it only grows.
+    """Results of the looks so far; they only grow.
 
     Attributes:
-        looks: How often was looked.
+        looks: Number of looks.
         rivals: The alternatives that others are compared with, with their weights, which sum to 1.
         dropped: The alternatives that cannot be chosen, and why.
         settled: By alternative and place of a threshold, whether it is met, where that is proven.
@@ -43,9 +43,9 @@ def unsettled(
     Args:
         evidence: The evidence.
         rule: The rule.
-        progress: What earlier looks found.
+        progress: Results of earlier looks.
         chosen: The choice; None if nothing is feasible by the estimates.
-        among: The alternatives that are looked at.
+        among: The alternatives that are compared with the choice.
     """
     possible = frozenset(variant for variant in among if progress.dropped.get(variant) != INFEASIBLE)
     if chosen is None:
@@ -53,7 +53,7 @@ def unsettled(
     rivals = dict(progress.rivals)
     share = _RIVALS_SHARE * rivals[chosen] if chosen in rivals else (1.0 - _RIVALS_SHARE) / len(evidence.table)
     level = rule.error_rate * BEATEN_SHARE * share
-    # The pilot named the rivals, so that it cannot speak for them again.
+    # The pilot selected the rivals, so its replicates would bias their comparison.
     after = rule.pilot if chosen in rivals else 0
     place = evidence.table.row_of(chosen)
     return frozenset(
@@ -70,7 +70,7 @@ def is_accepted(evidence: SequentialEvidence, rule: SequentialRule, progress: Pr
     Args:
         evidence: The evidence.
         rule: The rule.
-        progress: What earlier looks found.
+        progress: Results of earlier looks.
         chosen: The choice.
     """
     rivals = dict(progress.rivals)
@@ -90,8 +90,8 @@ def beats(
         rule: The rule.
         row: The row of the alternative.
         rival: The rival.
-        level: Probability that this is ever said wrongly of these two.
-        lead: How much more the alternative may be worth.
+        level: Error probability over all looks, for these two.
+        lead: Lead in value that the alternative may have.
         after: So many first replicates are left out.
     """
     place = evidence.table.row_of(rival)

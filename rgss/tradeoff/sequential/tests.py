@@ -1,4 +1,4 @@
-"""Tests and bounds that stay valid however often, and whenever, one looks at the data.
+"""Anytime-valid tests and bounds: valid at any number of looks at the data.
 
 Each uses a nonnegative martingale M that starts at 1 where the hypothesis holds: by Ville's
 inequality (1939) the probability that M *ever* reaches 1/a is at most a. So a test that rejects at
@@ -34,8 +34,8 @@ def proportion_evidence(successes: int, trials: int, limit: float, *, above: boo
     because the likelihood ratio of a Bernoulli variable is monotone.
 
     Args:
-        successes: How many trials succeeded.
-        trials: How many there were.
+        successes: Number of trials that succeeded.
+        trials: Number of trials.
         limit: The limit.
         above: Whether the hypothesis that is to be rejected is "at most the limit"; "at least" otherwise.
     """

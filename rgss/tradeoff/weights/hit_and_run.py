@@ -32,14 +32,14 @@ def walked_weights(polytope: Polytope, inside: Array, count: int, generator: np.
     under linear conditions (Tervonen et al., "Hit-And-Run enables efficient weight generation for
     simulation-based multiple criteria decision analysis", 2013). Long thin polytopes mix slowly, so
     the directions are those of a random orthonormal basis after the polytope was rounded by the
-    covariance of pilot walks. Every weight is the end of a walk of its own, so that standard errors
+    covariance of pilot walks. Every weight is the end of its own walk, so that standard errors
     of independent draws hold; that the walks have forgotten their start is tested and not proven.
 
     Args:
         polytope: The admitted weights, of dimension 1 or more.
         inside: A point of its interior, shape (m,).
-        count: How many are drawn.
-        generator: Where randomness comes from.
+        count: Number of draws.
+        generator: Source of randomness.
 
     Returns:
         The weights, shape (count, m); each row is exactly non-negative.
@@ -77,7 +77,7 @@ def _walked(points: Array, slopes: Array, gaps: Array, shape: Array, generator: 
         slopes: The conditions a x <= c, shape (k, d).
         gaps: Their right-hand sides, shape (k,).
         shape: Turns directions of a round body into those of the polytope, shape (d, d).
-        generator: Where randomness comes from.
+        generator: Source of randomness.
     """
     dimension = points.shape[1]
     # Conditions by rows, so that those that bound a direction are whole rows in memory.

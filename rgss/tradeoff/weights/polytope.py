@@ -57,7 +57,7 @@ class Polytope:
         lengths = np.linalg.norm(own_rows @ weights.directions(), axis=1)
         flat = lengths <= 1e-13
         # A flat row is the same number for every admitted weight; any point that satisfies the
-        # equations tells which.
+        # equations shows which.
         equation_rows, equals = weights.equations()
         anywhere = np.linalg.lstsq(equation_rows, equals, rcond=None)[0]
         contradiction = bool((own_rows[flat] @ anywhere > own_limits[flat] + SOLVER_TOLERANCE).any())

@@ -50,9 +50,9 @@ def sample_weights(
 
     Args:
         weights: The admitted weights.
-        count: How many are drawn.
-        generator: Where randomness comes from.
-        most_walks: How many are drawn at most where they are ends of walks, which take longer.
+        count: Number of draws.
+        generator: Source of randomness.
+        most_walks: Largest number of draws where they are ends of walks, which take longer.
 
     Raises:
         TradeoffError: The set has no interior.

@@ -59,7 +59,7 @@ class WeightRegion:
         high: The largest value of each weight in it, shape (m,); None if it is empty.
         share: Its volume as a share of that of all admitted weights.
         share_error: The standard error of the share; 0 where it was computed from vertices.
-        share_by: How the share was found.
+        share_by: Method by which the share was found.
         vertices: Its corners, shape (v, m); None where they were not computed.
     """
 
@@ -107,7 +107,7 @@ def never_best(values: Array, rivals: Array | None) -> Mask:
 
     Args:
         values: The single values of distinct alternatives, shape (n, m).
-        rivals: What `rivals_of` gives for them; of None nothing is said.
+        rivals: What `rivals_of` gives for them; no statement if None.
     """
     beaten = np.zeros(len(values), dtype=np.bool_)
     for rival in () if rivals is None else rivals:
@@ -125,7 +125,7 @@ def shared_region_keys(values: Array, rivals: Array | None) -> tuple[bytes | Non
 
     Args:
         values: The single values of distinct alternatives, shape (n, m).
-        rivals: What `rivals_of` gives for them; of None nothing is said.
+        rivals: What `rivals_of` gives for them; no statement if None.
 
     Returns:
         A key for each alternative; None where none is known.
@@ -150,7 +150,7 @@ def winning_regions(
 
     Args:
         values: The single values, shape (n, m), from 0 to 1; rows that are not feasible may hold NaN.
-        feasible: Which alternatives can be chosen, shape (n,).
+        feasible: Mask of the alternatives that can be chosen, shape (n,).
         weights: The admitted weights.
         generator: For shares that cannot be computed from vertices; otherwise it is not used.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rgss.scenes import GripperGeometry, Scene, Workpiece, grasp_opening_m, initial_standings, scene_about
+from rgss.scenes import GripperGeometry, Scene, grasp_opening_m, initial_standings, scene_about
 from rgss.tasks import CheckStep, GripStep, MoveStep, Step, StepControl, TaskProgram, stages_of
 
 
@@ -60,14 +60,6 @@ class GripSequence:
         """
         step = self._steps[phase]
         return step.firm_s if isinstance(step, GripStep) and step.firm_s is not None else common_s
-
-    def object_of(self, phase: str) -> Workpiece:
-        """The object that a step concerns.
-
-        Args:
-            phase: Name of the step.
-        """
-        return self._views[phase].workpiece
 
     def view_of(self, phase: str) -> Scene:
         """The scene with the object of a step as its workpiece.

@@ -62,7 +62,7 @@ class Hostile:
         self.keys = []
         self.free = 1
 
-    def want(self, tasks):
+    def prepare_for(self, tasks):
         pass
 
     def begin(self, key, arguments):
@@ -71,8 +71,8 @@ class Hostile:
     def wait(self, timeout_s):
         from rgss.evidence import RunFailureKind
 
-        trouble = TaskError(kind=RunFailureKind.RAISED, detail=self.DETAIL, may_pass=False)
-        ended = [Ended(key=key, result=None, trouble=trouble, took_s=0.0) for key in self.keys]
+        failure = TaskError(kind=RunFailureKind.RAISED, detail=self.DETAIL, may_pass=False)
+        ended = [Ended(key=key, result=None, failure=failure, took_s=0.0) for key in self.keys]
         self.keys = []
         return ended
 

@@ -38,7 +38,7 @@ def test_a_cap_below_the_pilot(rgss, untouched):
     told = rgss("sweep", "--until", "decided", "--cap", "4", "--project", untouched)
 
     assert (told.status, told.output) == (2, "")
-    assert "a cap of 4, one for verdicts of 16 and a pilot of 8 do not agree" in told.complaint
+    assert "cap must be at least the pilot of 8 and the verdict cap of 16, got 4" in told.complaint
 
 
 def test_what_came_of_it(rgss, folder, monkeypatch):

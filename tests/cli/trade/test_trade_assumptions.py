@@ -13,7 +13,7 @@ from tests.fixtures.shipped_project import copy_project
     ("words", "said"),
     [
         (["--what-if", "physics.rate=480 Hz"], "the suppositions need 216 trials of 216 that were not run (add --run"),
-        (["--what-if", "planning.limit=5 s"], "there is no 'planning.limit' (did you mean planning.time_limit"),
+        (["--what-if", "planning.limit=5 s"], "unknown input 'planning.limit' (did you mean planning.time_limit"),
         (["--what-if", "planning.charge_per_check=5 m"], "unit 'm' does not measure what 's' measures"),
         (["--jobs", "2"], "--jobs needs --run"),
         (["--run", "--jobs", "0"], "--jobs must be at least 1, got 0"),

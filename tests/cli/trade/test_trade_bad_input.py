@@ -37,14 +37,14 @@ def edited(folder, lines):
         ),
         (
             "  decide_by: {program: lexicographic, order: [{measure: S, absolute: -0.05}]}",
-            "the absolute tolerance of 'S' is -0.05 (a tolerance is not negative)",
+            "absolute tolerance of 'S' must be at least 0, got -0.05 (give 0 for no tolerance)",
         ),
         (
             "  decide_by: {program: lexicographic, order: [{measure: S}, {measure: S}]}",
             "'S' occurs twice in a lexicographic program (keep the more important place)",
         ),
         ("  weight_order: [{heavier: t_p, lighter: P_max}]", "the weight of 't_p' is 0.1, below that of 'P_max', 0.25"),
-        ("  chance: [{requirement: SYS-050, probability: 0.5}]", "there is not a system requirement 'SYS-050'"),
+        ("  chance: [{requirement: SYS-050, probability: 0.5}]", "unknown system requirement 'SYS-050'"),
         (
             "  tail: [{measure: t_ee, at_most: 3 s, worst_share: 0.5}]",
             "no measure 't_ee' is defined (did you mean 't_e'?)",

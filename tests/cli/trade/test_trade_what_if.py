@@ -110,7 +110,7 @@ def test_what_drops_variants(rgss, with_evidence):
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("weight.t_x=0.4", "there is no 'weight.t_x' (did you mean weight.t_p or weight.t_e or weight.P_max?)"),
+        ("weight.t_x=0.4", "unknown input 'weight.t_x' (did you mean weight.t_p or weight.t_e or weight.P_max?)"),
         (
             "SYS-012.threshold=1 s",
             "SYS-012.threshold: unit 's' does not measure what 'kg' measures (give it in kg or a multiple of it)",

@@ -285,7 +285,7 @@ def test_a_record_of_verdicts_that_is_none(rgss, judged, verb):
     told = rgss(*verb, "--project", judged)
 
     assert (told.status, told.output) == (2, "")
-    assert told.complaint.startswith("rgss: .rgss/verdicts.json is no record of verdicts (remove it and run")
+    assert told.complaint.startswith("rgss: .rgss/verdicts.json is not a record of verdicts (remove it and run")
 
 
 def test_a_hostile_test_result_is_refused_in_one_line(rgss, folder):

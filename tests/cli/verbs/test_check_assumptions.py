@@ -21,7 +21,7 @@ def test_alternatives_of_what_cannot_be_supposed_are_found(rgss, folder, edit):
     told = rgss("check", "--project", folder)
 
     assert told.status == 1
-    assert "there is no 'planning.charge' (did you mean planning." in told.output
+    assert "unknown input 'planning.charge' (did you mean planning." in told.output
 
 
 def test_right_alternatives_are_no_finding(rgss, folder, edit):

@@ -53,7 +53,7 @@ def test_the_table_has_the_references(rgss, quick):
 @pytest.mark.parametrize(
     ("more", "expected"),
     [
-        (["--only", "RTT"], "there is no planner 'RTT' (did you mean 'RRT'?"),
+        (["--only", "RTT"], "unknown planner 'RTT' (did you mean 'RRT'?"),
         (["--only", "SST"], "planner SST cannot be run: it goes on to its limit"),
         (["--seeds", "0"], "--seeds must be from 1 to 10000 (omit it for the study's number)"),
     ],

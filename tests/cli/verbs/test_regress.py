@@ -253,7 +253,7 @@ def test_designs_that_are_not_there_are_told_where_they_stand(rgss, guarded):
     path.write_text(path.read_text(encoding="utf-8").replace('"57,60"', '"57,160"'), encoding="utf-8")
     line = 1 + path.read_text(encoding="utf-8")[: path.read_text(encoding="utf-8").index('"57,160"')].count("\n")
     said = (
-        f"{STUDY}:{line}:53: error: variants of run planning: there is no variant 160 (ids go from 1 to 72) "
+        f"{STUDY}:{line}:53: error: variants of run planning: unknown variant 160 (ids go from 1 to 72) "
         "[study.regression]"
     )
 

@@ -186,7 +186,7 @@ def test_evidence_that_is_damaged_is_bad_input(capsys, folder):
 def test_a_variant_that_is_gone_is_bad_input(capsys, folder, key):
     # Without the second planning time there are 48 variants.
     edit(folder, "designs/grasping_system.yaml", "      - id: medium\n        sets: {d9: 6 s}\n", "")
-    assert refused(capsys, folder, key) == "there is no variant 65 (ids of variants: from 1 to 48)"
+    assert refused(capsys, folder, key) == "unknown variant 65 (ids of variants: from 1 to 48)"
 
 
 def test_a_run_that_fails_is_told_as_such(capsys, folder, monkeypatch):

@@ -56,9 +56,9 @@ def test_a_reading_goes_together_with_other_suppositions(shipped, measured):
     [
         (
             ["reading.S=share_of_stats"],
-            r"there is no 'reading.S=share_of_stats' \(such as reading.S=share_of_states",
+            r"unknown reading 'reading.S=share_of_stats' \(such as reading.S=share_of_states",
         ),
-        (["reading.C_total=free"], r"there is no 'reading.C_total=free' \(such as reading"),
+        (["reading.C_total=free"], r"unknown reading 'reading.C_total=free' \(such as reading"),
         (["reading.t_e=simulated", "reading.t_e=without_planning"], "reading.t_e is supposed twice"),
     ],
 )

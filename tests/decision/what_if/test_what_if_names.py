@@ -119,7 +119,7 @@ def test_demands_of_the_study(shipped, measured):
     [
         ("tail:SYS-033.worst_share=0", "must be above 0 and at most 1, got 0"),
         ("chance:SYS-005.probability=120 %", "must be above 0 and at most 1, got 1.2"),
-        ("tail:SYS-034=9 s", "there is no 'tail:SYS-034'"),
+        ("tail:SYS-034=9 s", "unknown input 'tail:SYS-034'"),
         ("tail:SYS-033=9 kg", "tail:SYS-033.threshold"),
         ("evidence:t_p=3", "demands that a measure is known and has no number"),
         ("tail:SYS-033=9 s", None),

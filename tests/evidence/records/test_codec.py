@@ -128,7 +128,7 @@ def test_a_damaged_text_is_refused_by_the_part_that_is_wrong(record, change, mes
         ("", "the record is not JSON: Expecting value: line 1 column 1 (char 0)"),
         ("[1, 2]", "record is not a mapping: [1, 2]"),
         ("null", "record is not a mapping: None"),
-        ('{"a": 1, "a": 2}', "the record is not JSON: a key stands twice"),
+        ('{"a": 1, "a": 2}', "the record is not JSON: a key occurs twice"),
         ('{"a": NaN}', "the record is not JSON: NaN is not a finite number"),
         ('{"a": -Infinity}', "the record is not JSON: -Infinity is not a finite number"),
         ("[" * 200_000, "the record is not JSON: maximum recursion depth exceeded"),

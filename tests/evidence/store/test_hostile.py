@@ -175,10 +175,10 @@ def test_a_summary_of_what_is_no_sound_store_is_refused(filled, change, statemen
     [
         ("UPDATE pieces SET content = x'00'", "its content cannot be unpacked"),
         ("UPDATE pieces SET kind = 'timing'", "its content belongs to another piece"),
-        ("UPDATE pieces SET kind = 'photograph'", "there is no kind 'photograph'"),
+        ("UPDATE pieces SET kind = 'photograph'", "unknown kind 'photograph'"),
         ("UPDATE pieces SET content_digest = 'x'", "its content is not the one that was put"),
         ("UPDATE pieces SET seal = 'x'", "its content belongs to another piece"),
-        ("UPDATE pieces SET kind = x'00'", "there is no kind b'\\x00'"),
+        ("UPDATE pieces SET kind = x'00'", "unknown kind b'\\x00'"),
     ],
 )
 def test_a_tampered_piece_is_refused(path, change, statement, problem):
@@ -325,7 +325,7 @@ def test_a_truncated_file_is_refused(filled):
     filled.write_bytes(filled.read_bytes()[:9000])
     assert refusal(filled) == (
         "the evidence store evidence.sqlite cannot be used: database disk image is malformed "
-        "('rgss evidence verify' tells what is left of it)"
+        "('rgss evidence verify' shows what is left of it)"
     )
 
 

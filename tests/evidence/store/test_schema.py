@@ -101,7 +101,7 @@ def test_damage_that_only_a_check_of_the_pages_shows_is_refused(tmp_path):
     with pytest.raises(EvidenceError) as caught:
         EvidenceStore.open(path, label="evidence.sqlite")
     assert str(caught.value) == (
-        "evidence.sqlite is damaged: NULL value in inputs.content ('rgss evidence verify' tells what is left of it)"
+        "evidence.sqlite is damaged: NULL value in inputs.content ('rgss evidence verify' shows what is left of it)"
     )
 
 

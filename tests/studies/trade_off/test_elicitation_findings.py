@@ -123,7 +123,7 @@ FINDINGS = [
         (*WEIGHED, "stakeholders: {me: {weights: {t_e: 1}, points: {t_e: 1}}}"),
         "5:22: error: stakeholder 'me' has 'weights' and 'points'",
     ),
-    ((*WEIGHED, "stakeholders: {me: {weights: {t_e: 0.6}}}"), "error: the weights sum to 0.6, not to 1"),
+    ((*WEIGHED, "stakeholders: {me: {weights: {t_e: 0.6}}}"), "error: weights must sum to 1, got 0.6"),
     ((*WEIGHED, "stakeholders: {me: {weights: {t_p: 1}}}"), "error: measure 't_p' has no weight in the study"),
     ((*WEIGHED, "accept_within: 2"), "5:18: error: accept_within must be from 0 to 1, got 2"),
     ((*WEIGHED, "sensitivity: {weights: 1}"), "5:26: error: weights must be from 0 to below 1, got 1"),

@@ -75,7 +75,7 @@ FINDINGS = [
     # anchors
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-999}, best: 5 s}"),
-        "3:40: error: there is not a system requirement 'SYS-999'",
+        "3:40: error: unknown system requirement 'SYS-999'",
     ),
     (
         values("{measure: t_e, weight: 1, worst: {requirement: SYS-001}, best: 5 s}"),
@@ -119,13 +119,16 @@ FINDINGS = [
     ),
     (
         ("rank_rule: rank_sum", *values("{measure: t_e, rank: 2, worst: 25 s, best: 5 s}")),
-        "4:5: error: the rank of 't_e' is 2, where 1 is next",
+        "4:5: error: rank of 't_e' must be 1, got 2",
     ),
-    (values("{measure: t_e, points: -5, worst: 25 s, best: 5 s}"), "3:30: error: the points of 't_e' are -5"),
-    (values("{measure: t_e, weight: 0.9, worst: 25 s, best: 5 s}"), "3:5: error: the weights sum to 0.9, not to 1"),
+    (
+        values("{measure: t_e, points: -5, worst: 25 s, best: 5 s}"),
+        "3:30: error: points of 't_e' must be at least 0, got -5",
+    ),
+    (values("{measure: t_e, weight: 0.9, worst: 25 s, best: 5 s}"), "3:5: error: weights must sum to 1, got 0.9"),
     # groups
     (values("{criterion: time, weight: 1}"), "3:7: error: criterion 'time' has no members (list them in 'of')"),
-    (values(f"{{criterion: time, weight: 1, of: [{TIME}]}}"), "3:40: error: the weights sum to 0.5, not to 1"),
+    (values(f"{{criterion: time, weight: 1, of: [{TIME}]}}"), "3:40: error: weights must sum to 1, got 0.5"),
     (
         values(f"{{criterion: time, weight: 1, worst: 5 s, of: [{TIME.replace('0.5', '1')}]}}"),
         "3:43: error: criterion 'time' has members, not 'worst' of its own (value its members)",
@@ -166,11 +169,11 @@ FINDINGS = [
     ),
     (
         (*BOTH, "decide_by: {program: lexicographic, order: [{measure: t_e, absolute: -1 s}]}"),
-        "5:47: error: the absolute tolerance of 't_e' is -1",
+        "5:47: error: absolute tolerance of 't_e' must be at least 0, got -1",
     ),
     (
         (*BOTH, "decide_by: {program: lexicographic, order: [{measure: t_e, relative: 120 %}]}"),
-        "5:47: error: the relative tolerance of 't_e' is 120 %",
+        "5:47: error: relative tolerance of 't_e' must be below 100 %, got 120 %",
     ),
     (
         (*BOTH, "decide_by: {program: lexicographic, order: [{measure: t_e, absolute: 1 kg}]}"),
@@ -193,13 +196,16 @@ FINDINGS = [
         (*BOTH, "decide_by: {program: tchebycheff, reference: {t_p: 3 s}}"),
         "5:54: error: the reference names 't_p', which has no weight",
     ),
-    ((*BOTH, "decide_by: {program: tchebycheff, augmentation: 0}"), "5:51: error: the augmentation is 0"),
+    (
+        (*BOTH, "decide_by: {program: tchebycheff, augmentation: 0}"),
+        "5:51: error: augmentation must be above 0 and at most 1, got 0",
+    ),
     (
         (*BOTH, "decide_by: {program: minimax_regret, over: days}"),
         "5:46: error: over: 'days' is not one of 'weights' or 'replicates'",
     ),
     # margins
-    ((*BOTH, "practical_margin: -0.1"), "5:21: error: the practical margin is -0.1"),
+    ((*BOTH, "practical_margin: -0.1"), "5:21: error: practical_margin must be at least 0, got -0.1"),
     ((*BOTH, "tolerance: 100 %"), "5:14: error: tolerance must be from 0 to below 1, got 1"),
     ((*BOTH, "tolerance: -0.1"), "5:14: error: tolerance must be from 0 to below 1, got -0.1"),
     (
@@ -209,9 +215,12 @@ FINDINGS = [
     # risks
     (
         (*BOTH, "chance: [{requirement: SYS-005, probability: 1}]"),
-        "5:48: error: probability is 1 (give a number between 0 and 1",
+        "5:48: error: probability must be between 0 and 1, got 1 (such as 0.9)",
     ),
-    ((*BOTH, "tail: [{requirement: SYS-005, worst_share: 0}]"), "5:46: error: worst_share is 0"),
+    (
+        (*BOTH, "tail: [{requirement: SYS-005, worst_share: 0}]"),
+        "5:46: error: worst_share must be between 0 and 1, got 0",
+    ),
     ((*BOTH, "chance: [{probability: 0.5}]"), "5:12: error: a chance is of a requirement or of a measure"),
     ((*BOTH, "tail: [{requirement: SYS-001, worst_share: 0.5}]"), "5:24: error: SYS-001 has no criterion"),
     (
@@ -233,7 +242,10 @@ FINDINGS = [
         (*BOTH, "portfolio: {at_most: 0, studies: [{study: a, weight: 1}]}"),
         "5:24: error: at_most: input should be greater",
     ),
-    ((*BOTH, "portfolio: {at_most: 1, studies: [{study: a, weight: 0.5}]}"), "5:36: error: the weights sum to 0.5"),
+    (
+        (*BOTH, "portfolio: {at_most: 1, studies: [{study: a, weight: 0.5}]}"),
+        "5:36: error: weights must sum to 1, got 0.5",
+    ),
     (
         (*BOTH, "portfolio: {at_most: 1, studies: [{study: a, weight: 0.5}, {study: a, weight: 0.5}]}"),
         "5:70: error: study 'a' is named twice",
@@ -269,7 +281,7 @@ def test_the_project_s_own_requirements_are_looked_up(folder, edit, problems, pl
     assert load_project(folder).study.values[0].worst == 0.8
     edit(file, "{requirement: SYS-012}", "{requirement: SYS-112}")
     (problem,) = problems()
-    assert problem.startswith(f"{place_of(file, '{requirement')}: error: there is not a system requirement 'SYS-112'")
+    assert problem.startswith(f"{place_of(file, '{requirement')}: error: unknown system requirement 'SYS-112'")
     assert "(did you mean 'SYS-012'?)" in problem
 
 

@@ -37,9 +37,9 @@ class AnsweringClient:
     [
         None,
         b"garbage",
-        Ended(key="another", result=1, trouble=None, took_s=0.1),
-        Ended(key="k", result=1, trouble=None, took_s=float("nan")),
-        Ended(key="k", result=1, trouble="trouble", took_s=0.1),
+        Ended(key="another", result=1, failure=None, took_s=0.1),
+        Ended(key="k", result=1, failure=None, took_s=float("nan")),
+        Ended(key="k", result=1, failure="trouble", took_s=0.1),
     ],
 )
 def test_a_wrong_answer_of_a_dask_worker_costs_the_task_and_not_the_sweep(answer):
@@ -48,5 +48,5 @@ def test_a_wrong_answer_of_a_dask_worker_costs_the_task_and_not_the_sweep(answer
     workers.begin("k", ())
     (ended,) = workers.wait(60.0)
     assert (ended.key, ended.result) == ("k", None)
-    assert ended.trouble.kind is RunFailureKind.WRONG_ANSWER
-    assert ended.trouble.detail == "a Dask worker answered something else than it was asked"
+    assert ended.failure.kind is RunFailureKind.WRONG_ANSWER
+    assert ended.failure.detail == "the answer of a Dask worker belongs to another task"

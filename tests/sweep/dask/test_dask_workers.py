@@ -72,12 +72,12 @@ def test_a_cluster_goes_on_whatever_becomes_of_its_tasks(local, doubles, carried
         workers.close()
     dask_workers = {worker.process.pid for worker in local.workers.values()}
 
-    assert ended["who"].trouble is None
+    assert ended["who"].failure is None
     assert ended["who"].result not in {*dask_workers, os.getpid()}
     assert ended["parent"].result in dask_workers
     assert ended["memory_limit"].result == GIB
     assert ended["threads"].result == "1"
-    troubles = {name: each.trouble for name, each in ended.items() if each.trouble is not None}
+    troubles = {name: each.failure for name, each in ended.items() if each.failure is not None}
     assert troubles == {name: each for name, each in troubles_of_tasks.items() if name != "hang"}
     assert not is_running(ended["who"].result)
 
@@ -86,7 +86,7 @@ def test_a_task_that_hangs_is_ended_at_its_limit(local, doubles, carried_out, tr
     # Alone, for on a busy machine any task may take as long as this limit.
     with dask_cluster(local.scheduler_address, time_limit_s=5.0, memory_limit_bytes=1 * GIB) as cluster:
         ended = carried_out(cluster.workers(doubles.act), {"hang": ("hang",)})
-    assert ended["hang"].trouble == troubles_of_tasks["hang"]
+    assert ended["hang"].failure == troubles_of_tasks["hang"]
 
 
 def test_a_task_that_costs_one_dask_worker_after_another_is_given_up(local, doubles, carried_out):
@@ -95,10 +95,10 @@ def test_a_task_that_costs_one_dask_worker_after_another_is_given_up(local, doub
         ended = carried_out(workers, {"rob": ("rob",)})
         again = carried_out(workers, {"who": ("who",)})
 
-    assert ended["rob"].trouble == TaskError(
+    assert ended["rob"].failure == TaskError(
         kind=RunFailureKind.CRASHED, detail="2 Dask workers were lost at it", may_pass=True
     )
-    assert again["who"].trouble is None
+    assert again["who"].failure is None
 
 
 @pytest.mark.verifies("SYS-026")
@@ -171,7 +171,7 @@ def test_each_thread_of_a_dask_worker_has_a_process_of_its_own(threads, doubles,
         assert workers.size == 2
         # Each waits for the other to begin.
         ended = carried_out(workers, {name: ("meet", name) for name in ("a", "b")})
-    assert [each.trouble for each in ended.values()] == [None, None]
+    assert [each.failure for each in ended.values()] == [None, None]
     assert len({each.result for each in ended.values()} - {os.getpid()}) == 2
 
 
@@ -206,7 +206,7 @@ def test_a_scheduler_that_goes_is_an_error(doubles, carried_out):
                 carried_out(workers, {"never": ("who",)}, patience_s=20.0)
             workers.close()
     assert str(caught.value) == (
-        f"the Dask scheduler at {address} has gone or has dropped the sweep's tasks "
+        f"the Dask scheduler at {address} has stopped or has dropped the sweep's tasks "
         "(what was finished is kept; run the sweep again to go on)"
     )
 
@@ -293,7 +293,7 @@ def test_a_time_limit_that_is_too_short_is_told_by_the_tasks(threads, doubles, c
     with dask_cluster(threads.scheduler_address, time_limit_s=1e-4, memory_limit_bytes=0) as cluster:
         ended = carried_out(cluster.workers(doubles.act), {"who": ("who",)})
     assert cluster.machine == ""
-    assert ended["who"].trouble.detail == "not done after 0.0001 s"
+    assert ended["who"].failure.detail == "not done after 0.0001 s"
 
 
 def test_without_dask_it_is_said_what_to_install(monkeypatch):
@@ -309,12 +309,12 @@ def test_engine_processes_that_nobody_asks_end(doubles):
     engines = Engines(idle_s=0.2)
     order = Order(name="one", environment=environment(), **LIMITS)
     ended = engines.carry_out(order, "who", pickle.dumps((doubles.act, ("who",))))
-    assert (ended.key, ended.trouble) == ("who", None)
+    assert (ended.key, ended.failure) == ("who", None)
     wait_until(lambda: engines.idle == 0 and not is_running(ended.result))
 
     engines.stop("one")
     stopped = engines.carry_out(order, "who", pickle.dumps((doubles.act, ("who",))))
-    assert stopped.trouble.detail == "the sweep was stopped"
+    assert stopped.failure.detail == "the sweep was stopped"
     other = Order(name="two", environment=environment(), **LIMITS)
     # These have a minute, which no other process takes from them.
     engines = Engines()

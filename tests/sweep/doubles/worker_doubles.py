@@ -81,9 +81,9 @@ def is_first_time(name: str) -> bool:
 
 
 def troubled(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
-    """Every seed has its own trouble with its plan, and seed 7 with its execution."""
+    """Every seed has its own failure with its plan, and seed 7 with its execution."""
     kind = "trial" if isinstance(task, TrialTask) else task.kind.value
-    trouble = {
+    failure = {
         ("plan", 2): die_of_segmentation,
         ("plan", 3): hang,
         ("plan", 4): allocate_without_end,
@@ -91,8 +91,8 @@ def troubled(task: Task, needed: dict[str, Piece]) -> Piece | TrialRecord:
         ("plan", 6): lambda: is_first_time("six") and os.kill(os.getpid(), signal.SIGKILL),
         ("execution", 7): fail,
     }.get((kind, task.spec.seed))
-    if trouble is not None:
-        trouble()
+    if failure is not None:
+        failure()
     return quick(task, needed)
 
 

@@ -305,7 +305,7 @@ def test_a_structure_that_does_not_fit(structured):
                     "x": (LevelTable(factors=("arm",), entries={("slow",): 1.0, ("fast",): math.inf}),),
                 }
             ),
-            "'x' at fast is inf",
+            "'x' at fast must be finite or None, got inf",
         ),
         (
             lambda: by_hand(program=MinimaxRegret(scenarios=Scenarios.REPLICATES)),

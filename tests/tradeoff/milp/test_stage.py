@@ -43,7 +43,7 @@ def test_optimum(payload_and_time, solve):
 def test_infeasible_is_an_outcome(build_problem, solve):
     solution = solve(build_problem({1: {"a": 0.4}, 2: {"a": None}}, thresholds=[("R", "a", ">=", 0.5)]))
     assert (solution.status, solution.alternative, solution.objective) == (DecisionStatus.INFEASIBLE, None, None)
-    with pytest.raises(TradeoffError, match=r"stage 'value' is infeasible \(look at its status first\)"):
+    with pytest.raises(TradeoffError, match=r"stage 'value' is infeasible \(check its status first\)"):
         _ = solution.chosen
 
 

@@ -246,7 +246,7 @@ def test_tasks_that_do_not_fit(portfolio):
     fewer = portfolio({1: (0.5,)}, weights=[1.0]).tasks[0]
     for tasks, message in (
         ((whole.tasks[0], whole.tasks[0]), "task 't0' is given twice"),
-        ((dataclasses.replace(whole.tasks[0], weight=0.4),), "the weights sum to 0.4, not to 1"),
+        ((dataclasses.replace(whole.tasks[0], weight=0.4),), "weights must sum to 1, got 0.4"),
         (
             (dataclasses.replace(whole.tasks[0], weight=0.5), dataclasses.replace(fewer, name="t1", weight=0.5)),
             "variant 2 is not among the alternatives of every task",

@@ -46,8 +46,8 @@ def test_what_is_unknown_is_not_looked_at():
     ("variants", "column", "message"),
     [
         ([1, 1], [0.0, 0.0], "variant 1 is given twice"),
-        ([1, 2], [0.0, math.nan], "'a' of variant 2 is nan"),
-        ([7, 2], [math.inf, 0.0], "'a' of variant 7 is inf"),
+        ([1, 2], [0.0, math.nan], "'a' of variant 2 must be finite or None, got nan"),
+        ([7, 2], [math.inf, 0.0], "'a' of variant 7 must be finite or None, got inf"),
         ([1, 2], [0.0], "'a' has the shape (1,) for 2 alternatives"),
     ],
 )
@@ -70,5 +70,5 @@ def test_a_table_lacks_a_measure(payload_and_time):
 
 def test_replicates_that_are_not_numbers(build_problem):
     bad = Alternative(variant=4, measures={"a": 1.0}, samples={"a": (1.0, math.nan)})
-    with pytest.raises(TradeoffError, match="'a' of variant 4 is nan"):
+    with pytest.raises(TradeoffError, match="'a' of variant 4 must be finite or None, got nan"):
         build_problem({}, alternatives=(bad,))

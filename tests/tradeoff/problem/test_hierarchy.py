@@ -23,10 +23,10 @@ def test_weights_multiply_on_the_way_down():
 @pytest.mark.parametrize(
     ("nodes", "message"),
     [
-        ((leaf("a", 0.5), leaf("b", 0.4)), "the weights sum to 0.9, not to 1"),
+        ((leaf("a", 0.5), leaf("b", 0.4)), "weights must sum to 1, got 0.9"),
         (
             (CriterionNode(name="time", weight=1.0, members=(leaf("a", 0.5), leaf("b", 0.6))),),
-            "in 'time': the weights sum to 1.1, not to 1",
+            "in 'time': weights must sum to 1, got 1.1",
         ),
         ((leaf("a", 0.5), leaf("a", 0.5)), "'a' occurs twice among the criteria"),
         (

@@ -75,8 +75,13 @@ def test_unknown_measures_make_infeasible_where_they_matter(build_problem, quant
     ("measures", "arguments", "message", "hint"),
     [
         ({}, {}, "there are no alternatives to choose from", "run the study's variants first"),
-        ({1: {"a": math.nan}}, {}, "'a' of variant 1 is nan", "a measure is a finite number, or None"),
-        ({1: {"a": 1.0, "unused": -math.inf}}, {}, "'unused' of variant 1 is -inf", "a measure is a finite number"),
+        ({1: {"a": math.nan}}, {}, "'a' of variant 1 must be finite or None, got nan", "give None where it is unknown"),
+        (
+            {1: {"a": 1.0, "unused": -math.inf}},
+            {},
+            "'unused' of variant 1 must be finite or None, got -inf",
+            "give None",
+        ),
         ({1: {"a": 1.0}, 2: {}}, {}, "variant 2 lacks the measure 'a'", "measure every variant alike"),
         (
             {1: {"a": 1.0, "z": 1.0}, 3: {"a": 1.0}},
@@ -95,8 +100,8 @@ def test_unknown_measures_make_infeasible_where_they_matter(build_problem, quant
         (
             {1: {"a": 1.0}},
             {"thresholds": [("R-7", "a", ">=", math.nan)]},
-            "the threshold of R-7 on 'a' is nan",
-            "a threshold is a finite number",
+            "threshold of R-7 on 'a' must be finite, got nan",
+            "give a number",
         ),
         (
             {1: {"a": 1.0}},

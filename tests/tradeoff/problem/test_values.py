@@ -113,12 +113,12 @@ def test_weights(weights):
     ("weights", "message", "hint"),
     [
         ({}, "there are no weights", "give a weight to at least one measure"),
-        ({"a": -0.1, "b": 1.1}, "the weight of 'a' is -0.1", "a weight is a number from 0 to 1"),
-        ({"a": math.nan}, "the weight of 'a' is nan", "a weight is a number from 0 to 1"),
-        ({"a": math.inf}, "the weight of 'a' is inf", "a weight is a number from 0 to 1"),
-        ({"a": 0.5, "b": 0.4}, "the weights sum to 0.9, not to 1", "change them by +0.1 in all, or divide each by 0.9"),
-        ({"a": 1.0 + 3e-9}, "the weights sum to 1.000000003, not to 1", "change them by"),
-        ({"a": 0.0}, "the weights sum to 0, not to 1", "give a positive weight to at least one measure"),
+        ({"a": -0.1, "b": 1.1}, "weight of 'a' must be at least 0, got -0.1", "give a number from 0 to 1"),
+        ({"a": math.nan}, "weight of 'a' must be at least 0, got nan", "give a number from 0 to 1"),
+        ({"a": math.inf}, "weight of 'a' must be at least 0, got inf", "give a number from 0 to 1"),
+        ({"a": 0.5, "b": 0.4}, "weights must sum to 1, got 0.9", "change them by +0.1 in all, or divide each by 0.9"),
+        ({"a": 1.0 + 3e-9}, "weights must sum to 1, got 1.000000003", "change them by"),
+        ({"a": 0.0}, "weights must sum to 1, got 0", "give a positive weight to at least one measure"),
     ],
 )
 def test_bad_weights(weights, message, hint):

@@ -44,9 +44,9 @@ def test_equal_ranks_share_their_places():
     ("ranks", "message"),
     [
         ({}, "there are no ranks"),
-        ({"a": 1, "b": 3}, "the rank of 'b' is 3, where 2 is next"),
-        ({"a": 0, "b": 1}, "the rank of 'a' is 0, where 1 is next"),
-        ({"a": 1, "b": 1, "c": 2}, "the rank of 'c' is 2, where 3 is next"),
+        ({"a": 1, "b": 3}, "rank of 'b' must be 2, got 3"),
+        ({"a": 0, "b": 1}, "rank of 'a' must be 1, got 0"),
+        ({"a": 1, "b": 1, "c": 2}, "rank of 'c' must be 3, got 2"),
     ],
 )
 def test_ranks_that_are_none(ranks, message):
@@ -65,11 +65,11 @@ def test_points_are_shares():
 @pytest.mark.parametrize(
     ("points", "message"),
     [
-        ({}, "the points sum to 0"),
-        ({"a": 0.0}, "the points sum to 0"),
-        ({"a": -5.0, "b": 10.0}, "the points of 'a' are -5"),
-        ({"a": math.nan}, "the points of 'a' are nan"),
-        ({"a": 1e308, "b": 1e308}, "the points sum to inf"),
+        ({}, "points must sum to more than 0, got 0"),
+        ({"a": 0.0}, "points must sum to more than 0, got 0"),
+        ({"a": -5.0, "b": 10.0}, "points of 'a' must be at least 0, got -5"),
+        ({"a": math.nan}, "points of 'a' must be at least 0, got nan"),
+        ({"a": 1e308, "b": 1e308}, "points must sum to more than 0, got inf"),
     ],
 )
 def test_points_that_are_none(points, message):

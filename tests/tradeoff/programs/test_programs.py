@@ -106,9 +106,9 @@ class TestLexicographic:
     @pytest.mark.parametrize(
         ("tolerance", "message"),
         [
-            ({"absolute": -0.1}, "the absolute tolerance of 'a' is -0.1"),
-            ({"relative": math.nan}, "the relative tolerance of 'a' is nan"),
-            ({"relative": 1.0}, "the relative tolerance of 'a' is 100 %"),
+            ({"absolute": -0.1}, "absolute tolerance of 'a' must be at least 0, got -0.1"),
+            ({"relative": math.nan}, "relative tolerance of 'a' must be at least 0, got nan"),
+            ({"relative": 1.0}, "relative tolerance of 'a' must be below 100 %, got 100 %"),
             (
                 {"absolute": 0.1, "relative": 0.2},
                 "'a' has two tolerances that contradict each other: 0.1 and 20 %",
@@ -213,9 +213,9 @@ class TestTchebycheff:
     @pytest.mark.parametrize(
         ("arguments", "message"),
         [
-            ({"reference": {"a": 1.2}}, "the reference value of 'a' is 1.2"),
-            ({"augmentation": 0.0}, "the augmentation is 0"),
-            ({"augmentation": math.nan}, "the augmentation is nan"),
+            ({"reference": {"a": 1.2}}, "reference value of 'a' must be from 0 to 1, got 1.2"),
+            ({"augmentation": 0.0}, "augmentation must be above 0 and at most 1, got 0"),
+            ({"augmentation": math.nan}, "augmentation must be above 0 and at most 1, got nan"),
         ],
     )
     def test_ill_posed(self, arguments, message):

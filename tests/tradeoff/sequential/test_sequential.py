@@ -304,10 +304,10 @@ def test_the_probability_is_that_of_a_population_of_two_betas(evidence_of):
     ("numbers", "message"),
     [
         ({"error_rate": 0.0}, "error rate must be between 0 and 1, got 0"),
-        ({"margin": -0.1}, "the margin is -0.1"),
-        ({"slack": 1.0}, "the slack is 1"),
-        ({"pilot": 1}, "a pilot of 1 and batches of 4 replicates are too small"),
-        ({"cap": 5}, "a cap of 5, one for verdicts of 16 and a pilot of 8 do not agree"),
+        ({"margin": -0.1}, "margin must be from 0 to below 1, got -0.1"),
+        ({"slack": 1.0}, "slack must be from 0 to below 1, got 1"),
+        ({"pilot": 1}, "pilot must be at least 2 and batch at least 1, got 1 and 4"),
+        ({"cap": 5}, "cap must be at least the pilot of 8 and the verdict cap of 16, got 5"),
     ],
 )
 def test_a_rule_out_of_range_is_refused(numbers, message):
@@ -321,7 +321,7 @@ def test_what_the_rule_does_not_know_is_refused(build_problem, evidence_of):
         requirement="chance:R-1", measure="a", comparison=Comparison.AT_MOST, value=1.0, unit="s", probability=0.5
     )
     sampled = (Alternative(variant=1, measures={"a": 1.0}, samples={"a": (1.0, 1.0)}),)
-    with pytest.raises(TradeoffError, match="knows no demand on replicates, such as chance:R-1"):
+    with pytest.raises(TradeoffError, match="does not support demands on replicates, such as chance:R-1"):
         SequentialEvidence.of(build_problem({}, alternatives=sampled, risks=(risk,)), ())
     with pytest.raises(TradeoffError, match="cannot judge R-1 by an end of S's interval"):
         SequentialEvidence.of(
@@ -330,5 +330,5 @@ def test_what_the_rule_does_not_know_is_refused(build_problem, evidence_of):
     from rgss.tradeoff import Aim
 
     program = Lexicographic(aims=(Aim(measure="a", sense=Comparison.AT_LEAST),))
-    with pytest.raises(TradeoffError, match="knows no lexicographic program"):
+    with pytest.raises(TradeoffError, match="does not support the lexicographic program"):
         evidence_of(rows, {1: 0.5}, program=program)

@@ -182,7 +182,7 @@ class AnchoredBetween(AnchoredValue):
 
 
 def check_range(measure: str, worst: float, best: float) -> None:
-    """Make sure that a value function has a range between two anchors.
+    """Check that a value function has a range between two anchors.
 
     Raises:
         TradeoffError: An anchor is not finite, or the range is empty.
