@@ -1,10 +1,8 @@
-"""``python -m rgss``."""
+"""``python -m rgss``: the command line."""
 
 from __future__ import annotations
 
-import sys
-
-from rgss.cli.main import main
+import runpy
 
 if __name__ == "__main__":
-    sys.exit(main())
+    runpy.run_module("rgss.cli.main", run_name="__main__")
