@@ -92,7 +92,7 @@ def write_video(
     first = _encodable(frame_at(0))
     with (
         replaced_file(path) as part,
-        av.open(str(part), "w", format=encoding.container, options=dict(encoding.container_options)) as file,
+        av.open(str(part), mode="w", format=encoding.container, options=dict(encoding.container_options)) as file,
     ):
         stream = file.add_stream(encoding.codec, rate=rate, options=dict(encoding.options))
         stream.width, stream.height = first.width, first.height
@@ -116,4 +116,5 @@ def _encodable(frame: CaptionedPicture) -> VideoFrame:
     colours = np.asarray(captioned_image(frame))
     height, width = colours.shape[:2]
     padded = np.pad(colours, ((0, height % _BLOCK), (0, width % _BLOCK), (0, 0)), mode="edge")
-    return av.VideoFrame.from_ndarray(np.ascontiguousarray(padded), format="rgb24")
+    encodable: VideoFrame = av.VideoFrame.from_ndarray(np.ascontiguousarray(padded), format="rgb24")
+    return encodable
