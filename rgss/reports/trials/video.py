@@ -98,6 +98,9 @@ def write_video(
         stream.width, stream.height = first.width, first.height
         stream.pix_fmt = "yuv420p"
         stream.time_base = 1 / rate
+        # The matrix that frames are converted by; without it some players guess another from 720 rows on.
+        stream.codec_context.colorspace = av.video.reformatter.Colorspace.SMPTE170M
+        stream.codec_context.color_range = av.video.reformatter.ColorRange.MPEG
         stream.codec_context.thread_count = 1
         # A player seeks to the key frame before; one each second makes the slider answer at once.
         stream.codec_context.gop_size = max(1, round(rate_hz * _KEY_FRAME_S))

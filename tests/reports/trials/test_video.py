@@ -8,6 +8,7 @@ from fractions import Fraction
 import av
 import numpy as np
 import pytest
+from av.video.reformatter import ColorRange, Colorspace
 
 from rgss.reports.trials.film import CaptionedPicture
 from rgss.reports.trials.video import VIDEO_SUFFIXES, write_video
@@ -77,6 +78,14 @@ def test_the_same_frames_give_the_same_bytes(path):
 
     assert len(digests) == 1
     assert hashlib.sha256(path.read_bytes()).hexdigest() not in digests
+
+
+def test_the_matrix_of_the_colours_is_in_the_file(path):
+    write_video(path, frame, count=2, rate_hz=10.0)
+    with av.open(str(path)) as file:
+        shown = next(file.decode(video=0))
+
+    assert (shown.colorspace, shown.color_range) == (Colorspace.SMPTE170M, ColorRange.MPEG)
 
 
 def test_an_odd_size_is_filled_up_with_its_edge(path):
