@@ -22,11 +22,12 @@ DISTRIBUTIONS: Mapping[str, str] = MappingProxyType(
         "PIL": "pillow",
         "matplotlib": "matplotlib",
         "pygltflib": "pygltflib",
+        "av": "av",
     }
 )
 """The distribution that brings each module of the extra ``sim``; pin brings coal."""
 
-_PICTURES = ("PIL", "matplotlib", "pygltflib")
+_PICTURES = ("PIL", "matplotlib", "pygltflib", "av")
 
 
 def missing_engines(*, pictures: bool = False) -> tuple[str, ...]:

@@ -67,7 +67,7 @@ class TrialPictures:
         note: How it ended.
         replay: The command that runs it again.
         filmstrip: A PNG of the ends of its states; empty if nothing moved.
-        film: A GIF; empty if nothing moved.
+        film: A WebM video; empty if nothing moved.
         player: Its replay in three dimensions; None if nothing moved.
     """
 
@@ -295,7 +295,7 @@ def _picture(one: TrialPictures) -> dict[str, Any]:
         "note": one.note,
         "replay": one.replay,
         "filmstrip": _data_address("image/png", one.filmstrip),
-        "film": _data_address("image/gif", one.film),
+        "film": _data_address("video/webm", one.film),
         "replays": [] if one.player is None else [as_context(one.player)],
     }
 

@@ -12,6 +12,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from selenium import webdriver
 
@@ -33,6 +34,7 @@ from rgss.reports.replay.packing import packed_replay
 from rgss.reports.study.document import report_document
 from rgss.reports.study_page import TrialPictures, study_report_to_html
 from rgss.reports.trace.report import trace_report
+from rgss.reports.trials import CaptionedPicture, write_video
 from rgss.studies.expansion import trial_specs
 from rgss.studies.project import load_project
 from rgss.sweep.trial_keys import key_of
@@ -138,8 +140,15 @@ def study(tmp_path_factory) -> Study:
 
 
 @pytest.fixture(scope="session")
-def pictures() -> tuple[TrialPictures, ...]:
-    """Pictures of one pixel, and a replay."""
+def pictures(tmp_path_factory) -> tuple[TrialPictures, ...]:
+    """A filmstrip of one pixel, a film of four seconds that goes from black to white, and a replay."""
+    film = tmp_path_factory.mktemp("film") / "film.webm"
+    write_video(
+        film,
+        lambda index: CaptionedPicture(picture=np.full((150, 200, 3), 8 * index, dtype=np.uint8), caption=""),
+        count=32,
+        rate_hz=8.0,
+    )
     player = packed_replay(
         made_replay.made_record(), made_replay.made_trace(), made_replay.made_scene(), joints=made_replay.JOINTS
     )
@@ -149,7 +158,7 @@ def pictures() -> tuple[TrialPictures, ...]:
             note="It succeeded.",
             replay="rgss replay 0",
             filmstrip=PIXEL,
-            film=PIXEL,
+            film=film.read_bytes(),
             player=player,
         ),
     )

@@ -44,6 +44,34 @@ def test_a_trial_is_replayed_in_the_report(reader, page):
     assert reader.requests() == []
 
 
+def test_a_film_plays_pauses_and_shows_the_time_that_is_sought(reader, page):
+    reader.open(page)
+    driver = reader.driver
+    driver.find_element(By.XPATH, "//summary[. = 'Play the film']").click()
+    film = "document.querySelector('.film video')"
+    reader.until(f"return {film}.readyState >= 2")
+
+    assert reader.script(f"return [{film}.error, {film}.controls, {film}.paused]") == [None, True, True]
+    assert reader.script(f"return {film}.duration") == pytest.approx(4.0, abs=0.2)
+    reader.script(f"{film}.muted = true; {film}.play()")
+    reader.until(f"return {film}.currentTime > 0")
+    reader.script(f"{film}.pause()")
+    assert reader.script(f"return {film}.paused")
+    # 3.06 s is within frame 24 of 8 a second, whose grey is 192; and so on.
+    for time_s, grey in ((3.06, 8 * 24), (0.56, 8 * 4), (2.06, 8 * 16)):
+        shown = driver.execute_async_script(
+            "const [time, done] = arguments; const film = document.querySelector('.film video');"
+            "film.addEventListener('seeked', () => {"
+            " const canvas = document.createElement('canvas'); [canvas.width, canvas.height] = [200, 150];"
+            " const pen = canvas.getContext('2d'); pen.drawImage(film, 0, 0);"
+            " done([...pen.getImageData(100, 20, 1, 1).data]); }, {once: true}); film.currentTime = time;",
+            time_s,
+        )
+        assert shown[:3] == pytest.approx([grey] * 3, abs=6), time_s
+    assert reader.complaints() == []
+    assert reader.requests() == []
+
+
 def test_a_brush_on_an_axis_filters_every_other_view(reader, page, study):
     reader.open(page)
     reader.see_all_plots()

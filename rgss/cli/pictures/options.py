@@ -5,16 +5,13 @@ from __future__ import annotations
 import argparse
 import math
 import re
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rgss.cli.output import shown_path
+from rgss.cli.pictures.progress import film_progress
 from rgss.cli.pictures.replays import add_replay, check_replay, write_replay
-from rgss.cli.safe_output import own_stream
 from rgss.engines import require_engines
 from rgss.errors import DefinitionError
 
@@ -27,7 +24,15 @@ if TYPE_CHECKING:
     from rgss.trials.pieces import TrialSpec
     from rgss.trials.replay import ReplayedTrial
 
-SUFFIXES = {"gif": ".gif", "filmstrip": ".png", "plots": ".png", "replay": ".html"}
+SUFFIXES = {
+    "film": (".webm", ".mp4"),
+    "gif": (".gif",),
+    "filmstrip": (".png",),
+    "plots": (".png",),
+    "replay": (".html",),
+}
+_DRAWN = ("film", "gif", "filmstrip")
+_PLAYED = ("film", "gif")
 _CAMERA, _SIZE, _RATE_HZ = "overview+hand", "640x480", 12.0
 _SMALLEST, _LARGEST = 200, 2000
 _NEAREST_M, _FARTHEST_M = 0.3, 10.0
@@ -38,7 +43,7 @@ class PictureOrder:
     """The pictures that are wanted.
 
     Attributes:
-        files: The file of each kind: ``gif``, ``filmstrip``, ``plots``, ``replay``.
+        files: The file of each kind: ``film``, ``gif``, ``filmstrip``, ``plots``, ``replay``.
         view: Where the camera stands.
         inset: Where the camera of a smaller picture within each picture stands; None without one.
         width: Width of each picture in pixels.
@@ -57,7 +62,8 @@ class PictureOrder:
 def add_pictures(parser: argparse.ArgumentParser) -> None:
     """Add the options for pictures."""
     group = parser.add_argument_group("looking at it", "of a trial with contact; what is shown changes no result")
-    group.add_argument("--gif", type=Path, metavar="FILE", help="write a film")
+    group.add_argument("--film", type=Path, metavar="FILE", help="write a film with pause and seek, .webm or .mp4")
+    group.add_argument("--gif", type=Path, metavar="FILE", help="write a film as a GIF, for a README")
     group.add_argument("--filmstrip", type=Path, metavar="FILE", help="write a PNG of the ends of the eight states")
     group.add_argument("--plots", type=Path, metavar="FILE", help="write a PNG of joints, speed and forces over time")
     add_replay(group)
@@ -79,7 +85,7 @@ def ordered_pictures(options: argparse.Namespace) -> PictureOrder | None:
     """
     files = {kind: path for kind in SUFFIXES if (path := getattr(options, kind)) is not None}
     for option in ("camera", "size", "fps"):
-        needed = ("gif",) if option == "fps" else ("gif", "filmstrip")
+        needed = _PLAYED if option == "fps" else _DRAWN
         if getattr(options, option) is not None and not any(kind in files for kind in needed):
             named = " or ".join(f"--{kind}" for kind in needed)
             raise DefinitionError(f"--{option} is given, but no picture that it is for", hint=f"add {named}")
@@ -155,14 +161,14 @@ def made_pictures(
 
 
 def _make(order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: TrialTrace) -> None:
-    from rgss.reports.trials import write_film, write_filmstrip, write_trial_plots
+    from rgss.reports.trials import write_film, write_filmstrip, write_trial_plots, write_video
     from rgss.trials import Film
 
     files = order.files
     if "plots" in files:
         joints = [joint.name for joint in spec.scene.robot.joints]
         write_trial_plots(files["plots"], record, trace, joints=joints)
-    if not {"gif", "filmstrip"} & set(files):
+    if not set(_DRAWN) & set(files):
         return
     with Film(
         spec,
@@ -176,10 +182,14 @@ def _make(order: PictureOrder, spec: TrialSpec, record: TrialRecord, trace: Tria
         if "filmstrip" in files:
             ends = {frame.span.phase: frame.picture for frame in film.ends_of_phases()}
             write_filmstrip(files["filmstrip"], record, ends)
-        if "gif" in files:
-            with _progress(len(film)) as advance:
-                write_film(
-                    files["gif"],
+        played = [(kind, files[kind]) for kind in _PLAYED if kind in files]
+        if not played:
+            return
+        with film_progress(len(played) * len(film)) as advance:
+            for kind, path in played:
+                write = write_video if kind == "film" else write_film
+                write(
+                    path,
                     lambda index: captioned(film, index, record),
                     count=len(film),
                     rate_hz=order.rate_hz,
@@ -212,11 +222,10 @@ def _check_files(files: dict[str, Path]) -> None:
 
     kind_of: dict[Path, str] = {}
     for kind, path in files.items():
-        suffix = SUFFIXES[kind]
-        if path.suffix.lower() != suffix:
-            raise DefinitionError(
-                f"--{kind}: {path} must be a {suffix} file", hint=f"give a name that ends in {suffix}"
-            )
+        suffixes = SUFFIXES[kind]
+        if path.suffix.lower() not in suffixes:
+            named = " or ".join(suffixes)
+            raise DefinitionError(f"--{kind}: {path} must be a {named} file", hint=f"give a name that ends in {named}")
         reason = why_not_writable(path)
         if reason:
             raise DefinitionError(f"--{kind}: cannot write {path}: {reason}", hint="choose another place")
@@ -275,15 +284,3 @@ def film_rate(rate_hz: float, option: str = "--fps") -> float:
     if not 1.0 <= rate_hz <= HIGHEST_RATE_HZ:
         raise DefinitionError(f"{option}: {rate_hz:g} is out of range", hint=f"give from 1 to {HIGHEST_RATE_HZ:g}")
     return rate_hz
-
-
-@contextmanager
-def _progress(total: int) -> Iterator[Callable[[], None]]:
-    """A progress bar on standard error; silent where that is not a terminal."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("Frames"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(file=own_stream(sys.stderr)), disable=not sys.stderr.isatty()) as bar:
-        task = bar.add_task("frames", total=total)
-        yield lambda: bar.advance(task)

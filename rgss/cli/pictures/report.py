@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import shlex
-import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from rgss.cli.pictures.progress import film_progress
 
 if TYPE_CHECKING:
     from rgss.evidence.records import TrialTrace
@@ -86,20 +87,18 @@ def trial_pictures(
     if not notable:
         return (), "There are no trials to look at."
     if look is None:
-        return (), "The report was made without films; each trial can be filmed by “rgss run ID --seed N --gif FILE”."
+        return (), "The report was made without films; each trial can be filmed by “rgss run ID --seed N --film FILE”."
     if missing_engines(pictures=True):
         return (), f"The report was made without films, which need the simulation engines ({INSTALL})."
     if project.study.fidelity is not Fidelity.CONTACT:
         return (), f"Trials of {project.study.fidelity.value} fidelity have nothing to film; those with contact have."
     made = []
-    for place, one in enumerate(notable, start=1):
-        if sys.stderr.isatty():
-            print(f"\rFilming trial {place} of {len(notable)}", end="", file=sys.stderr)
-        variant = project.designs.variant(one.record.variant)
-        (spec,) = trial_specs(project, variants=[variant], seeds=[one.record.seed])
-        made.append(_pictures(project, one, spec, look))
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
+    with film_progress(len(notable), "Trials filmed") as advance:
+        for one in notable:
+            variant = project.designs.variant(one.record.variant)
+            (spec,) = trial_specs(project, variants=[variant], seeds=[one.record.seed])
+            made.append(_pictures(project, one, spec, look))
+            advance()
     return tuple(made), ""
 
 
@@ -132,7 +131,7 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
 def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook) -> tuple[bytes, bytes]:
     from rgss.cli.pictures.options import captioned
     from rgss.physics import VIEWS
-    from rgss.reports.trials import write_film, write_filmstrip
+    from rgss.reports.trials import write_filmstrip, write_video
     from rgss.trials import Film
 
     with (
@@ -147,7 +146,7 @@ def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook
             rate_hz=look.rate_hz,
         ) as film,
     ):
-        strip, gif = Path(folder) / "strip.png", Path(folder) / "film.gif"
+        strip, video = Path(folder) / "strip.png", Path(folder) / "film.webm"
         write_filmstrip(strip, one.record, {frame.span.phase: frame.picture for frame in film.ends_of_phases()})
-        write_film(gif, lambda index: captioned(film, index, one.record), count=len(film), rate_hz=look.rate_hz)
-        return strip.read_bytes(), gif.read_bytes()
+        write_video(video, lambda index: captioned(film, index, one.record), count=len(film), rate_hz=look.rate_hz)
+        return strip.read_bytes(), video.read_bytes()

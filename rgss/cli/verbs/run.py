@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 HELP = "run one trial and show it phase by phase"
 EXAMPLE = "rgss run 2 --seed 3"
 MORE_EXAMPLES = (
-    ("rgss run 2 --gif trial.gif", "and film it"),
+    ("rgss run 2 --film trial.webm", "and film it"),
     ("rgss run 2 --replay trial.html --beside 28", "and replay it in a page, with another variant as a ghost"),
     ("rgss run 2 --fidelity kinematic", "motion alone, quickly"),
     ("rgss run 2 --nominal", "with everything as the files say"),

@@ -9,5 +9,6 @@ if TYPE_CHECKING:
     from rgss.reports.trials.filmstrip import write_filmstrip
     from rgss.reports.trials.lettering import words
     from rgss.reports.trials.trial_plots import write_trial_plots
+    from rgss.reports.trials.video import VIDEO_SUFFIXES, write_video
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

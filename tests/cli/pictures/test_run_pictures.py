@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 from types import SimpleNamespace
 
+import av
 import pytest
 from PIL import Image
 
@@ -47,8 +48,8 @@ def no_trial(monkeypatch):
 
 @pytest.mark.engine
 def test_all_pictures_with_json_are_one_document(capsys, tmp_path):
-    files = [tmp_path / name for name in ("film.gif", "strip.png", "plots.png")]
-    options = zip(("--gif", "--filmstrip", "--plots"), map(str, files), strict=True)
+    files = [tmp_path / name for name in ("film.gif", "film.webm", "strip.png", "plots.png")]
+    options = zip(("--gif", "--film", "--filmstrip", "--plots"), map(str, files), strict=True)
     assert main([*RUN, "--json", *SMALL, *(word for pair in options for word in pair)]) == 0
     captured = capsys.readouterr()
     with_pictures = json.loads(captured.out)
@@ -57,10 +58,18 @@ def test_all_pictures_with_json_are_one_document(capsys, tmp_path):
 
     assert captured.err == ""
     assert with_pictures == without
-    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["film.gif", "plots.png", "strip.png"]
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == [
+        "film.gif",
+        "film.webm",
+        "plots.png",
+        "strip.png",
+    ]
     with Image.open(files[0]) as film:
         assert film.size == (200, 200)
         assert film.n_frames == int(with_pictures["metrics"]["motion_time_s"]) + 2
+        frames = film.n_frames
+    with av.open(str(files[1])) as video:
+        assert len(list(video.decode(video=0))) == frames
 
 
 @pytest.mark.engine
@@ -146,6 +155,7 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("option", "name", "suffix"),
         [
+            ("film", "film.gif", ".webm or .mp4"),
             ("gif", "film.mp4", ".gif"),
             ("filmstrip", "strip.jpg", ".png"),
             ("plots", "plots", ".png"),
@@ -233,9 +243,9 @@ class TestRefusals:
     @pytest.mark.parametrize(
         ("arguments", "needed"),
         [
-            (["--camera", "hand"], "--gif or --filmstrip"),
-            (["--size", "640x480", "--plots", "a.png"], "--gif or --filmstrip"),
-            (["--fps", "10", "--filmstrip", "a.png"], "--gif"),
+            (["--camera", "hand"], "--film or --gif or --filmstrip"),
+            (["--size", "640x480", "--plots", "a.png"], "--film or --gif or --filmstrip"),
+            (["--fps", "10", "--filmstrip", "a.png"], "--film or --gif"),
         ],
     )
     def test_options_for_no_picture(self, capsys, arguments, needed):

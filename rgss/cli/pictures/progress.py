@@ -1,0 +1,29 @@
+"""Progress of the films, with an estimate of the time that is left."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rgss.cli.safe_output import own_stream
+
+
+@contextmanager
+def film_progress(total: int, label: str = "Frames") -> Iterator[Callable[[], None]]:
+    """Progress bar on standard error; silent where that is not a terminal.
+
+    Args:
+        total: Number of steps.
+        label: What is counted.
+
+    Yields:
+        Called after each step.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn(label), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(file=own_stream(sys.stderr)), disable=not sys.stderr.isatty()) as bar:
+        task = bar.add_task(label, total=total)
+        yield lambda: bar.advance(task)
