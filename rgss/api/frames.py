@@ -21,7 +21,7 @@ Row = dict[str, Any]
 
 
 def frame_of(index: Sequence[Column], columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
-    """A frame of these rows, each column of its type.
+    """A frame of these rows, each column of its type, with their units in ``attrs["units"]``.
 
     Args:
         index: The columns of the index.
@@ -38,6 +38,7 @@ def frame_of(index: Sequence[Column], columns: Sequence[Column], rows: Sequence[
         if one.kind is Kind.COUNT:
             frame[one.name] = frame[one.name].astype("int64")
     indexed: pd.DataFrame = frame.set_index([one.name for one in index])
+    indexed.attrs["units"] = {one.name: one.unit for one in (*index, *columns) if one.unit}
     return indexed
 
 

@@ -22,6 +22,7 @@ from rgss.api.frames import (
     variant_columns,
     verdicts_frame,
 )
+from rgss.api.html_views import study_view
 from rgss.api.missing_trials import sweep_hint, with_trials
 from rgss.api.portfolios import portfolio_of_study
 from rgss.api.suppositions import WhatIf, suppositions_of
@@ -64,6 +65,9 @@ class Study:
             f"Study({study.id!r}, {len(self._designs)} variants × {study.replicates} seeds, "
             f"{study.fidelity.value} fidelity)"
         )
+
+    def _repr_html_(self) -> str:
+        return study_view(repr(self), self.project, len(self._designs))
 
     @property
     def variants(self) -> pd.DataFrame:
