@@ -97,6 +97,38 @@ def measures_frame(project: Project, measured: Iterable[VariantMeasures]) -> pd.
     return described_frame("measures", rows)
 
 
+def requirements_frame(project: Project) -> pd.DataFrame:
+    """One row for each system requirement, with its criterion if it has one."""
+    rows = []
+    for one in project.requirements.system:
+        row: Row = {
+            "requirement": one.id,
+            "group": one.group.value,
+            "text": one.text,
+            "rationale": one.rationale,
+            "source": one.source,
+            "parent": one.parent,
+            "derived_from": ", ".join(one.derived_from),
+            "traces": ", ".join(one.traces),
+            "satisfied_by": ", ".join(one.satisfied_by),
+            "verification": None if one.verification is None else one.verification.value,
+            "priority": one.priority.value,
+            "status": one.status.value,
+            "owner": one.owner,
+        }
+        criterion = one.criterion
+        if criterion is not None:
+            row |= {
+                "measure": criterion.measure,
+                "statistic": criterion.statistic.value,
+                "comparison": criterion.comparison.value,
+                "threshold": criterion.threshold,
+                "unit": criterion.unit,
+            }
+        rows.append(row)
+    return described_frame("requirements", rows)
+
+
 def verdicts_frame(project: Project, measured: Iterable[VariantMeasures]) -> pd.DataFrame:
     """One row for each variant and requirement with a criterion."""
     criteria = {one.id: one.criterion for one in requirements_with_criteria(project) if one.criterion is not None}

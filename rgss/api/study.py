@@ -18,6 +18,7 @@ from rgss.api.frames import (
     frame_of,
     measures_frame,
     phases_frame,
+    requirements_frame,
     trials_frame,
     variant_columns,
     verdicts_frame,
@@ -98,6 +99,11 @@ class Study:
                 }
             rows.append(row)
         return described_frame("variants", rows, variant_columns(self.project))
+
+    @property
+    def requirements(self) -> pd.DataFrame:
+        """The system requirements with their criteria; no evidence is read."""
+        return requirements_frame(self.project)
 
     @property
     def trials(self) -> pd.DataFrame:

@@ -91,3 +91,27 @@ def test_a_frame_carries_the_units_of_its_columns(study, name):
 
 def test_units_stay_with_a_selection(study):
     assert study.trials.query("success").attrs["units"]["task_time_s"] == "s"
+
+
+def test_requirements_are_a_frame_without_evidence(empty):
+    study = rgss.load_study(empty, **ASKED)
+    frame = study.requirements
+    written = {one.id: one for one in study.project.requirements.system}
+
+    assert list(frame.index) == list(written)
+    assert not (empty / ".rgss").exists()
+    for name, row in frame.iterrows():
+        assert row["text"] == written[name].text
+        assert row["satisfied_by"].split(", ") == (list(written[name].satisfied_by) or [""])
+    stated = {one.id: one.criterion for one in written.values() if one.criterion is not None}
+    assert stated
+    assert frame["measure"].dropna().to_dict() == {name: one.measure for name, one in stated.items()}
+    assert frame["threshold"].dropna().to_dict() == {name: one.threshold for name, one in stated.items()}
+
+
+def test_requirements_join_their_verdicts(study):
+    verdicts = study.verdicts
+    joined = verdicts.join(study.requirements[["text", "threshold"]].rename(columns={"threshold": "threshold_stated"}))
+
+    assert joined["text"].notna().all()
+    assert (joined["threshold"] == joined["threshold_stated"]).all()
