@@ -111,6 +111,31 @@ _MEASURES = FrameDescription(
     ),
 )
 
+_REQUIREMENTS = FrameDescription(
+    name="requirements",
+    row="a system requirement",
+    index=(Column(name="requirement", meaning="id of the requirement"),),
+    columns=(
+        Column(name="group", meaning="kind of the requirement, such as gripper or algorithm"),
+        Column(name="text", meaning="its text"),
+        Column(name="rationale", meaning="why it is demanded"),
+        Column(name="source", meaning="where it comes from"),
+        Column(name="parent", meaning="id of the requirement that contains it; missing if none does"),
+        Column(name="derived_from", meaning="ids of what it is derived from, with commas between"),
+        Column(name="traces", meaning="ids of what it traces to, with commas between"),
+        Column(name="satisfied_by", meaning="ids of the blocks and behaviours that satisfy it, with commas between"),
+        Column(name="verification", meaning="inspection, analysis, demonstration or test; missing if not stated"),
+        Column(name="priority", meaning="its priority"),
+        Column(name="status", meaning="its status"),
+        Column(name="owner", meaning="who answers for it"),
+        Column(name="measure", meaning="id of the measure of its criterion; missing if it has no criterion"),
+        Column(name="statistic", meaning="which number of the estimate is compared: value, low or high"),
+        Column(name="comparison", meaning="how it must stand to the threshold"),
+        Column(name="threshold", meaning="the bound", unit=AS_UNIT, kind=Kind.NUMBER),
+        Column(name="unit", meaning="unit of the bound"),
+    ),
+)
+
 _VERDICTS = FrameDescription(
     name="verdicts",
     row="a variant and a requirement with a criterion",
@@ -164,6 +189,7 @@ FRAMES: Mapping[str, FrameDescription] = MappingProxyType(
             _TRIALS,
             _PHASES,
             _MEASURES,
+            _REQUIREMENTS,
             _VERDICTS,
             RANKING,
             PARETO,

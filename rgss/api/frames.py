@@ -21,7 +21,7 @@ Row = dict[str, Any]
 
 
 def frame_of(index: Sequence[Column], columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
-    """A frame of these rows, each column of its type.
+    """A frame of these rows, each column of its type, with their units in ``attrs["units"]``.
 
     Args:
         index: The columns of the index.
@@ -38,6 +38,7 @@ def frame_of(index: Sequence[Column], columns: Sequence[Column], rows: Sequence[
         if one.kind is Kind.COUNT:
             frame[one.name] = frame[one.name].astype("int64")
     indexed: pd.DataFrame = frame.set_index([one.name for one in index])
+    indexed.attrs["units"] = {one.name: one.unit for one in (*index, *columns) if one.unit}
     return indexed
 
 
@@ -94,6 +95,38 @@ def measures_frame(project: Project, measured: Iterable[VariantMeasures]) -> pd.
                 }
             )
     return described_frame("measures", rows)
+
+
+def requirements_frame(project: Project) -> pd.DataFrame:
+    """One row for each system requirement, with its criterion if it has one."""
+    rows = []
+    for one in project.requirements.system:
+        row: Row = {
+            "requirement": one.id,
+            "group": one.group.value,
+            "text": one.text,
+            "rationale": one.rationale,
+            "source": one.source,
+            "parent": one.parent,
+            "derived_from": ", ".join(one.derived_from),
+            "traces": ", ".join(one.traces),
+            "satisfied_by": ", ".join(one.satisfied_by),
+            "verification": None if one.verification is None else one.verification.value,
+            "priority": one.priority.value,
+            "status": one.status.value,
+            "owner": one.owner,
+        }
+        criterion = one.criterion
+        if criterion is not None:
+            row |= {
+                "measure": criterion.measure,
+                "statistic": criterion.statistic.value,
+                "comparison": criterion.comparison.value,
+                "threshold": criterion.threshold,
+                "unit": criterion.unit,
+            }
+        rows.append(row)
+    return described_frame("requirements", rows)
 
 
 def verdicts_frame(project: Project, measured: Iterable[VariantMeasures]) -> pd.DataFrame:

@@ -18,10 +18,12 @@ from rgss.api.frames import (
     frame_of,
     measures_frame,
     phases_frame,
+    requirements_frame,
     trials_frame,
     variant_columns,
     verdicts_frame,
 )
+from rgss.api.html_views import study_view
 from rgss.api.missing_trials import sweep_hint, with_trials
 from rgss.api.portfolios import portfolio_of_study
 from rgss.api.suppositions import WhatIf, suppositions_of
@@ -65,6 +67,9 @@ class Study:
             f"{study.fidelity.value} fidelity)"
         )
 
+    def _repr_html_(self) -> str:
+        return study_view(repr(self), self.project, len(self._designs))
+
     @property
     def variants(self) -> pd.DataFrame:
         """The designs, with what the trade-off says of them as far as there is evidence."""
@@ -94,6 +99,11 @@ class Study:
                 }
             rows.append(row)
         return described_frame("variants", rows, variant_columns(self.project))
+
+    @property
+    def requirements(self) -> pd.DataFrame:
+        """The system requirements with their criteria; no evidence is read."""
+        return requirements_frame(self.project)
 
     @property
     def trials(self) -> pd.DataFrame:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from rgss.api.html_views import decision_view
 from rgss.api.sensitivity_frames import stakeholders_frame, tornado_frame, worth_keeping_frame
 from rgss.api.trade_frames import (
     acceptability_frame,
@@ -46,6 +47,13 @@ class Trade:
     project: Project = field(repr=False)
     measured: tuple[VariantMeasures, ...] = field(repr=False)
     scenario: Scenario | None = field(default=None, repr=False)
+
+    def __repr__(self) -> str:
+        supposed = "" if self.scenario is None else ", under suppositions"
+        return f"Trade({self.project.study.id!r}, {len(self.measured)} variants{supposed})"
+
+    def _repr_html_(self) -> str:
+        return decision_view(repr(self), self.decision)
 
     @cached_property
     def decision(self) -> Decision:

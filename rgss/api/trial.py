@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from rgss.api.columns import FRAMES
 from rgss.api.frames import frame_of, phases_frame
+from rgss.api.html_views import trial_view
 from rgss.errors import DefinitionError
 from rgss.evidence import Fidelity, Metric, TrialRecord, record_digest
 from rgss.evidence.records import TrialTrace
@@ -54,6 +55,14 @@ class Trial:
     _spec: TrialSpec = field(repr=False)
     _trace: TrialTrace | None = field(repr=False)
     _drawing: Drawing = field(repr=False)
+
+    def __repr__(self) -> str:
+        record = self.record
+        outcome = "success" if record.success else self.failure
+        return f"Trial(variant {record.variant}, seed {record.seed}, {record.fidelity.value} fidelity: {outcome})"
+
+    def _repr_html_(self) -> str:
+        return trial_view(repr(self), self.record)
 
     @property
     def success(self) -> bool:

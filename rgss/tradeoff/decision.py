@@ -155,3 +155,10 @@ class Decision:
     demands: Mapping[str, str] = field(hash=False)
     counts: Counts
     certificate: Certificate
+
+    def __repr__(self) -> str:
+        counts = self.counts
+        return (
+            f"Decision({self.status.value}: chosen {self.chosen}, runner-up {self.runner_up}, "
+            f"{counts.feasible} of {counts.alternatives} alternatives feasible)"
+        )
