@@ -75,8 +75,9 @@ def gripper_of(folder: Path, name: str, shape: Cylinder = HELD) -> Gripper:
     (folder / TWO_FINGER.name).write_bytes(TWO_FINGER.read_bytes())
     file = load_gripper_file(path)
     values = {key.removeprefix("gripper."): value for key, value in file.settings.items() if isinstance(value, float)}
+    geometry = at_top(file.geometry, shape)
     return Gripper(
-        geometry=at_opening(at_top(file.geometry, shape), shape.radius_m),
+        geometry=geometry if geometry.linkage is None else at_opening(geometry, shape.radius_m),
         base_mass_kg=values["base.mass"],
         finger_mass_kg=values["finger.mass"],
         finger_velocity_m_s=values["finger.speed"],
