@@ -17,6 +17,7 @@ from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible_throughout
 from rgss.reports.page import render_page, template_text
 from rgss.reports.replay import REPLAY_SCRIPTS, REPLAY_STYLE, PackedReplay, as_context, rendering_library
+from rgss.reports.study.first_screen import first_screen
 from rgss.reports.trace import TraceReport, trace_context
 from rgss.trace.views import share_in_words, value_in_words
 
@@ -40,6 +41,7 @@ _MOST_REPLAYS = 5
 _COLUMNS = ("value", "low", "high", "n")
 
 _SECTIONS = (
+    ("glance", "At a glance"),
     ("decision", "Decision"),
     ("explore", "All variants"),
     ("verdicts", "Verdicts"),
@@ -69,6 +71,8 @@ class TrialPictures:
         filmstrip: A PNG of the ends of its states; empty if nothing moved.
         film: A WebM video; empty if nothing moved.
         player: Its replay in three dimensions; None if nothing moved.
+        variant: Which variant it is of; None if that does not matter.
+        still: A PNG of the carried object; empty without one.
     """
 
     title: str
@@ -77,6 +81,8 @@ class TrialPictures:
     filmstrip: bytes
     film: bytes
     player: PackedReplay | None = None
+    variant: int | None = None
+    still: bytes = b""
 
 
 def study_report_to_html(
@@ -108,7 +114,7 @@ def study_report_to_html(
     script = (
         '"use strict";\nconst rgssReport = (data, later) => {\n' + "\n".join(map(template_text, SCRIPTS)) + "\n};\n"
     )
-    plain = embedded_json(document)
+    glance, plain = first_screen(document), embedded_json(document)
     packed = len(plain) > LARGEST_PLAIN
     first, later = parted(document) if packed else (document, {})
     has_replays = any(one.player is not None for one in pictures)
@@ -124,9 +130,11 @@ def study_report_to_html(
         images=True,
         title=f"Report of the study {document['study']}",
         report=document,
+        glance=glance,
+        glance_picture=_chosen_picture(document["decision"]["chosen"], pictures),
         comparison=_comparison(document),
         compared_trials=_compared_trials(document),
-        report_sections=_SECTIONS,
+        report_sections=_SECTIONS[1:] if glance is None else _SECTIONS,
         pictures=[_picture(one) for one in pictures],
         pictures_notice=pictures_notice,
         tornado=_markup(tornado),
@@ -287,6 +295,11 @@ def _estimate(measure: Mapping[str, Any], place: int) -> str:
 
 def _value(value: float | str | None, unit: str = "1") -> str:
     return value if isinstance(value, str) else value_in_words(value, unit or "1")
+
+
+def _chosen_picture(chosen: int | None, pictures: Sequence[TrialPictures]) -> str:
+    """The address of the first picture of the chosen variant; empty without one."""
+    return next((_data_address("image/png", one.still) for one in pictures if one.variant == chosen), "")
 
 
 def _picture(one: TrialPictures) -> dict[str, Any]:

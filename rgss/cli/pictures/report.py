@@ -113,7 +113,7 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
 
     seen = compute(run_replayed_trial, spec)
     same = record_digest(seen.record) == record_digest(one.record)
-    strip, film = (b"", b"") if seen.trace is None else _drawn(spec, one, seen.trace, look)
+    strip, film, still = (b"", b"", b"") if seen.trace is None else _drawn(spec, one, seen.trace, look)
     label = project.study.label
     named = "" if label == DEFAULT_STUDY else f" --study {shlex.quote(label)}"
     detail = one.record.failure_detail
@@ -122,16 +122,18 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
         title=f"Variant {one.record.variant}, seed {one.record.seed}: {one.why}",
         note=end if same else f"{end} Run again, it did not give the same bits.",
         replay=f"rgss replay {one.key[:KEY_DIGITS]}{named}",
+        variant=one.record.variant,
+        still=still,
         filmstrip=strip,
         film=film,
         player=packed_trial(seen, spec),
     )
 
 
-def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook) -> tuple[bytes, bytes]:
+def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook) -> tuple[bytes, bytes, bytes]:
     from rgss.cli.pictures.options import captioned
     from rgss.physics import VIEWS
-    from rgss.reports.trials import write_filmstrip, write_video
+    from rgss.reports.trials import still_png, write_filmstrip, write_video
     from rgss.trials import Film
 
     with (
@@ -147,6 +149,9 @@ def _drawn(spec: TrialSpec, one: NotableTrial, trace: TrialTrace, look: FilmLook
         ) as film,
     ):
         strip, video = Path(folder) / "strip.png", Path(folder) / "film.webm"
-        write_filmstrip(strip, one.record, {frame.span.phase: frame.picture for frame in film.ends_of_phases()})
+        ends = {frame.span.phase: frame.picture for frame in film.ends_of_phases()}
+        write_filmstrip(strip, one.record, ends)
         write_video(video, lambda index: captioned(film, index, one.record), count=len(film), rate_hz=look.rate_hz)
-        return strip.read_bytes(), video.read_bytes()
+        # Where the object is carried, as far as the trial came.
+        shown = next((ends[phase] for phase in spec.task.carried if phase in ends), next(iter(ends.values())))
+        return strip.read_bytes(), video.read_bytes(), still_png(shown)

@@ -88,7 +88,7 @@ def planner_table(compared: Sequence[ComparedPlanner], limits_s: Sequence[float]
         "searches",
         *(f"solved in {limit_s:g} s" for limit_s in limits_s),
         "checks, median",
-        "90 %",
+        "checks, 90 %",
         "time [s]",
         "path [m]",
         "not valid",

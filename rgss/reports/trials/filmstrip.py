@@ -40,6 +40,21 @@ def write_filmstrip(path: Path, record: TrialRecord, pictures: Mapping[str, NDAr
         image.quantize(256).save(part, format="PNG", optimize=True)
 
 
+def still_png(picture: NDArray[np.uint8]) -> bytes:
+    """A picture as the bytes of a PNG.
+
+    Args:
+        picture: Rows of pixels, of red, green and blue.
+    """
+    from io import BytesIO
+
+    from PIL import Image
+
+    written = BytesIO()
+    Image.fromarray(picture).quantize(256).save(written, format="PNG", optimize=True)
+    return written.getvalue()
+
+
 def filmstrip(record: TrialRecord, pictures: Mapping[str, NDArray[np.uint8]]) -> Image:
     """Rows of up to four panels: title, outcome, time and picture of each state that was entered.
 

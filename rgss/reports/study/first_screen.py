@@ -1,0 +1,121 @@
+"""First screen of a report: what is chosen, how it stands against its limits, what is open, what would change it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from rgss.reports.plain_numbers import Plain
+from rgss.trace.views import value_in_words
+
+MOST_BULLETS = 6
+"""So many requirements have a chart; the verdicts below have all."""
+
+_OPEN = ("inconclusive", "stale", "not_run")
+_WORDS = {"<=": "at most", "<": "below", ">=": "at least", ">": "above", "==": "exactly"}
+_ROOM = 1.12
+
+
+def first_screen(document: Mapping[str, Any]) -> Plain | None:
+    """What the first screen shows; None where nothing is chosen.
+
+    Args:
+        document: What the report shows, as `rgss.reports.study.document.report_document` gives it.
+    """
+    decision = document["decision"]
+    chosen = decision["chosen"]
+    if chosen is None:
+        return None
+    place = document["variants"]["id"].index(chosen)
+    requirements = [one for one in document["requirements"] if one["measure"]]
+    open_ = [one for one in requirements if _at(one["verdict"], place) in _OPEN]
+    missed = [one for one in requirements if _at(one["verdict"], place) == "not_met"]
+    units = {measure["id"]: measure for measure in document["measures"]}
+    weights = {measure: one["weight"] or 0.0 for measure, one in units.items()}
+    # What is missed or open comes first, then what the trade-off weighs most.
+    ranked = sorted(
+        requirements,
+        key=lambda one: (one not in missed, one not in open_, -weights.get(one["measure"], 0.0), one["id"]),
+    )
+    bullets = [bullet for one in ranked[:MOST_BULLETS] if (bullet := _bullet(one, units, place)) is not None]
+    return {
+        "chosen": chosen,
+        "tied": [one for one in decision["ties"] if one != chosen],
+        "near": decision["near_ties"],
+        "met": len(requirements) - len(open_) - len(missed),
+        "open": [{"id": one["id"], "text": one["text"]} for one in open_],
+        "missed": [{"id": one["id"], "text": one["text"]} for one in missed],
+        "bullets": bullets,
+        "changes": list(_changes(decision)),
+    }
+
+
+def _at(column: Any, place: int) -> Any:
+    return column[place] if isinstance(column, list) else column
+
+
+def _bullet(requirement: Mapping[str, Any], measures: Mapping[str, Any], place: int) -> Plain | None:
+    """A bullet chart: places in percent of its width, and the same in words."""
+    measure = measures.get(requirement["measure"])
+    value = None if measure is None else _at(measure["value"], place)
+    if measure is None or value is None:
+        return None
+    low, high = (_at(measure.get(name), place) for name in ("low", "high"))
+    limit, at_most = requirement["threshold"], requirement["comparison"] in ("<=", "<")
+    top = max(abs(limit), abs(value), 0.0 if high is None else min(abs(high), 2.0 * abs(limit))) * _ROOM or 1.0
+    unit = measure["unit"]
+    interval = None
+    if low is not None and high is not None and low < high:
+        interval = [_percent(low, top), _percent(high, top)]
+    verdict = _at(requirement["verdict"], place)
+    words = f"{_WORDS[requirement['comparison']]} {value_in_words(limit, unit)}"
+    between = "" if interval is None else f" ({value_in_words(low)} to {value_in_words(high, unit)})"
+    return {
+        "requirement": requirement["id"],
+        "name": measure["name"],
+        "measure": measure["id"],
+        "verdict": verdict,
+        "value": value_in_words(value, unit),
+        "interval_text": between.strip(),
+        "limit_text": words,
+        "label": f"{measure['name']}: {value_in_words(value, unit)}{between}, demanded {words}: "
+        f"{verdict.replace('_', ' ')}",
+        "at": _percent(value, top),
+        "limit": _percent(limit, top),
+        "interval": interval,
+        "allowed": [0.0, _percent(limit, top)] if at_most else [_percent(limit, top), 100.0],
+    }
+
+
+def _percent(value: float, top: float) -> float:
+    return round(min(max(100.0 * value / top, 0.0), 100.0), 2)
+
+
+def _changes(decision: Mapping[str, Any]) -> Iterator[str]:
+    """Sentences on what would change the choice: assumptions, weights, limits."""
+    rows = decision["modelling"]["rows"]
+    changing = [row["cells"] for row in rows if row["changes"]]
+    for cells in changing[:3]:
+        yield f"{cells[0]} = {cells[2]}: then {cells[3]}"
+    unknown = sum(row["changes"] is None for row in rows)
+    if unknown:
+        yield f"{unknown} of {len(rows)} rows of assumptions have no trials yet"
+    nearest = _nearest_weight(decision["weight_ranges"])
+    if nearest is not None:
+        yield nearest
+    elif decision["weight_ranges"]:
+        yield "no single weight: each may be anything, the others in proportion"
+
+
+def _nearest_weight(ranges: Sequence[Mapping[str, Any]]) -> str | None:
+    """The least change of one weight after which another variant wins."""
+    found = []
+    for one in ranges:
+        for bound, winners, side in ((one["low"], one["below"], "below"), (one["high"], one["above"], "above")):
+            if winners:
+                found.append((abs(bound - one["weight"]), one["measure"], side, bound, winners))
+    if not found:
+        return None
+    _, measure, side, bound, winners = min(found)
+    variants = f"variant{'s' if len(winners) > 1 else ''} {', '.join(map(str, winners))}"
+    return f"the weight of {measure} {side} {bound:.3g}: then {variants}"
