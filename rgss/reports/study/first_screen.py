@@ -37,7 +37,7 @@ def first_screen(document: Mapping[str, Any]) -> Plain | None:
         requirements,
         key=lambda one: (one not in missed, one not in open_, -weights.get(one["measure"], 0.0), one["id"]),
     )
-    bullets = [bullet for one in ranked[:MOST_BULLETS] if (bullet := _bullet(one, units, place)) is not None]
+    bullets = [bullet for one in ranked if (bullet := _bullet(one, units, place)) is not None][:MOST_BULLETS]
     return {
         "chosen": chosen,
         "tied": [one for one in decision["ties"] if one != chosen],

@@ -1,0 +1,124 @@
+"""The first screen says what is chosen, how it stands against its limits, what is open and what would change it."""
+
+from __future__ import annotations
+
+import copy
+
+import pytest
+
+from rgss.reports.study.first_screen import MOST_BULLETS, first_screen
+
+
+def requirement(name, measure, comparison, threshold, verdict):
+    return {
+        "id": name,
+        "text": f"{name} in words.",
+        "measure": measure,
+        "comparison": comparison,
+        "threshold": threshold,
+        "verdict": verdict,
+    }
+
+
+def measure(name, unit, weight, value, low=None, high=None):
+    return {"id": name, "name": name.upper(), "unit": unit, "weight": weight, "value": value, "low": low, "high": high}
+
+
+DOCUMENT = {
+    "variants": {"id": [1, 2]},
+    "measures": [
+        measure("time", "s", 0.4, [30.0, 20.0], [25.0, 18.0], [35.0, 23.0]),
+        measure("share", "1", 0.6, [0.5, 0.95], [0.3, 0.88], [0.7, 0.99]),
+        measure("cost", "USD", None, 1000),
+        measure("mass", "kg", None, [None, None]),
+    ],
+    "requirements": [
+        requirement("R1", "time", "<=", 25.0, ["not_met", "met"]),
+        requirement("R2", "share", ">=", 0.9, ["not_met", "inconclusive"]),
+        requirement("R3", "cost", "<=", 1200, "met"),
+        requirement("R4", "mass", "<", 3, "not_run"),
+        {**requirement("R5", "", "<=", 0, "met"), "measure": None},
+    ],
+    "decision": {
+        "chosen": 2,
+        "ties": [2],
+        "near_ties": [1],
+        "modelling": {
+            "rows": [
+                {"cells": ["prices", "as stated", "1.5", "nothing is feasible", "yes"], "changes": True},
+                {"cells": ["clock", "1 ms", "2 ms", "needs 8 of 8 trials", "–"], "changes": None},
+                {"cells": ["clock", "1 ms", "3 ms", "variant 2", "no"], "changes": False},
+            ]
+        },
+        "weight_ranges": [
+            {"measure": "time", "weight": 0.4, "low": 0.0, "high": 0.75, "below": [], "above": [1]},
+            {"measure": "share", "weight": 0.6, "low": 0.3, "high": 1.0, "below": [1, 3], "above": []},
+        ],
+    },
+}
+
+
+def changed(**decision):
+    document = copy.deepcopy(DOCUMENT)
+    document["decision"] |= decision
+    return document
+
+
+def test_what_is_open_comes_first_and_then_what_weighs_most():
+    shown = first_screen(DOCUMENT)
+    assert (shown["chosen"], shown["tied"], shown["near"], shown["met"]) == (2, [], [1], 2)
+    assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
+    assert shown["open"] == [{"id": "R2", "text": "R2 in words."}, {"id": "R4", "text": "R4 in words."}]
+    assert shown["missed"] == []
+
+
+def test_a_chart_is_to_scale():
+    share, time, cost = first_screen(DOCUMENT)["bullets"]
+    # The greatest of limit, value and interval is a little inside of the right end.
+    assert share["at"] / share["limit"] == pytest.approx(0.95 / 0.9, abs=1e-3)
+    assert share["interval"][1] / share["interval"][0] == pytest.approx(0.99 / 0.88, abs=1e-3)
+    assert share["allowed"] == [share["limit"], 100.0]
+    assert max(share["interval"]) < 100.0
+    assert time["allowed"] == [0.0, time["limit"]]
+    assert time["at"] / time["limit"] == pytest.approx(20 / 25, abs=1e-3)
+    assert cost["interval"] is None
+    assert cost["label"] == "COST: 1000 USD, demanded at most 1200 USD: met"
+    assert share["label"] == "SHARE: 0.95 (0.88 to 0.99), demanded at least 0.9: inconclusive"
+
+
+def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
+    document = copy.deepcopy(DOCUMENT)
+    document["measures"][0]["high"] = [35.0, 900.0]
+    time = first_screen(document)["bullets"][1]
+    assert time["interval"][1] == 100.0
+    assert time["limit"] == pytest.approx(100 / 2 / 1.12, abs=0.01)
+
+
+def test_what_would_change_it():
+    assert first_screen(DOCUMENT)["changes"] == [
+        "prices = 1.5: then nothing is feasible",
+        "1 of 3 rows of assumptions have no trials yet",
+        "the weight of share below 0.3: then variants 1, 3",
+    ]
+    free = [{"measure": "time", "weight": 0.4, "low": 0.0, "high": 1.0, "below": [], "above": []}]
+    shown = first_screen(changed(modelling={"rows": []}, weight_ranges=free))
+    assert shown["changes"] == ["no single weight: each may be anything, the others in proportion"]
+    assert first_screen(changed(modelling={"rows": []}, weight_ranges=[]))["changes"] == []
+
+
+def test_without_a_choice_there_is_none():
+    assert first_screen(changed(chosen=None)) is None
+
+
+def test_a_missed_requirement_of_the_choice_comes_first():
+    shown = first_screen(changed(chosen=1, ties=[1, 2]))
+    assert [one["id"] for one in shown["missed"]] == ["R1", "R2"]
+    assert shown["tied"] == [2]
+    assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
+    assert shown["bullets"][0]["verdict"] == "not_met"
+
+
+def test_only_so_many_charts():
+    document = copy.deepcopy(DOCUMENT)
+    document["requirements"] += [requirement(f"X{n}", "cost", "<=", 2000 + n, "met") for n in range(9)]
+    assert len(first_screen(document)["bullets"]) == MOST_BULLETS
