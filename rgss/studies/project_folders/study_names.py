@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import difflib
+import re
 from pathlib import Path
 
 from rgss.errors import DefinitionError
 from rgss.studies.project_folders.locating import DEFAULT_STUDY
 
 _STUDIES = "studies"
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,99}")
 _SUFFIX = ".yaml"
 
 
@@ -29,7 +31,7 @@ def study_file(project: Path, name: str | None) -> tuple[Path, str]:
     try:
         if not path.is_file() and Path(name).is_file():
             path = Path(name)
-        elif not path.exists() and Path(name).name == name and not name.endswith(_SUFFIX):
+        elif _NAME.fullmatch(name) and not path.exists():
             return _by_name(project, name)
         return path, path.resolve().relative_to(project.resolve()).as_posix()
     except (OSError, ValueError):  # a name that no file can have, a study outside the project

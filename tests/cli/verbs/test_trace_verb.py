@@ -50,7 +50,7 @@ def test_json_keeps_its_schema(rgss, with_evidence):
     assert [document["document"] for document in documents] == ["report", "report", "chain", "impact"]
     assert documents[0]["evidence"]["variant"] == 10
     assert documents[1]["evidence"] | {"trials": 0} == documents[0]["evidence"] | {
-        "choice": "variant 9, as asked for",
+        "choice": "variant 9, as requested",
         "variant": 9,
         "trials": 0,
     }
