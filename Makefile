@@ -23,7 +23,7 @@ check: setup ## format, lint, types, layers, rules of the repository, documentat
 	@.venv/bin/ruff format --check --quiet .
 	@.venv/bin/ruff check --quiet .
 	@.venv/bin/mypy
-	@.venv/bin/lint-imports --no-logo
+	@.venv/bin/lint-imports --no-logo --no-cache
 	@.venv/bin/pytest --quiet tests/repository
 	@$(build_docs)
 

@@ -17,7 +17,7 @@ from rgss.errors import DefinitionError
 from rgss.invisible_characters import visible_throughout
 from rgss.reports.page import render_page, template_text
 from rgss.reports.replay import REPLAY_SCRIPTS, REPLAY_STYLE, PackedReplay, as_context, rendering_library
-from rgss.reports.study.first_screen import first_screen
+from rgss.reports.study import first_screen_content
 from rgss.reports.trace import TraceReport, trace_context
 from rgss.trace.views import share_in_words, value_in_words
 
@@ -114,7 +114,7 @@ def study_report_to_html(
     script = (
         '"use strict";\nconst rgssReport = (data, later) => {\n' + "\n".join(map(template_text, SCRIPTS)) + "\n};\n"
     )
-    glance, plain = first_screen(document), embedded_json(document)
+    glance, plain = first_screen_content(document), embedded_json(document)
     packed = len(plain) > LARGEST_PLAIN
     first, later = parted(document) if packed else (document, {})
     has_replays = any(one.player is not None for one in pictures)

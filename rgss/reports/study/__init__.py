@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.reports.study.document import report_document
+    from rgss.reports.study.first_screen import first_screen_content
     from rgss.reports.study.planners_compared import PLANNERS_NOTE, planner_comparison, planner_data, planner_table
     from rgss.reports.study.trials import NotableTrial, notable_trials
 else:

@@ -16,7 +16,7 @@ _WORDS = {"<=": "at most", "<": "below", ">=": "at least", ">": "above", "==": "
 _ROOM = 1.12
 
 
-def first_screen(document: Mapping[str, Any]) -> Plain | None:
+def first_screen_content(document: Mapping[str, Any]) -> Plain | None:
     """What the first screen shows; None where nothing is chosen.
 
     Args:

@@ -6,7 +6,7 @@ import copy
 
 import pytest
 
-from rgss.reports.study.first_screen import MOST_BULLETS, first_screen
+from rgss.reports.study.first_screen import MOST_BULLETS, first_screen_content
 
 
 def requirement(name, measure, comparison, threshold, verdict):
@@ -65,7 +65,7 @@ def changed(**decision):
 
 
 def test_what_is_open_comes_first_and_then_what_weighs_most():
-    shown = first_screen(DOCUMENT)
+    shown = first_screen_content(DOCUMENT)
     assert (shown["chosen"], shown["tied"], shown["near"], shown["met"]) == (2, [], [1], 2)
     assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
     assert shown["open"] == [{"id": "R2", "text": "R2 in words."}, {"id": "R4", "text": "R4 in words."}]
@@ -73,7 +73,7 @@ def test_what_is_open_comes_first_and_then_what_weighs_most():
 
 
 def test_a_chart_is_to_scale():
-    share, time, cost = first_screen(DOCUMENT)["bullets"]
+    share, time, cost = first_screen_content(DOCUMENT)["bullets"]
     # The greatest of limit, value and interval is a little inside of the right end.
     assert share["at"] / share["limit"] == pytest.approx(0.95 / 0.9, abs=1e-3)
     assert share["interval"][1] / share["interval"][0] == pytest.approx(0.99 / 0.88, abs=1e-3)
@@ -89,29 +89,29 @@ def test_a_chart_is_to_scale():
 def test_an_interval_that_goes_far_is_cut_at_the_end_of_the_chart():
     document = copy.deepcopy(DOCUMENT)
     document["measures"][0]["high"] = [35.0, 900.0]
-    time = first_screen(document)["bullets"][1]
+    time = first_screen_content(document)["bullets"][1]
     assert time["interval"][1] == 100.0
     assert time["limit"] == pytest.approx(100 / 2 / 1.12, abs=0.01)
 
 
 def test_what_would_change_it():
-    assert first_screen(DOCUMENT)["changes"] == [
+    assert first_screen_content(DOCUMENT)["changes"] == [
         "prices = 1.5: then nothing is feasible",
         "1 of 3 rows of assumptions have no trials yet",
         "the weight of share below 0.3: then variants 1, 3",
     ]
     free = [{"measure": "time", "weight": 0.4, "low": 0.0, "high": 1.0, "below": [], "above": []}]
-    shown = first_screen(changed(modelling={"rows": []}, weight_ranges=free))
+    shown = first_screen_content(changed(modelling={"rows": []}, weight_ranges=free))
     assert shown["changes"] == ["no single weight: each may be anything, the others in proportion"]
-    assert first_screen(changed(modelling={"rows": []}, weight_ranges=[]))["changes"] == []
+    assert first_screen_content(changed(modelling={"rows": []}, weight_ranges=[]))["changes"] == []
 
 
 def test_without_a_choice_there_is_none():
-    assert first_screen(changed(chosen=None)) is None
+    assert first_screen_content(changed(chosen=None)) is None
 
 
 def test_a_missed_requirement_of_the_choice_comes_first():
-    shown = first_screen(changed(chosen=1, ties=[1, 2]))
+    shown = first_screen_content(changed(chosen=1, ties=[1, 2]))
     assert [one["id"] for one in shown["missed"]] == ["R1", "R2"]
     assert shown["tied"] == [2]
     assert [one["requirement"] for one in shown["bullets"]] == ["R2", "R1", "R3"]
@@ -121,4 +121,4 @@ def test_a_missed_requirement_of_the_choice_comes_first():
 def test_only_so_many_charts():
     document = copy.deepcopy(DOCUMENT)
     document["requirements"] += [requirement(f"X{n}", "cost", "<=", 2000 + n, "met") for n in range(9)]
-    assert len(first_screen(document)["bullets"]) == MOST_BULLETS
+    assert len(first_screen_content(document)["bullets"]) == MOST_BULLETS
