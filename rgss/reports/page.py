@@ -27,7 +27,7 @@ def render_page(
     but its own, by its digest, and no request at all.
 
     Args:
-        template: Name of the template.
+        template: Path of the template below ``templates``, such as ``trace/trace.html.j2``.
         styles: More style sheets, after that of every page.
         scripts: More scripts, which run in their order after that of every page.
         held_scripts: Scripts that the page carries and runs when one of its scripts wants them.
@@ -53,9 +53,9 @@ def render_page(
         # Markup is a str too, and its methods keep it one; what reaches it is made visible where it is made.
         finalize=lambda value: visible(value) if type(value) is str else value,
     )
-    own = [_text("page.js"), *scripts]
+    own = [_text("page/page.js"), *scripts]
     return environment.get_template(template).render(
-        style=Markup(_text("page.css") + "".join(styles)),  # noqa: S704 - this package's own files
+        style=Markup(_text("page/page.css") + "".join(styles)),  # noqa: S704 - this package's own files
         scripts=[Markup(script) for script in own],  # noqa: S704 - this package's own files
         held_scripts=[Markup(script) for script in held_scripts],  # noqa: S704 - a package's own file
         script_hashes=[script_hash(script) for script in (*own, *held_scripts)],
@@ -73,7 +73,7 @@ def template_text(name: str) -> str:
     """The text of one of this package's templates, styles or scripts.
 
     Args:
-        name: Its file name.
+        name: Its path below ``templates``, such as ``study/core.js``.
     """
     return _text(name)
 

@@ -22,15 +22,15 @@ from rgss.reports.trace import TraceReport, trace_context
 from rgss.trace.views import share_in_words, value_in_words
 
 SCRIPTS = (
-    "report_core.js",
-    "report_tables.js",
-    "report_parallel.js",
-    "report_verdicts.js",
-    "report_weights.js",
-    "report_evidence.js",
-    "report_plots.js",
-    "report_trials.js",
-    "report_start.js",
+    "study/core.js",
+    "study/tables.js",
+    "study/parallel.js",
+    "study/verdicts.js",
+    "study/weights.js",
+    "study/evidence.js",
+    "study/plots.js",
+    "study/trials.js",
+    "study/start.js",
 )
 """The parts of the page's script, in their order; together they are one function of the document."""
 
@@ -119,10 +119,10 @@ def study_report_to_html(
     first, later = parted(document) if packed else (document, {})
     has_replays = any(one.player is not None for one in pictures)
     return render_page(
-        "report.html.j2",
-        styles=[template_text("report.css"), *([template_text(REPLAY_STYLE)] if has_replays else [])],
+        "study/report.html.j2",
+        styles=[template_text("study/report.css"), *([template_text(REPLAY_STYLE)] if has_replays else [])],
         scripts=[
-            script + template_text("report_data.js"),
+            script + template_text("study/data.js"),
             *(map(template_text, REPLAY_SCRIPTS) if has_replays else ()),
         ],
         # It takes a browser longer than all the rest, and is not needed until a plot comes into sight.

@@ -9,10 +9,10 @@ from typing import Any
 
 from rgss.reports.page import render_page, template_text
 
-REPLAY_SCRIPTS = ("replay_scene.js", "replay_plots.js", "replay.js")
+REPLAY_SCRIPTS = ("replay/scene.js", "replay/plots.js", "replay/replay.js")
 """Scripts of a page with replays, in their order."""
 
-REPLAY_STYLE = "replay.css"
+REPLAY_STYLE = "replay/replay.css"
 """Style sheet of a page with replays."""
 
 MOST_TRIALS = 2
@@ -46,7 +46,7 @@ def replay_to_html(replays: Sequence[PackedReplay]) -> str:
     if not 1 <= len(replays) <= MOST_TRIALS:
         raise AssertionError(f"checked before: a replay shows 1 to {MOST_TRIALS} trials, not {len(replays)}")
     return render_page(
-        "replay.html.j2",
+        "replay/replay.html.j2",
         styles=[template_text(REPLAY_STYLE)],
         scripts=[template_text(script) for script in REPLAY_SCRIPTS],
         held_scripts=[rendering_library()],

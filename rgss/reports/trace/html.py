@@ -43,7 +43,7 @@ def report_to_html(
         DefinitionError: The package ``jinja2`` is not installed.
     """
     return render_page(
-        "trace.html.j2",
+        "trace/trace.html.j2",
         title=report.title,
         lead=f"Evidence: {report.evidence.choice}.",
         **trace_context(report, gaps_only=gaps_only, drawings=drawings, drawings_notice=drawings_notice),
@@ -99,7 +99,7 @@ def chain_to_html(chain: Chain) -> str:
     Raises:
         DefinitionError: The package ``jinja2`` is not installed.
     """
-    return render_page("chain.html.j2", title=f"Chain of {chain.id}", chain=chain)
+    return render_page("trace/chain.html.j2", title=f"Chain of {chain.id}", chain=chain)
 
 
 def impact_to_html(impact: Impact, report: TraceReport) -> str:
@@ -124,7 +124,7 @@ def impact_to_html(impact: Impact, report: TraceReport) -> str:
         for name, one in verdicts_by_id.items()
     }
     return render_page(
-        "impact.html.j2",
+        "trace/impact.html.j2",
         title=f"What a change to {impact.id} touches",
         groups=[
             group("Stakeholder requirements to hold it against", impact.needs),

@@ -88,7 +88,7 @@ def test_a_missing_library_is_told_in_one_line(monkeypatch):
 
 def test_a_held_script_is_carried_but_not_run():
     page = render_page(
-        "impact.html.j2", title="T", groups=[], scripts=["one();"], held_scripts=["two();"], styles=["b { }"]
+        "trace/impact.html.j2", title="T", groups=[], scripts=["one();"], held_scripts=["two();"], styles=["b { }"]
     )
 
     assert '<script type="text/plain" class="held">two();</script>' in page
