@@ -1,6 +1,7 @@
 """Design parameters, their levels and ranges, the components behind them, and the variants they make."""
 
 from rgss.designs.catalogue import CatalogueModel, load_catalogue
+from rgss.designs.choosing import picked
 from rgss.designs.compatibility import Condition, Limit, Rule
 from rgss.designs.components import Catalogue, Component, Role, SourcedValue
 from rgss.designs.constraints import Constraint
@@ -9,7 +10,6 @@ from rgss.designs.document import DesignSpaceModel
 from rgss.designs.factors import Factor, Level, Span
 from rgss.designs.loading import load_design_space
 from rgss.designs.parameters import DesignParameter, ParameterKind, ParameterValue, format_value, si_unit
-from rgss.designs.picking import picked
 from rgss.designs.sampling import Sample, SamplingMethod
 from rgss.designs.set_findings import written_values
 from rgss.designs.settable import PLANNER_PREFIX, PLANNER_QUANTITIES, Application, SettableQuantity

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import prod
 from typing import Annotated
 
@@ -18,30 +18,49 @@ from rgss.documents import STRICT, Identifier
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Condition:
-    """Holds when every named parameter has, and every named role is filled by, one of its values.
+class Alternative:
+    """Values of parameters and components of roles that hold together, such as those of a factor's level.
 
     Attributes:
-        choices: Values in SI by parameter id, and component ids by ``component.<role>``.
+        parameters: Values in SI by parameter id.
+        components: Component ids by role.
     """
 
-    choices: Mapping[str, tuple[ParameterValue, ...]]
+    parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
+    components: Mapping[str, str] = field(default_factory=dict)
 
     def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
         """True if it holds for a combination."""
-        for name, allowed in self.choices.items():
-            if name.startswith(COMPONENT_PREFIX):
-                component = components.get(name.removeprefix(COMPONENT_PREFIX))
-                if component is None or component.id not in allowed:
-                    return False
-            elif parameters.get(name) not in allowed:
-                return False
-        return True
+        return all(parameters.get(name) == value for name, value in self.parameters.items()) and all(
+            role in components and components[role].id == component for role, component in self.components.items()
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Condition:
+    """Holds when every named parameter has one of its values, and one alternative of every other name holds.
+
+    Attributes:
+        choices: Values in SI by parameter id.
+        alternatives: What the values of a factor or a role mean, by its name.
+    """
+
+    choices: Mapping[str, tuple[ParameterValue, ...]]
+    alternatives: Mapping[str, tuple[Alternative, ...]] = field(default_factory=dict)
+
+    def holds(self, parameters: Mapping[str, ParameterValue], components: Mapping[str, Component]) -> bool:
+        """True if it holds for a combination."""
+        return all(parameters.get(name) in allowed for name, allowed in self.choices.items()) and all(
+            any(one.holds(parameters, components) for one in some) for some in self.alternatives.values()
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
         """The parameters and roles that it names."""
-        return tuple(self.choices)
+        settings = [one for some in self.alternatives.values() for one in some]
+        parameters = [name for one in settings for name in one.parameters]
+        roles = [f"{COMPONENT_PREFIX}{role}" for one in settings for role in one.components]
+        return tuple(dict.fromkeys((*self.choices, *parameters, *roles)))
 
 
 @document_dataclass(frozen=True, slots=True, kw_only=True, config=STRICT)

@@ -209,7 +209,8 @@ class _Reader:
         name = own if own in self._units else self._aliases.get(token.text, token.text)
         unit = self._units.get(name)
         if unit is None:
-            known = [*(one.removeprefix(DESIGN_PREFIX) for one, of in self._units.items() if of), *self._aliases]
+            known = [*(one.removeprefix(DESIGN_PREFIX) for one, of in self._units.items() if of)]
+            known += [alias for alias, source in self._aliases.items() if self._units.get(source)]
             hint = near_hint(token.text, known, "known numbers")
             if "-" in token.text:
                 hint = "leave spaces around a minus sign"

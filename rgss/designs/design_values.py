@@ -43,6 +43,13 @@ def set_names(parameters: Iterable[DesignParameter]) -> Mapping[str, str]:
     return {one.sets: f"{DESIGN_PREFIX}{one.id}" for one in parameters if one.sets}
 
 
+def number_aliases(parameters: Iterable[DesignParameter]) -> Mapping[str, str]:
+    """Other names of the parameters in `sources`: what each sets, its id and its name, where one alone has it."""
+    known = tuple(parameters)
+    named = {one.name: f"{DESIGN_PREFIX}{one.id}" for one in known}
+    return {**named, **{one.id: f"{DESIGN_PREFIX}{one.id}" for one in known}, **set_names(known)}
+
+
 def source_units(parameters: Iterable[DesignParameter], catalogue: Catalogue) -> Mapping[str, str]:
     """The SI unit of each value that `sources` gives, by its name; empty for names."""
     units = {f"{DESIGN_PREFIX}{parameter.id}": parameter.unit for parameter in parameters}

@@ -59,3 +59,17 @@ def near_hint(name: str, known: Iterable[str], what: str) -> str:
     if near:
         return f"did you mean {near[0]!r}?"
     return f"{what}: {', '.join(names)}" if names else f"there are no {what}"
+
+
+def value_hint(value: str, known: Iterable[str], what: str, *, others: Iterable[str] = ()) -> str:
+    """A hint for a value that is not known: the nearest whatever its capitals, or the list of those that are.
+
+    Args:
+        value: The value.
+        known: The values that are listed.
+        what: What these are.
+        others: Further values that are proposed if they are near, and not listed.
+    """
+    listed = set(known)
+    near = difflib.get_close_matches(value.lower(), sorted({*listed, *others}), n=1)
+    return near_hint(value, near or listed, what)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from rgss.designs.choosing import FilterNames
 from rgss.designs.components import Catalogue
 from rgss.designs.document import DesignSpaceModel, FactorModel, LevelModel, ParameterModel
 from rgss.designs.factors import Factor, Level
@@ -66,9 +67,8 @@ class _SpaceReader:
         if all(factor.levels or factor.span is not None for factor in factors):
             # A factor that cannot be read does not say what it sets.
             self._find_unset(parameters, setters)
-        rules = RuleReader(self._document, self._values, self._catalogue, constants, factors, lines=self._lines).read(
-            self._model.rules
-        )
+        names = FilterNames(parameters=parameters, factors=factors, catalogue=self._catalogue, selectors=selectors)
+        rules = RuleReader(self._document, self._values, names, constants, lines=self._lines).read(self._model.rules)
         self._findings += rules.findings
         self._findings += sample_findings(self._document, self._model)
         if self._findings and (self._model.sample is not None or any(factor.span for factor in factors)):

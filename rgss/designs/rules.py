@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from rgss.designs.compatibility import Condition, Limit, Rule
-from rgss.designs.components import Catalogue
+from rgss.designs.choosing import FilterNames, NamedValues, respelt
+from rgss.designs.compatibility import Alternative, Condition, Limit, Rule
 from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
 from rgss.designs.constraints import Constraint
-from rgss.designs.design_values import COMPONENT_PREFIX, set_names, source_units
+from rgss.designs.design_values import COMPONENT_PREFIX, number_aliases, source_units
 from rgss.designs.document import RuleModel
-from rgss.designs.factors import Factor
-from rgss.designs.findings import near_hint
+from rgss.designs.findings import near_hint, value_hint
 from rgss.designs.parameters import ParameterValue, format_value
 from rgss.designs.values import ValueReader
 from rgss.documents import Document
@@ -35,15 +34,17 @@ class RuleReader:
         self,
         document: Document,
         values: ValueReader,
-        catalogue: Catalogue,
+        names: FilterNames,
         constants: Mapping[str, ParameterValue],
-        factors: Sequence[Factor],
         lines: Sequence[str] = (),
     ) -> None:
         self._document = document
         self._values = values
-        self._catalogue = catalogue
+        self._names = names
         self._lines = lines
+        self._units = source_units(names.parameters, names.catalogue)
+        self._aliases = number_aliases(names.parameters)
+        factors = names.factors
         self._spans = {factor.span.parameter: factor.span for factor in factors if factor.span is not None}
         self._findings: list[Finding] = []
         settings = [constants, *(level.values for factor in factors for level in factor.levels)]
@@ -78,8 +79,7 @@ class RuleReader:
         if model.require is not None:
             require = self._condition(model.require, *place, "require")
         elif model.limit is not None:
-            self._check_limit(model.limit, *place, "limit")
-            require = model.limit
+            require = self._limit(model.limit, *place, "limit")
         elif model.constraint is not None:
             require = self._constraint(model.constraint, *place, "constraint")
         for key in ("when", "require", "exclude"):
@@ -89,35 +89,55 @@ class RuleReader:
 
     def _condition(self, written: Mapping[str, tuple[ParameterValue, ...]], *place: str | int) -> Condition:
         choices: dict[str, tuple[ParameterValue, ...]] = {}
+        alternatives: dict[str, tuple[Alternative, ...]] = {}
         for name, values in written.items():
-            if name.startswith(COMPONENT_PREFIX):
-                choices[name] = self._component_ids(name, values, *place, name)
+            parameter = self._names.parameter(name)
+            named = self._names.values(name)
+            if parameter is not None:
+                if parameter.id in choices:
+                    message = f"{name} is {parameter.id}, which is named already"
+                    self._report("named-twice", message, *place, name, hint="name it once", at_key=True)
+                choices[parameter.id] = self._parameter_values(parameter.id, values, *place, name)
+            elif named is not None:
+                alternatives[name] = self._alternatives(name, named, values, *place, name)
             else:
-                choices[name] = self._parameter_values(name, values, *place, name)
-        return Condition(choices=choices)
+                self._report_unknown(name, *place, name)
+        return Condition(choices=choices, alternatives=alternatives)
 
-    def _component_ids(
-        self, name: str, values: Sequence[ParameterValue], *place: str | int
-    ) -> tuple[ParameterValue, ...]:
-        role = name.removeprefix(COMPONENT_PREFIX)
-        roles = [known.id for known in self._catalogue.roles]
-        if role not in roles:
-            hint = near_hint(role, roles, "known roles")
+    def _report_unknown(self, name: str, *place: str | int) -> None:
+        if name.startswith(COMPONENT_PREFIX):
+            role = name.removeprefix(COMPONENT_PREFIX)
+            hint = near_hint(role, (known.id for known in self._names.catalogue.roles), "known roles")
             self._report("unknown-role", f"unknown role {role!r}", *place, hint=hint, at_key=True)
-            return ()
-        ids = [component.id for component in self._catalogue.of_role(role)]
+            return
+        hint = near_hint(name, self._names.known(), "known names")
+        self._report("unknown-parameter", f"unknown design parameter {name!r}", *place, hint=hint, at_key=True)
+
+    def _alternatives(
+        self, name: str, named: NamedValues, values: Sequence[ParameterValue], *place: str | int
+    ) -> tuple[Alternative, ...]:
+        found: list[Alternative] = []
         for index, value in enumerate(values):
-            if value not in ids:
-                hint = near_hint(str(value), ids, f"known {role} components")
-                self._report(
-                    "unknown-component", f"no {role} component has the id {shown(value)}", *place, index, hint=hint
-                )
-        return tuple(values)
+            meant = named.alternatives(str(value))
+            found += meant
+            if meant:
+                continue
+            if name.startswith(COMPONENT_PREFIX):
+                role = name.removeprefix(COMPONENT_PREFIX)
+                hint = value_hint(str(value), named.own, f"known {role} components", others=named.choosing)
+                message = f"no {role} component has the id {shown(value)}"
+                self._report("unknown-component", message, *place, index, hint=hint)
+            else:
+                hint = value_hint(str(value), named.own, f"known values of {name}", others=named.choosing)
+                self._report("never-holds", f"{name} is never {shown(value)}", *place, index, hint=hint)
+        return tuple(found)
 
     def _parameter_values(
         self, name: str, written: Sequence[ParameterValue], *place: str | int
     ) -> tuple[ParameterValue, ...]:
-        values, findings = self._values.choices(self._document, place, name, written)
+        spellings = [*self._values.names.get(name, ()), *(str(one) for one in self._possible.get(name, ()))]
+        respelled = [respelt(one, dict.fromkeys(spellings)) if isinstance(one, str) else one for one in written]
+        values, findings = self._values.choices(self._document, place, name, respelled)
         self._findings += findings
         possible = self._possible.get(name, [])
         span = self._spans.get(name)
@@ -136,8 +156,7 @@ class RuleReader:
 
     def _constraint(self, text: str, *place: str | int) -> Constraint | None:
         try:
-            parameters = self._values.parameters.values()
-            return parse_constraint(text, source_units(parameters, self._catalogue), set_names(parameters))
+            return parse_constraint(text, self._units, self._aliases)
         except ConstraintProblem as problem:
             finding = self._document.finding(problem.rule, problem.message, place, hint=problem.hint)
             column = finding.column + self._offset(finding, text, problem.offset)
@@ -151,21 +170,22 @@ class RuleReader:
             return offset
         return 1 + offset if written[1:].startswith(text) else 0
 
-    def _check_limit(self, model: Limit, *place: str | int) -> None:
-        known = source_units(self._values.parameters.values(), self._catalogue)
-        units = {name: unit for name, unit in known.items() if unit}
-        names = [(name, (*place, "product_of", index)) for index, name in enumerate(model.product_of)]
-        names.append((model.at_most, (*place, "at_most")))
-        unknown = [(name, where) for name, where in names if name not in units]
+    def _limit(self, model: Limit, *place: str | int) -> Limit:
+        units = {name: unit for name, unit in self._units.items() if unit}
+        named = [(name, (*place, "product_of", index)) for index, name in enumerate(model.product_of)]
+        named.append((model.at_most, (*place, "at_most")))
+        names = [name if name in units else self._aliases.get(name, name) for name, _ in named]
+        unknown = [one for one, name in zip(named, names, strict=True) if name not in units]
         for name, where in unknown:
-            hint = near_hint(name, units, "known numbers")
+            numbers = [one for one, of in self._aliases.items() if of in units]
+            hint = near_hint(name, (*units, *numbers), "known numbers")
             self._report("unknown-source", f"the design has no number {name!r}", *where, hint=hint)
         if not unknown:
-            bound = units[model.at_most]
-            product = [units[name] for name in model.product_of]
+            *product, bound = (units[name] for name in names)
             if _powers(product) != _powers([bound]):
                 message = f"a product in {'·'.join(product)} is compared with {model.at_most} in {bound}"
                 self._report("unit", message, *place, hint="compare what has one unit")
+        return Limit(product_of=tuple(names[:-1]), at_most=names[-1])
 
 
 def _powers(units: Iterable[str]) -> Mapping[str, float]:

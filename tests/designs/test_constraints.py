@@ -137,7 +137,8 @@ def test_a_mistake_in_a_file_is_found_at_its_character(project, written):
     assert project.findings() == [
         (
             f"{project.marks()[0]}: error: the design has no number 'd5' "
-            "(known numbers: component.gripper.cost, component.gripper.force, component.planner.cost, d1, d2, d4) "
+            "(known numbers: component.gripper.cost, component.gripper.force, component.planner.cost, "
+            "d1, d2, d4, fingers, force, mass) "
             "[design.unknown-source]"
         )
     ]

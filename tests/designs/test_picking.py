@@ -35,6 +35,12 @@ def ids(space, *terms):
         (("d3=prm",), [2, 4, 6, 8]),
         (("fingers=Two",), [1, 2, 5, 6]),
         (("component.gripper!=large",), [1, 2, 3, 4]),
+        (("D2=3",), [3, 4, 7, 8]),
+        (("Fingers=two",), [1, 2, 5, 6]),
+        (("force=3 N",), [1, 2, 3, 4, 5, 6, 7, 8]),
+        (("gripper=low",), [1, 2, 3, 4]),
+        (("planner=Prm",), [2, 4, 6, 8]),
+        (("force * fingers >= 9 N",), [3, 4, 7, 8]),
         (("d1 * d2 >= 0.4 kg",), [5, 6, 7, 8]),
         (("d1*d2 == 0.6 kg,1",), [1, 7, 8]),
         (("d3=RRT", "d2=3"), [3, 7]),
@@ -82,6 +88,27 @@ def test_mistakes_are_told(project, terms, message):
     with pytest.raises(DefinitionError) as caught:
         picked(project.load(), terms)
     assert str(caught.value) == message
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "variants"),
+    [
+        ("gripper", "low", [1, 2, 3, 4]),
+        ("component.gripper", "HIGH", [5, 6, 7, 8]),
+        ("gripper", "small", [1, 2, 3, 4]),
+        ("planner", "rrt", [1, 3, 5, 7]),
+        ("planner", "PRM", [2, 4, 6, 8]),
+        ("d3", "prm", [2, 4, 6, 8]),
+        ("D3", "PRM", [2, 4, 6, 8]),
+        ("fingers", "two", [1, 2, 5, 6]),
+        ("planning.planner", "rrt", [1, 3, 5, 7]),
+    ],
+)
+def test_a_filter_and_a_rule_have_one_spelling(project, name, value, variants):
+    project.change("role: planner, description", "role: planner, sets: planning.planner, description")
+    assert ids(project.load(), f"{name}={value}") == variants
+    project.space_text += f"rules:\n  - {{id: r, rationale: So., require: {{{name}: {value}}}}}\n"
+    assert ids(project.load()) == variants
 
 
 def test_what_is_no_variant_is_passed_over_in_a_range_and_told_alone(project):

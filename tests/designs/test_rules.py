@@ -19,6 +19,14 @@ EXCLUSIONS = {
         "    when: {d2: 3}\n    limit: {product_of: [design.d2, design.d4], at_most: component.gripper.force}\n",
         {3, 4},
     ),
+    "exclude a level": ("    exclude: {fingers: three}\n", {3, 4, 7, 8}),
+    "exclude levels of factors": ("    exclude: {fingers: [two, Three], planner: prm}\n", {2, 4, 6, 8}),
+    "exclude what a level or an id chooses": ("    exclude: {gripper: [low, large], d2: 3}\n", {3, 4, 7, 8}),
+    "two names of one role": ("    exclude: {gripper: low, component.gripper: large}\n", set()),
+    "limit by other names": (
+        "    limit: {product_of: [fingers, d4], at_most: component.gripper.force}\n",
+        {1, 2, 3, 4},
+    ),
     "limit that nothing exceeds": ("    limit: {product_of: [design.d4], at_most: component.gripper.force}\n", set()),
 }
 
@@ -74,6 +82,22 @@ MISTAKES = {
             "error: no gripper component has the id 'huge' (known gripper components: large, small) "
             "[design.unknown-component]"
         ),
+    ),
+    "unknown level": (
+        "    exclude: {fingers: ¦tree}\n",
+        "error: fingers is never 'tree' (did you mean 'three'?) [design.never-holds]",
+    ),
+    "unknown level of a role": (
+        "    exclude: {gripper: [low, ¦hihg]}\n",
+        "error: gripper is never 'hihg' (did you mean 'high'?) [design.never-holds]",
+    ),
+    "unknown name": (
+        "    exclude: {¦griper: low}\n",
+        "error: unknown design parameter 'griper' (did you mean 'gripper'?) [design.unknown-parameter]",
+    ),
+    "a parameter by two names": (
+        "    exclude: {d4: 3 N, ¦force: 3 N}\n",
+        "error: force is d4, which is named already (name it once) [design.named-twice]",
     ),
     "unknown number": (
         "    limit: {product_of: [design.d4], at_most: ¦component.gripper.forse}\n",

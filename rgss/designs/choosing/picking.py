@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
 
 from rgss.designs.balance import balanced_part, binned
+from rgss.designs.choosing.filter_names import FilterNames, respelt
 from rgss.designs.constraint_parsing import ConstraintProblem, parse_constraint
-from rgss.designs.design_values import COMPONENT_PREFIX, DESIGN_PREFIX, set_names, source_units
-from rgss.designs.findings import near_hint
-from rgss.designs.parameters import ParameterKind
+from rgss.designs.design_values import number_aliases, source_units
+from rgss.designs.findings import near_hint, value_hint
+from rgss.designs.parameters import DesignParameter, ParameterKind
 from rgss.designs.space import DesignSpace
 from rgss.designs.variants import DesignVariant
 from rgss.errors import DefinitionError, QuantityError
@@ -30,8 +31,8 @@ def picked(space: DesignSpace, terms: Sequence[str], *, option: str = "--only") 
     A term is one of
 
     - ids and filters with commas between them, which choose what any of them does: ``1,5,60-72``,
-      ``planning.planner=RRT,planning.planner=TRRT``. A filter compares a parameter (by its id or by what
-      it sets), a factor's level or a component with a value (``planning.planner=RRT``, ``fingers=two``,
+      ``planning.planner=RRT,planning.planner=TRRT``. A filter compares a parameter (by its id, its name or
+      what it sets), a factor's level or a component with a value (``planning.planner=RRT``, ``fingers=two``,
       ``gripper!=kg-2-light``), whatever its capitals, a component also with a level that chooses it
       (``gripper=three``), or is a constraint as in the file of the design space
       (``robot.tool_speed <= 0.8 m/s``);
@@ -100,13 +101,13 @@ def _filter(space: DesignSpace, text: str, option: str) -> Filter:
             return found if equals["sign"] != "!=" else lambda variant: not found(variant)
     if _COMPARISON.search(text):
         try:
-            units, aliases = source_units(space.parameters, space.catalogue), set_names(space.parameters)
+            units, aliases = source_units(space.parameters, space.catalogue), number_aliases(space.parameters)
             constraint = parse_constraint(text, units, aliases)
         except ConstraintProblem as problem:
             raise DefinitionError(f"{option}: {shown(text)}: {problem.message}", hint=problem.hint) from None
         return lambda variant: constraint.holds(variant.parameters, variant.components)
     if equals is not None:
-        hint = near_hint(equals["name"], _known_names(space), "known names")
+        hint = near_hint(equals["name"], _names(space).known(), "known names")
         raise DefinitionError(f"{option}: nothing is named {equals['name']!r}", hint=hint)
     raise DefinitionError(f"{option}: {text!r} is not an id or a range", hint="write ids such as 1,5,60-72")
 
@@ -133,70 +134,41 @@ def _ids(space: DesignSpace, text: str, option: str) -> Filter:
 
 def _equals(space: DesignSpace, name: str, value: str, option: str) -> Filter | None:
     """A filter on one name and its value; None if nothing has the name."""
-    bare = set_names(space.parameters).get(name, name).removeprefix(DESIGN_PREFIX)
-    parameter = next((one for one in space.parameters if one.id == bare), None)
+    names = _names(space)
+    parameter = names.parameter(name)
     if parameter is not None:
-        try:
-            counted = parameter.kind is ParameterKind.COUNT and value.isdecimal()
-            wanted = parameter.read(int(value) if counted else value)
-        except QuantityError as error:
-            raise DefinitionError(f"{option}: {name}: {error.message}", hint=error.hint) from error
-        if parameter.kind is ParameterKind.NAME:
-            wanted = _known_value(option, name, value, {str(one.parameters[bare]) for one in space.expand()})
-        return lambda variant: variant.parameters[bare] == wanted
-    factor = next((one for one in space.factors if one.id == name), None)
-    if factor is not None:
-        level = value
-        if factor.span is None:
-            level = _known_value(option, name, value, {level.id for level in factor.levels})
-        return lambda variant: variant.levels[name] == level
-    role = name.removeprefix(COMPONENT_PREFIX)
-    if role in {one.id for one in space.catalogue.roles}:
-        choosing = _levels_that_choose(space, role)
-        component = _known_value(
-            option, name, value, {one.id for one in space.catalogue.of_role(role)}, others=frozenset(choosing)
-        )
-        if component in choosing:
-            return lambda variant: any(variant.levels[one] == component for one in choosing[component])
-        return lambda variant: variant.components[role].id == component
-    return None
+        return _parameter_equals(space, parameter, name, value, option)
+    values = names.values(name)
+    if values is None:
+        return None
+    alternatives = values.alternatives(value)
+    if not alternatives:
+        raise _never(option, name, value, set(values.own), others=set(values.choosing))
+    return lambda variant: any(one.holds(variant.parameters, variant.components) for one in alternatives)
 
 
-def _levels_that_choose(space: DesignSpace, role: str) -> dict[str, list[str]]:
-    """The levels by which the component of a role is chosen, such as the numbers of fingers, each with its factors."""
-    parameters = {name for one in space.catalogue.of_role(role) for name in space.selectors.get(one.id, {})}
-    found: dict[str, list[str]] = {}
-    for factor in space.factors:
-        for level in factor.levels:
-            if parameters & set(level.values):
-                found.setdefault(level.id, []).append(factor.id)
-    return found
+def _parameter_equals(space: DesignSpace, parameter: DesignParameter, name: str, value: str, option: str) -> Filter:
+    try:
+        counted = parameter.kind is ParameterKind.COUNT and value.isdecimal()
+        wanted = parameter.read(int(value) if counted else value)
+    except QuantityError as error:
+        raise DefinitionError(f"{option}: {name}: {error.message}", hint=error.hint) from error
+    if parameter.kind is ParameterKind.NAME:
+        known = {str(one.parameters[parameter.id]) for one in space.expand()}
+        wanted = respelt(value, known)
+        if wanted not in known:
+            raise _never(option, name, value, known)
+    return lambda variant: variant.parameters[parameter.id] == wanted
 
 
-def _known_value(option: str, name: str, value: str, known: set[str], *, others: frozenset[str] = frozenset()) -> str:
-    """The value as it is spelt; capitals make no difference where only one value is meant.
-
-    Args:
-        option: What the user knows the filter by.
-        name: What is compared.
-        value: The value as the user wrote it.
-        known: The values that there are.
-        others: Further ones, which are taken if none of these is meant.
-
-    Raises:
-        DefinitionError: There is no such value.
-    """
-    for some in (known, others):
-        if value in some:
-            return value
-        alike = [one for one in some if one.lower() == value.lower()]
-        if len(alike) == 1:
-            return alike[0]
-    near = difflib.get_close_matches(value.lower(), {*known, *others}, n=1)
-    hint = near_hint(value, {*near} or known, f"known values of {name}")
-    raise DefinitionError(f"{option}: {name} is never {value!r}", hint=hint)
+def _names(space: DesignSpace) -> FilterNames:
+    return FilterNames(
+        parameters=space.parameters, factors=space.factors, catalogue=space.catalogue, selectors=space.selectors
+    )
 
 
-def _known_names(space: DesignSpace) -> set[str]:
-    parameters, factors = ({one.id for one in some} for some in (space.parameters, space.factors))
-    return parameters | factors | set(set_names(space.parameters)) | {role.id for role in space.catalogue.roles}
+def _never(
+    option: str, name: str, value: str, known: set[str], *, others: AbstractSet[str] = frozenset()
+) -> DefinitionError:
+    hint = value_hint(value, known, f"known values of {name}", others=others)
+    return DefinitionError(f"{option}: {name} is never {value!r}", hint=hint)

@@ -1,0 +1,113 @@
+"""Names that filters and rules share: parameters, factors with their levels, and roles with their components.
+
+``gripper=three`` after ``--only`` and ``gripper: three`` in a rule choose the same designs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from rgss.designs.compatibility import Alternative
+from rgss.designs.components import Catalogue
+from rgss.designs.design_values import COMPONENT_PREFIX, DESIGN_PREFIX, set_names
+from rgss.designs.factors import Factor
+from rgss.designs.parameters import DesignParameter, ParameterValue
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedValues:
+    """Values of a factor or a role, each with the settings that it means; any of them will do.
+
+    Attributes:
+        own: Levels of the factor, and components of the role.
+        choosing: Further levels by which the component of the role is chosen, such as its number of fingers.
+    """
+
+    own: Mapping[str, tuple[Alternative, ...]]
+    choosing: Mapping[str, tuple[Alternative, ...]]
+
+    def alternatives(self, value: str) -> tuple[Alternative, ...]:
+        """The settings that a value means, whatever its capitals; empty if it is unknown."""
+        for known in (self.own, self.choosing):
+            spelt = respelt(value, known)
+            if spelt in known:
+                return known[spelt]
+        return ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilterNames:
+    """Names of one design space.
+
+    Attributes:
+        parameters: The design parameters.
+        factors: The factors.
+        catalogue: The components.
+        selectors: The parameter values that select each component, by component id.
+    """
+
+    parameters: Sequence[DesignParameter]
+    factors: Sequence[Factor]
+    catalogue: Catalogue
+    selectors: Mapping[str, Mapping[str, tuple[ParameterValue, ...]]]
+
+    def parameter(self, name: str) -> DesignParameter | None:
+        """The parameter that a name means: by its id, by what it sets, or by its name if nothing else has that.
+
+        A factor with a range means its parameter. Capitals make no difference where one name alone is meant.
+        """
+        ids = {one.id: one for one in self.parameters}
+        by_name = {**{one.sets: one for one in self.parameters if one.sets}, **ids}
+        bare = respelt(name, by_name)
+        if bare not in by_name and name.startswith(DESIGN_PREFIX):
+            bare = respelt(name.removeprefix(DESIGN_PREFIX), ids)
+        if bare in by_name:
+            return by_name[bare]
+        ranged = {one.id: ids[one.span.parameter] for one in self.factors if one.span and one.span.parameter in ids}
+        if respelt(name, ranged) in ranged:
+            return ranged[respelt(name, ranged)]
+        if self.values(name) is not None:
+            return None
+        named = {one.name: one for one in self.parameters}
+        return named.get(respelt(name, named))
+
+    def values(self, name: str) -> NamedValues | None:
+        """The values of the factor or the role that a name means; None if it means neither."""
+        factors = {one.id: one for one in self.factors if one.span is None}
+        roles = [role.id for role in self.catalogue.roles]
+        factor = factors.get(respelt(name, factors))
+        role = respelt(name.removeprefix(COMPONENT_PREFIX), roles)
+        if factor is None and role not in roles:
+            return None
+        own = {} if factor is None else {one.id: (Alternative(parameters=one.values),) for one in factor.levels}
+        choosing: Mapping[str, tuple[Alternative, ...]] = {}
+        if role in roles:
+            for component in self.catalogue.of_role(role):
+                own.setdefault(component.id, (Alternative(components={role: component.id}),))
+            choosing = self._levels_that_choose(role)
+        return NamedValues(own=own, choosing=choosing)
+
+    def known(self) -> set[str]:
+        """Every name, without prefixes."""
+        parameters = {one.id for one in self.parameters} | {one.name for one in self.parameters}
+        roles = {role.id for role in self.catalogue.roles}
+        return parameters | {one.id for one in self.factors} | set(set_names(self.parameters)) | roles
+
+    def _levels_that_choose(self, role: str) -> Mapping[str, tuple[Alternative, ...]]:
+        parameters = {name for one in self.catalogue.of_role(role) for name in self.selectors.get(one.id, {})}
+        found: dict[str, tuple[Alternative, ...]] = {}
+        for factor in self.factors:
+            for level in factor.levels:
+                if parameters & set(level.values):
+                    found[level.id] = (*found.get(level.id, ()), Alternative(parameters=level.values))
+        return found
+
+
+def respelt(name: str, known: Iterable[str]) -> str:
+    """A name as it is known, if capitals alone distinguish it from exactly one that is; else the name itself."""
+    names = list(known)
+    if name in names:
+        return name
+    alike = [one for one in names if one.lower() == name.lower()]
+    return alike[0] if len(alike) == 1 else name
