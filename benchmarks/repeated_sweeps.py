@@ -35,7 +35,7 @@ from rgss.tradeoff import Alternative, TradeProblem, decide
 from rgss.tradeoff.problem import tabulated
 from rgss.tradeoff.programs import enumerate_alternatives, single_values
 from rgss.tradeoff.robustness import PosteriorOutcomes, choice_uncertainty
-from rgss.tradeoff.sequential import Decided, Progress, SequentialEvidence, SequentialRule, next_batch
+from rgss.tradeoff.sequential import Decided, Progress, SequentialEvidence, SequentialRule, next_batch_with_reserve
 
 SAME = 0.95
 POINTS = 0.03
@@ -104,7 +104,7 @@ class Pool:
                 tolerance=trade_off.tolerance,
                 last_of_equals=trade_off.last_of_equals,
             )
-            answer = next_batch(evidence, rule, progress)
+            answer = next_batch_with_reserve(evidence, rule, progress, seed=seed)
             progress = answer.progress
             if isinstance(answer, Decided):
                 return self.outcome(self._problem(self.problem, picks, wanted), wanted, seed)
@@ -234,6 +234,8 @@ def main() -> int:
     given = parser.parse_args()
     rule = load_project(given.project.resolve(), given.study).study.until_decided
     changed = {name: getattr(given, name) for name in ("budget", "cap", "batch") if getattr(given, name)}
+    if given.budget:
+        changed["reserve"] = None
     rule = replace(rule, **changed)
     pool = read_pool(given.project.resolve(), given.study, given.most)
     if given.equal:

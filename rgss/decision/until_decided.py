@@ -23,7 +23,7 @@ from rgss.tradeoff.sequential import (
     SequentialEvidence,
     SequentialRule,
     forecast,
-    next_batch,
+    next_batch_with_reserve,
 )
 from rgss.trials.pieces import TrialSpec
 
@@ -67,6 +67,11 @@ class UntilDecided:
     def total(self) -> int:
         """All trials."""
         return sum(self.trials.values())
+
+    @property
+    def reserve_spent(self) -> int:
+        """Trials beyond the budget."""
+        return 0 if self.rule.budget is None else max(0, self.total - self.rule.budget)
 
 
 def replicate_until_decided(
@@ -117,7 +122,7 @@ def replicate_until_decided(
             tolerance=project.study.trade_off.tolerance,
             last_of_equals=project.study.trade_off.last_of_equals,
         )
-        answer = next_batch(evidence, rule, progress)
+        answer = next_batch_with_reserve(evidence, rule, progress, seed=project.study.seed)
         progress = answer.progress
         if on_look is not None:
             on_look(progress.looks, sum(wanted.values()))

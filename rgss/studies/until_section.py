@@ -32,6 +32,8 @@ class UntilDecidedEntry(DocumentModel):
     verdict_cap: Annotated[int, Field(ge=0, le=MOST_TRIALS)] = _DEFAULT.verdict_cap
     budget: Annotated[int, Field(ge=1)] | None = None
     finalists: Annotated[int, Field(ge=2)] | None = None
+    reserve: Annotated[int, Field(ge=1)] | None = None
+    good_selection: Dimensionless = _DEFAULT.good_selection
 
 
 def read_until_decided(
@@ -83,6 +85,13 @@ def _problems(entry: UntilDecidedEntry, pilot: int, replicates: int) -> list[tup
             )
     if entry.finalists is not None and entry.budget is None:
         found.append(("finalists", "finalists needs a budget", "give a budget too"))
+    if entry.reserve is not None and entry.budget is None:
+        found.append(("reserve", "reserve needs a budget", "give a budget too"))
+    if not 0.0 < entry.good_selection < 1.0:
+        message = f"good_selection must be between 0 and 1, got {entry.good_selection:g}"
+        found.append(("good_selection", message, "give a probability such as 90 %"))
+    if "good_selection" in entry.model_fields_set and entry.reserve is None:
+        found.append(("good_selection", "good_selection needs a reserve", "it says when the reserve is left; give one"))
     if pilot < replicates:
         message = f"pilot must be at least the study's replicates, {replicates}, got {pilot}"
         found.append(("pilot", message, "raise it, or lower the replicates"))

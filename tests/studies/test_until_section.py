@@ -130,6 +130,36 @@ def test_finalists_without_a_budget_are_found(section, place_of, problems):
     )
 
 
+@pytest.mark.parametrize(
+    ("text", "mark", "message"),
+    [
+        ("{reserve: 600}", "600", "reserve needs a budget (give a budget too)"),
+        ("{budget: 900, reserve: 0}", "0}", "reserve: input should be greater than or equal to 1"),
+        (
+            "{budget: 900, reserve: 600, good_selection: 100 %}",
+            "100 %",
+            "good_selection must be between 0 and 1, got 1 (give a probability such as 90 %)",
+        ),
+        (
+            "{budget: 900, good_selection: 80 %}",
+            "80 %",
+            "good_selection needs a reserve (it says when the reserve is left; give one)",
+        ),
+    ],
+)
+def test_mistakes_in_a_reserve_are_found(section, place_of, problems, text, mark, message):
+    section(f"until_decided: {text}\n")
+    (found,) = problems()
+    assert found.startswith(f"{place_of(STUDY, mark)}: error: ")
+    assert message in found
+
+
+def test_a_reserve_is_read(folder, section):
+    section("until_decided: {budget: 900, reserve: 600, good_selection: 80 %}\n")
+    rule = load_project(folder).study.until_decided
+    assert (rule.reserve, rule.good_selection) == (600, 0.8)
+
+
 def test_a_cap_below_a_default_is_found_at_the_cap(section, place_of, problems):
     section("until_decided: {cap: 12}\n")
     (found,) = problems()

@@ -47,7 +47,8 @@ def sweep_until_decided(options: argparse.Namespace, project: Project, limits: W
     if options.cap is not None:
         rule = replace(rule, cap=options.cap)
     if options.budget is not None:
-        rule = replace(rule, budget=_budget(options.budget))
+        # So many trials and no more: the study's reserve is beside the study's budget.
+        rule = replace(rule, budget=_budget(options.budget), reserve=None)
     lost: list[LostTrials] = []
     label = shown_path(project.evidence)
     with execution_backend(options, limits) as backend, EvidenceStore.open(project.evidence, label=label) as store:
@@ -151,6 +152,7 @@ def _as_json(found: UntilDecided) -> dict[str, object]:
         **asdict(found.rule),
         "looks": found.looks,
         "trials": found.total,
+        "reserve_spent": found.reserve_spent,
         "variants": [
             {
                 "variant": variant,

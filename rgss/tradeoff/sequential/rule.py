@@ -26,6 +26,9 @@ class SequentialRule:
         budget: Most replicates of all alternatives together; None for no such limit.
         finalists: Number of leading alternatives that a budget is spent on, kept at the same seeds; None to spend it by
             posterior probability.
+        reserve: Replicates of all alternatives together beyond the budget, while the probability of good selection
+            is below `good_selection`; None for none.
+        good_selection: Probability of good selection at which the reserve is left.
 
     Raises:
         TradeoffError: A number is out of its range.
@@ -40,6 +43,8 @@ class SequentialRule:
     verdict_cap: int = 16
     budget: int | None = None
     finalists: int | None = None
+    reserve: int | None = None
+    good_selection: float = 0.9
 
     def __post_init__(self) -> None:
         if not 0.0 < self.error_rate < 1.0:
@@ -59,6 +64,15 @@ class SequentialRule:
         if self.finalists is not None and self.finalists < 2:
             raise TradeoffError(
                 f"finalists must be at least 2, got {self.finalists}", hint="one alternative is compared with nothing"
+            )
+        if self.reserve is not None and (self.budget is None or self.reserve < 1):
+            raise TradeoffError(
+                f"reserve must be at least 1 replicate beyond a budget, got {self.reserve}",
+                hint="give a budget too, and a positive reserve",
+            )
+        if not 0.0 < self.good_selection < 1.0:
+            raise TradeoffError(
+                f"good selection must be between 0 and 1, got {self.good_selection:g}", hint="give one such as 0.9"
             )
         if self.cap < self.pilot or not 0 <= self.verdict_cap <= self.cap:
             raise TradeoffError(

@@ -8,6 +8,7 @@ the first look at which M ≥ 1/a errs with probability at most a, whatever the 
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,6 +107,7 @@ def mean_above(values: NDArray[np.float64], level: float) -> float:
     return mean + math.sqrt(spread * (power - 1.0) / (count * left))
 
 
+@lru_cache(maxsize=65_536)
 def difference_above(more: int, less: int, trials: int, level: float) -> float:
     """An upper bound of the difference of two success probabilities from trials with common seeds.
 

@@ -7,7 +7,7 @@ import pytest
 import rgss.decision.until_decided as until
 from rgss.evidence import RunFailure, RunFailureKind
 from rgss.measures import Verdict
-from rgss.reports.decision.until_decided import open_paragraph
+from rgss.reports.decision.until_decided import open_paragraph, until_decided_summary
 from rgss.sweep.results import LostTrials, SweepResult
 from rgss.tradeoff.sequential import Forecast, Reason, SequentialRule
 
@@ -99,6 +99,9 @@ def test_the_rule_is_the_studys_and_the_cap_may_be_named(rgss, folder, monkeypat
     assert "decided at an error rate of 0.05, 2 of the others may equal it within 0.02, prob" in told.output
 
 
+UNPROVEN = "Not proven at an error rate of 0.05 over all looks, a stricter standard than the probability above:"
+
+
 def ended(rule, **more):
     return until.UntilDecided(
         **{
@@ -119,7 +122,9 @@ def ended(rule, **more):
 
 def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, monkeypatch):
     study = folder / "studies" / "pick_place.yaml"
-    study.write_text(f"{study.read_text(encoding='utf-8')}\nuntil_decided: {{budget: 600}}\n", encoding="utf-8")
+    study.write_text(
+        f"{study.read_text(encoding='utf-8')}\nuntil_decided: {{budget: 600, reserve: 300}}\n", encoding="utf-8"
+    )
     asked = []
 
     def replicate(*_, rule, **__):
@@ -131,28 +136,47 @@ def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, mon
     rgss("sweep", "--budget", "900", "--project", folder)
 
     assert [rule.budget for rule in asked] == [600, 900]
-    assert told.output.splitlines()[0].startswith("variant 2: budget of 600 trials spent with 3 contenders")
+    # A budget that is typed is all that is spent.
+    assert [rule.reserve for rule in asked] == [300, None]
+    assert told.output.splitlines()[0].startswith(
+        "variant 2: budget of 600 trials spent, probability of good selection 0.500; 28 trials in 3 looks"
+    )
     assert told.output.splitlines()[1:] == [
         (
-            "Open: whether variants 1, 3 are worth more than variant 2 by more than 0.05; whether variant 2, which has "
-            "12 replicates, meets SYS-024 (about 96 replicates). If trials go on as so far, some 250 trials more "
-            f"settle the decision; to go on where it stopped, type 'rgss sweep --project {folder} --budget 300', or "
-            "raise until_decided.budget."
+            "Not proven at an error rate of 0.05 over all looks, a stricter standard than the probability above: that "
+            "variants 1, 3 are worth at most 0.05 more than variant 2; that variant 2, which has 12 replicates, meets "
+            "SYS-024 (about 96 replicates). If trials go on as so far, some 250 trials more settle the decision; to "
+            f"go on where it stopped, type 'rgss sweep --project {folder} --budget 300', or raise until_decided.budget."
         )
     ]
-    assert rgss("sweep", "--dry-run", "--project", folder).output.splitlines()[-1].startswith("Then up to ")
+    *_, budget, reserve = rgss("sweep", "--dry-run", "--project", folder).output.splitlines()
+    assert budget.startswith("Then up to ")
+    assert reserve == (
+        "Then up to 300 trials more while the probability of good selection is below 0.9 (until_decided.reserve)."
+    )
     assert len(asked) == 2
+
+
+def test_what_was_spent_of_the_reserve_is_said():
+    rule = SequentialRule(budget=20, reserve=40)
+    found = ended(rule, verdicts={2: {"SYS-024": Verdict.INCONCLUSIVE, "SYS-001": Verdict.MET}})
+    assert found.reserve_spent == 8
+    assert until_decided_summary(found) == (
+        "variant 2: budget of 20 trials and 8 of a reserve of 40 spent, probability of good selection 0.500; "
+        "inconclusive: SYS-024; 28 trials in 3 looks, 5% of 200 for each variant"
+    )
+    assert ended(SequentialRule(budget=28)).reserve_spent == ended(SequentialRule()).reserve_spent == 0
 
 
 @pytest.mark.parametrize(
     ("found", "words"),
     [
         ({"reason": Reason.DECIDED}, ""),
-        ({"variant": None, "forecast": None, "unsettled": ()}, "Open: no variant meets every requirement by its"),
+        ({"variant": None, "forecast": None, "unsettled": ()}, "No variant meets every requirement by its"),
         (
             {"forecast": Forecast(rivals={1: None}, requirements={}, accepted=12, trials=None), "unsettled": (1,)},
             (
-                "Open: whether variant 1 is worth more than variant 2 by more than 0.05. If trials go on as so far, "
+                f"{UNPROVEN} that variant 1 is worth at most 0.05 more than variant 2. If trials go on as so far, "
                 "12800 replicates do not settle all of it: accept the tie, widen until_decided.margin, or go on with "
                 "'rgss sweep --budget 100'."
             ),
@@ -164,9 +188,9 @@ def test_a_study_with_a_budget_goes_on_until_decided_of_itself(rgss, folder, mon
                 "forecast": Forecast(rivals={}, requirements={}, accepted=400, trials=388),
             },
             (
-                "Open: whether variant 2 keeps every requirement within the slack. If trials go on as so far, some 400 "
-                "trials more settle the decision (up to 400 of a variant, more than the cap of 200); to go on where it "
-                "stopped, type 'rgss sweep --cap 400', or raise until_decided.cap."
+                f"{UNPROVEN} that variant 2 keeps every requirement within the slack. If trials go on as so far, some "
+                "400 trials more settle the decision (up to 400 of a variant, more than the cap of 200); to go on "
+                "where it stopped, type 'rgss sweep --cap 400', or raise until_decided.cap."
             ),
         ),
     ],

@@ -43,6 +43,10 @@ class ValueFunction(Protocol):
         """Points (quantity, value) by rising quantity, linear between and level beyond; None where it is curved."""
         ...
 
+    def __hash__(self) -> int:
+        """Equal functions have equal hashes, so that what is computed of one is kept for the other."""
+        ...
+
     def value_at(self, quantity: float) -> float:
         """The value of a quantity.
 
