@@ -67,16 +67,8 @@ def is_separated(project: Project, measured: Sequence[VariantMeasures], chosen: 
     replicates = np.array([len(entry.records) for entry in pair])
     if replicates.min() < FEWEST_REPLICATES:
         return not _is_near(problem, table, chosen, former, margin)
-    found = PosteriorOutcomes.of(
-        problem,
-        table,
-        proportion_measures(project),
-        generator=np.random.default_rng(project.study.seed),
-        levels=level_numbers(project.designs, table.variants.tolist()),
-        apart=True,
-    )
     rivals = choice_uncertainty(
-        found,
+        _posterior(project, problem, table),
         table.row_of(chosen),
         margin=margin,
         replicates=replicates,
@@ -93,16 +85,21 @@ def _may_miss_alone(project: Project, measured: Sequence[VariantMeasures], chose
         return False
     problem = trade_problem(project, measured)
     table = tabulated(problem.alternatives)
-    feasible = PosteriorOutcomes.of(
+    feasible = _posterior(project, problem, table).outcomes.feasible
+    alone = feasible[:, table.row_of(former)] & ~feasible[:, table.row_of(chosen)]
+    return bool(alone.mean() >= FEASIBILITY_DOUBT)
+
+
+def _posterior(project: Project, problem: TradeProblem, table: EvidenceTable) -> PosteriorOutcomes:
+    """Posterior draws of the outcomes, by the study's seed."""
+    return PosteriorOutcomes.of(
         problem,
         table,
         proportion_measures(project),
         generator=np.random.default_rng(project.study.seed),
         levels=level_numbers(project.designs, table.variants.tolist()),
         apart=True,
-    ).outcomes.feasible
-    alone = feasible[:, table.row_of(former)] & ~feasible[:, table.row_of(chosen)]
-    return bool(alone.mean() >= FEASIBILITY_DOUBT)
+    )
 
 
 def _is_near(problem: TradeProblem, table: EvidenceTable, chosen: int, former: int, margin: float) -> bool:

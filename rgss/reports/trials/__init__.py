@@ -9,6 +9,6 @@ if TYPE_CHECKING:
     from rgss.reports.trials.filmstrip import still_png, write_filmstrip
     from rgss.reports.trials.lettering import words
     from rgss.reports.trials.trial_plots import write_trial_plots
-    from rgss.reports.trials.video import VIDEO_SUFFIXES, write_video
+    from rgss.reports.trials.video import write_video
 else:
     __getattr__, __dir__ = lazy_exports(__name__, __file__)

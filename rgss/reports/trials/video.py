@@ -56,9 +56,6 @@ _ENCODINGS: Mapping[str, _Encoding] = MappingProxyType(
     }
 )
 
-VIDEO_SUFFIXES = tuple(_ENCODINGS)
-"""Suffixes of the files that ``write_video`` writes."""
-
 
 def write_video(
     path: Path,

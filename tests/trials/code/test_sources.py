@@ -325,6 +325,13 @@ def test_a_bench_needs_no_planner_and_a_plan_no_physics():
     assert "rgss.physics.world" not in source_of("plan").modules
 
 
+def test_no_reader_of_documents_is_in_the_key_of_evidence():
+    of_documents = {module for module in code_of_trials() if module.split(".")[:2] == ["rgss", "documents"]}
+
+    assert of_documents == {"rgss.documents.digests"}
+    assert "pydantic" not in {name for piece in ENTRIES for name in source_of(piece).foreign}
+
+
 @pytest.mark.parametrize("piece", ENTRIES)
 def test_every_engine_has_its_version_told(piece):
     assert {*source_of(piece).foreign} <= {*ENGINES}
