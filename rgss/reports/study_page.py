@@ -10,6 +10,7 @@ import json
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib import resources
 from typing import Any
 from urllib.parse import quote
 
@@ -28,6 +29,7 @@ SCRIPTS = (
     "study/verdicts.js",
     "study/weights.js",
     "study/evidence.js",
+    "study/find.js",
     "study/plots.js",
     "study/trials.js",
     "study/start.js",
@@ -120,8 +122,13 @@ def study_report_to_html(
     has_replays = any(one.player is not None for one in pictures)
     return render_page(
         "study/report.html.j2",
-        styles=[template_text("study/report.css"), *([template_text(REPLAY_STYLE)] if has_replays else [])],
+        styles=[
+            template_text("study/report.css"),
+            template_text("study/tool.css"),
+            *([template_text(REPLAY_STYLE)] if has_replays else []),
+        ],
         scripts=[
+            find_and_sort_library(),
             script + template_text("study/data.js"),
             *(map(template_text, REPLAY_SCRIPTS) if has_replays else ()),
         ],
@@ -207,6 +214,12 @@ def plotting_library() -> str:
         ) from (error)
     # Nothing in a script element may look like its end, not even a text in it.
     return str(get_plotlyjs()).replace("</script", "<\\/script").replace("<!--", "<\\!--")
+
+
+def find_and_sort_library() -> str:
+    """MiniSearch and fast-sort as a page carries them; their licences are beside them in this package."""
+    place = resources.files("rgss.reports").joinpath("find_and_sort/find_and_sort.min.js")
+    return place.read_text(encoding="utf-8")
 
 
 def _comparison(document: Mapping[str, Any]) -> list[dict[str, Any]]:

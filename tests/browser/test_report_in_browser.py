@@ -73,7 +73,8 @@ def test_a_film_plays_pauses_and_shows_the_time_that_is_sought(reader, page):
 
 
 def test_a_brush_on_an_axis_filters_every_other_view(reader, page, study):
-    reader.open(page)
+    # Wide enough for the whole canvas, from whose middle the pointer is placed.
+    reader.open(page, width=1700)
     reader.see_all_plots()
     before = {name: reader.text(f"#{name}-note") for name in ("failure",)}
     canvas = reader.driver.find_element(By.CSS_SELECTOR, "#parallel canvas")

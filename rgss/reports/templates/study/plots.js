@@ -127,7 +127,7 @@ const startMeasures = () => {
   });
   const update = tableIn("measures-table", {
     label: "Measures of the shown variants",
-    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), to: (place) => figureAddress(variants.id[place], measure.id) })),
+    columns: [...variantColumns, ...effectiveness.map((measure) => ({ head: withUnit(measure.id, measure.unit), title: measure.name, number: true, cell: (place) => show(at(measure.value, place)) + (interval(measure, place) ? ` (${interval(measure, place)})` : ""), sort: (place) => at(measure.value, place), to: (place) => figureAddress(variants.id[place], measure.id) })),
       { head: "trials", number: true, cell: (place) => show(at(variants.trials, place)), to: (place) => figureAddress(variants.id[place], "trials") }],
     rows: byRank, search: finds,
   });

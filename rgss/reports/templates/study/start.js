@@ -17,6 +17,10 @@ startPlanning();
 startFailures();
 startTimeline();
 startEvidence();
+startContents();
+startUnfolding();
+startSorting();
+startFind();
 parallel.draw();
 
 // Colours come from the style, which follows the reader's scheme; paper is always light.

@@ -1,22 +1,74 @@
 // ----------------------------------- tables of any length: a page of rows and a search
-const PAGE_ROWS = 100;
+const PAGE_ROWS = 100, LEAST_SOUGHT = 8;
 
-// columns: [{head, cell(row) → text or node, number, to(row) → where its evidence stands}];
-// rows() → list of rows; key(row) → what a link names it by; source: what all its figures stand on.
+// Words that are looked for; a verdict of two words is one.
+const wordsOf = (text) => text.toLowerCase().replace(/\bnot (met|run)\b/g, "not_$1").split(/\s+/).filter(Boolean);
+
+// The number that a text begins with; the text if it begins with none; null for a dash.
+const numberOf = (text) => {
+  const plain = text.trim().replace(/^< /, "").replace(/,(?=\d{3})/g, "").replace("−", "-");
+  if (plain === "" || plain === "–") return null;
+  return /^[-+]?[\d.]/.test(plain) && !Number.isNaN(parseFloat(plain)) ? parseFloat(plain) : text;
+};
+const collator = new Intl.Collator("en", { numeric: true });
+const sorter = FindAndSort.createNewSortInstance({
+  comparer: (one, other) => (typeof one === "number" && typeof other === "number" ? one - other : collator.compare(String(one), String(other))),
+});
+// Heads with a button each: a first press sorts upwards, a second downwards, a third as it was.
+const sortable = (heads, changed) => {
+  let by = -1, down = false;
+  const mark = () => heads.forEach((head, index) => {
+    if (index === by) head.setAttribute("aria-sort", down ? "descending" : "ascending");
+    else head.removeAttribute("aria-sort");
+  });
+  heads.forEach((head, index) => {
+    // A head that is a link keeps it beside the button.
+    const linked = head.querySelector("a") !== null;
+    const button = element("button", { type: "button", class: "sort", "aria-label": linked ? `Sort by ${head.textContent}` : null }, ...(linked ? [] : head.childNodes));
+    if (linked) head.append(" ", button);
+    else head.replaceChildren(button);
+    button.addEventListener("click", () => {
+      if (by !== index) [by, down] = [index, false];
+      else if (!down) down = true;
+      else by = -1;
+      mark();
+      changed();
+    });
+  });
+  // What has no value comes last in either direction.
+  const apply = (rows, sortedBy) => {
+    if (by < 0) return rows;
+    const value = sortedBy(by);
+    const pairs = rows.map((row) => ({ row, value: value(row) }));
+    const there = sorter(pairs.filter((one) => known(one.value)));
+    const sorted = down ? there.desc((one) => one.value) : there.asc((one) => one.value);
+    return [...sorted, ...pairs.filter((one) => !known(one.value))].map((one) => one.row);
+  };
+  return { heads, apply };
+};
+
+// columns: [{head, cell(row) → text or node, number, to(row) → where its evidence stands, sort(row) → what it is sorted by}];
+// rows() → list of rows; search(row, word) → whether the row has it; key(row) → what a link names it by; source: what all its figures stand on.
 const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROWS, key = null, source = "" }) => {
   let first = 0;
   let found = [];
   const body = element("tbody");
-  const heads = columns.map((column) => element("th", { scope: "col", title: column.title || null }, column.head));
-  const table = element("table", {}, element("thead", {}, element("tr", {}, ...heads)), body);
+  const order = sortable(columns.map((column) => element("th", { scope: "col", title: column.title || null }, column.head)), () => { first = 0; update(); });
+  const said = (column, row) => {
+    const cell = column.cell(row);
+    return cell instanceof Node ? cell.textContent : cell ?? "";
+  };
+  const sortedBy = (index) => columns[index].sort ?? ((row) => (columns[index].number || index === 0 ? numberOf(said(columns[index], row)) : said(columns[index], row)));
+  const has = search ?? ((row, word) => columns.some((column) => said(column, row).toLowerCase().includes(word)));
+  const table = element("table", {}, element("thead", {}, element("tr", {}, ...order.heads)), body);
   const box = element("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": label }, table);
   const told = element("output", { "aria-live": "polite" });
   const back = element("button", { type: "button" }, "Previous rows");
   const on = element("button", { type: "button" }, "Next rows");
   const wanted = element("input", { type: "search", placeholder: "number or words", autocomplete: "off" });
   const pager = element("p", { class: "pager" });
-  if (search) pager.append(element("label", {}, "Find ", wanted));
-  pager.append(told, back, on);
+  const finder = element("label", {}, "Find ", wanted);
+  pager.append(finder, told, back, on);
   host.replaceChildren(pager, box);
   if (source) host.append(element("p", { class: "small source" }, source));
 
@@ -41,9 +93,11 @@ const pagedTable = (host, { label, columns, rows, search = null, size = PAGE_ROW
     on.disabled = first + size >= found.length;
   };
   const update = () => {
-    const words = wanted.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const words = wordsOf(wanted.value);
     found = rows();
-    if (search && words.length) found = found.filter((row) => words.every((word) => search(row, word)));
+    finder.hidden = !words.length && found.length < LEAST_SOUGHT;
+    if (words.length) found = found.filter((row) => words.every((word) => has(row, word)));
+    found = order.apply(found, sortedBy);
     first = Math.min(first, Math.max(0, Math.floor((found.length - 1) / size) * size));
     draw();
   };
@@ -85,17 +139,32 @@ const byRank = () => shownPlaces.slice().sort((one, other) => {
 const varying = data.parameters.filter((parameter) => parameter.varies);
 const effectiveness = data.measures.filter((measure) => measure.kind === "moe" || measure.weight !== null);
 // Columns of parameters and measures of a variant, each figure with the way to its evidence.
-const parameterColumns = varying.map((one) => ({ head: withUnit(one.name, one.unit), number: true, cell: (place) => show(at(one.values, place)), to: (place) => figureAddress(variants.id[place], one.id) }));
-const effectivenessColumns = effectiveness.map((one) => ({ head: withUnit(one.id, one.unit), title: one.name, number: true, cell: (place) => show(at(one.value, place)), to: (place) => figureAddress(variants.id[place], one.id) }));
-const valueColumn = { head: "value", number: true, cell: (place) => show(variants.value[place]), to: (place) => figureAddress(variants.id[place], "value") };
-// A whole number names a variant; other words stand in what is said of it.
+const parameterColumns = varying.map((one) => ({ head: withUnit(one.name, one.unit), number: true, cell: (place) => show(at(one.values, place)), sort: (place) => at(one.values, place), to: (place) => figureAddress(variants.id[place], one.id) }));
+const effectivenessColumns = effectiveness.map((one) => ({ head: withUnit(one.id, one.unit), title: one.name, number: true, cell: (place) => show(at(one.value, place)), sort: (place) => at(one.value, place), to: (place) => figureAddress(variants.id[place], one.id) }));
+const valueColumn = { head: "value", number: true, cell: (place) => show(variants.value[place]), sort: (place) => variants.value[place], to: (place) => figureAddress(variants.id[place], "value") };
+// What can be found of a variant: how it stands, gripper=three and the like, and its verdicts, alone or as SYS-1=met.
+const saidOf = (() => {
+  const texts = new Map();
+  return (place) => {
+    if (!texts.has(place)) {
+      const pairs = varying.flatMap((one) => [`${one.name}=${at(one.values, place)}`, `${one.id}=${at(one.values, place)}`]);
+      const verdicts = data.requirements.map((one) => [one.id.toLowerCase(), at(one.verdict, place)]);
+      texts.set(place, {
+        text: [KINDS[kindOf[place]].name, ...pairs, ...data.requirements.map((one) => one.id)].join("\n").toLowerCase(),
+        verdicts: new Set(verdicts.flatMap(([id, verdict]) => [verdict, `${id}=${verdict}`])),
+      });
+    }
+    return texts.get(place);
+  };
+})();
+// A whole number names a variant, a verdict those that have it; other words stand in what is said of it.
 const finds = (place, word) => {
   if (/^\d+$/.test(word)) return String(variants.id[place]) === word;
-  const said = [KINDS[kindOf[place]].name, ...varying.map((one) => at(one.values, place))];
-  return said.join(" ").toLowerCase().includes(word);
+  const { text, verdicts } = saidOf(place);
+  return verdicts.has(word) || (!(word in VERDICTS) && text.includes(word));
 };
 const variantColumns = [
-  { head: "Variant", cell: (place) => variantLink(variants.id[place]) },
-  { head: "rank", number: true, cell: (place) => show(variants.rank[place]), to: (place) => figureAddress(variants.id[place], "value") },
-  { head: "stands", cell: (place) => element("span", { class: "stands" }, KINDS[kindOf[place]].name) },
+  { head: "Variant", cell: (place) => variantLink(variants.id[place]), sort: (place) => variants.id[place] },
+  { head: "rank", number: true, cell: (place) => show(variants.rank[place]), sort: (place) => variants.rank[place], to: (place) => figureAddress(variants.id[place], "value") },
+  { head: "stands", cell: (place) => element("span", { class: "stands" }, KINDS[kindOf[place]].name), sort: (place) => -kindOf[place] },
 ];

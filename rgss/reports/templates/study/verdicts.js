@@ -36,6 +36,7 @@ const verdictsTable = () => tableIn("verdict-table", {
       title: requirement.text,
       number: true,
       cell: (place) => verdictCell(requirement, place),
+      sort: (place) => at(measureOf.get(requirement.measure).value, place),
     })),
   ],
   rows: byRank,

@@ -1,0 +1,149 @@
+"""Contents, the search over everything and the sorting of tables, driven as a reader would."""
+
+from __future__ import annotations
+
+import pytest
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+pytestmark = pytest.mark.browser
+
+FOUND = (
+    "return Object.fromEntries(Array.from(document.querySelectorAll('#found > div'),"
+    " (one) => [one.querySelector('h3').textContent, Array.from(one.querySelectorAll('a'), (a) => a.textContent)]))"
+)
+
+
+def find(reader, words: str) -> dict[str, list[str]]:
+    """What the search over everything finds: the titles by kind."""
+    field = reader.driver.find_element(By.ID, "find")
+    field.clear()
+    reader.script("document.getElementById('found').hidden = true; document.getElementById('found').replaceChildren()")
+    reader.script("document.getElementById('found-count').textContent = ''")
+    field.send_keys(words)
+    reader.until("return document.getElementById('found-count').textContent !== ''")
+    return reader.script(FOUND)
+
+
+def verdicts_of_chosen(study) -> dict[str, str]:
+    place = study.document["variants"]["id"].index(study.document["decision"]["chosen"])
+    columns = {one["id"]: one["verdict"] for one in study.document["requirements"]}
+    return {name: column[place] if isinstance(column, list) else column for name, column in columns.items()}
+
+
+@pytest.mark.parametrize("verdict", ["met", "inconclusive"])
+def test_the_search_finds_a_verdict_and_no_other(reader, page, study, verdict):
+    reader.open(page)
+    wanted = {name for name, one in verdicts_of_chosen(study).items() if one == verdict}
+    found = find(reader, verdict)
+
+    assert wanted
+    assert {title.split(":")[0] for title in found["Requirements"]} <= wanted
+    assert len(found["Requirements"]) == min(8, len(wanted))
+    assert reader.complaints() == []
+    assert reader.requests() == []
+
+
+def test_the_search_finds_names_the_beginnings_of_words_and_what_is_misspelled(reader, page):
+    reader.open(page)
+
+    assert any(title.startswith("t_e:") for title in find(reader, "t_e")["Measures"])
+    assert any("gripper" in title for title in find(reader, "gripp")["Parameters"])
+    assert any("gripper" in title for title in find(reader, "gripepr")["Parameters"])
+    assert "Provenance" in find(reader, "provenance")["Sections"]
+    assert any("planning" in title for title in find(reader, "planning limit")["Failures"])
+    assert find(reader, "31")["Variants"] == ["Variant 31"]
+    assert find(reader, "zzzzqq") == {}
+    assert reader.text("#found-count") == "Nothing found"
+
+
+def test_the_keyboard_leads_from_the_search_to_what_is_found(reader, page):
+    reader.open(page)
+    reader.driver.find_element(By.TAG_NAME, "body").send_keys("/")
+    assert reader.script("return document.activeElement.id") == "find"
+    find(reader, "31")
+    field = reader.driver.find_element(By.ID, "find")
+    for _ in range(30):
+        reader.driver.switch_to.active_element.send_keys(Keys.ARROW_DOWN)
+        if reader.script("return document.activeElement.textContent") == "Variant 31":
+            break
+    reader.driver.switch_to.active_element.send_keys(Keys.ENTER)
+    reader.until("return document.getElementById('variant-choice').value === '31'")
+    assert reader.script("return document.getElementById('found').hidden")
+    field.send_keys(Keys.ESCAPE)
+
+
+def test_what_is_found_is_unfolded(reader, page):
+    reader.open(page)
+    reader.script("document.querySelector('#provenance details:not([open]) tbody tr').id = 'sought-row'")
+    reader.script("location.hash = '#sought-row'")
+    reader.until("return document.getElementById('sought-row').closest('details').open")
+
+
+def test_a_table_finds_verdicts_alone_and_of_a_requirement(reader, page, study):
+    reader.open(page)
+    requirement = next(one for one in study.document["requirements"] if isinstance(one["verdict"], list))
+    ids = study.document["variants"]["id"]
+    field = reader.driver.find_element(By.CSS_SELECTOR, "#verdict-table input")
+    for verdict in set(requirement["verdict"]):
+        wanted = [name for name, one in zip(ids, requirement["verdict"], strict=True) if one == verdict]
+        field.clear()
+        field.send_keys(f"{requirement['id']}={verdict}")
+        reader.until("return document.querySelectorAll('#verdict-table tbody tr').length === arguments[0]", len(wanted))
+        assert sorted(int(row[0]) for row in reader.rows("#verdict-table")) == wanted
+    planner = next(one for one in study.document["parameters"] if one["name"] == "planner")
+    field.clear()
+    field.send_keys("planner=stride")
+    reader.until(
+        "return document.querySelectorAll('#verdict-table tbody tr').length === arguments[0]",
+        planner["values"].count("STRIDE"),
+    )
+
+
+def test_a_column_sorts_up_down_and_not_at_all(reader, page, study):
+    reader.open(page)
+    values = study.document["variants"]["value"]
+    by_rank = [row[0] for row in reader.rows("#verdict-table")]
+    head = "//*[@id='verdict-table']//th[. = 'value']"
+    there = sorted(one for one in values if one is not None)
+
+    for expected, direction in ((there, "ascending"), (there[::-1], "descending")):
+        reader.driver.find_element(By.XPATH, f"{head}/button").click()
+        shown = [row[3] for row in reader.rows("#verdict-table")]
+        assert [float(one) for one in shown if one != "–"] == pytest.approx(expected, rel=1e-3)
+        # What has no value comes last either way.
+        assert set(shown[len(there) :]) <= {"–"}
+        assert reader.driver.find_element(By.XPATH, head).get_attribute("aria-sort") == direction
+    reader.driver.find_element(By.XPATH, f"{head}/button").click()
+    assert [row[0] for row in reader.rows("#verdict-table")] == by_rank
+    assert reader.driver.find_element(By.XPATH, head).get_attribute("aria-sort") is None
+
+
+def test_a_table_of_the_template_sorts_too(reader, page):
+    reader.open(page)
+    table = "#verification .scroll"
+    ids = [row[0] for row in reader.rows(table)]
+    reader.script("document.querySelector(arguments[0] + ' button.sort').click()", table)
+    assert [row[0] for row in reader.rows(table)] == sorted(ids)
+    reader.script("document.querySelector(arguments[0] + ' button.sort').click()", table)
+    assert [row[0] for row in reader.rows(table)] == sorted(ids, reverse=True)
+
+
+def test_the_contents_stay_in_view_and_mark_where_the_reader_is(reader, page):
+    reader.open(page, width=1440)
+    reader.script("document.getElementById('pareto').scrollIntoView()")
+    reader.until("return document.querySelector('#contents [aria-current]')?.hash === '#pareto'")
+    box = reader.script("const b = document.getElementById('contents').getBoundingClientRect(); return [b.top, b.left]")
+    assert box == [0, 0]
+    links = reader.script(
+        "return Array.from(document.querySelectorAll('#contents a'), (one) => one.hash.slice(1))"
+        ".filter((id) => document.getElementById(id) === null)"
+    )
+    assert links == []
+
+    reader.open(page, width=400)
+    assert not reader.script("return document.getElementById('contents').open")
+    reader.driver.find_element(By.CSS_SELECTOR, "#contents summary").click()
+    reader.driver.find_element(By.CSS_SELECTOR, "#contents a[href='#weights']").click()
+    assert not reader.script("return document.getElementById('contents').open")
+    assert reader.accessibility_findings(without=("main",)) == []
