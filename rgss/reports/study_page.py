@@ -24,13 +24,17 @@ from rgss.trace.views import share_in_words, value_in_words
 
 SCRIPTS = (
     "study/core.js",
+    "study/address.js",
     "study/tables.js",
+    "study/downloads.js",
     "study/parallel.js",
     "study/verdicts.js",
     "study/weights.js",
     "study/evidence.js",
     "study/find.js",
+    "study/marks.js",
     "study/plots.js",
+    "study/compare.js",
     "study/trials.js",
     "study/start.js",
 )
@@ -49,6 +53,8 @@ _SECTIONS = (
     ("verdicts", "Verdicts"),
     ("measures", "Measures"),
     ("pareto", "Pareto front"),
+    ("distributions", "Distributions"),
+    ("compare", "Compare variants"),
     ("sensitivity", "Sensitivity"),
     ("weights", "Weights"),
     ("acceptability", "Acceptability"),

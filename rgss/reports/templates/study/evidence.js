@@ -111,7 +111,7 @@ const named = (text) => {
 const startEvidence = () => {
   const choice = byId("variant-choice");
   const fromAddress = () => {
-    const match = /^#variant-(\d+)(?:\/(.*))?$/.exec(location.hash);
+    const match = /^#variant-(\d+)(?:\/(.*))?$/.exec(`#${addressNow().anchor}`);
     if (match === null) return;
     const place = placeOf.get(Number(match[1]));
     if (place === undefined) return;
@@ -136,7 +136,7 @@ const startEvidence = () => {
   // The same link again changes no address.
   addEventListener("click", (event) => {
     const link = event.target.closest?.('a[href^="#variant-"]');
-    if (link && link.hash === location.hash) { event.preventDefault(); fromAddress(); }
+    if (link && link.hash === `#${addressNow().anchor}`) { event.preventDefault(); fromAddress(); }
   });
   arrivals.push(() => tables[1]());
   showVariant(placeOf.get(data.decision.chosen ?? variants.id[0]) ?? 0);

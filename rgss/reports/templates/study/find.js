@@ -33,7 +33,7 @@ const unfold = (target) => {
 };
 const startUnfolding = () => {
   const follow = () => {
-    const target = byId(named(location.hash.slice(1)));
+    const target = byId(named(addressNow().anchor));
     if (target === null || target.closest("details:not([open])") === null) return;
     unfold(target);
     target.scrollIntoView();
@@ -41,7 +41,7 @@ const startUnfolding = () => {
   addEventListener("hashchange", follow);
   addEventListener("click", (event) => {
     const link = event.target.closest?.('a[href^="#"]');
-    if (link && link.hash === location.hash) follow();
+    if (link && link.hash === `#${addressNow().anchor}`) follow();
   });
   follow();
 };

@@ -3,18 +3,27 @@ const DENSE = 600;
 const BINS = 48;
 const TOP = 62, BOTTOM = 46, HEIGHT = 420, SIDE = 64, LEAST_STEP = 108, MOST_STEP = 160;
 
+// Multiples of 1, 2, 2.5 or 5 times a power of ten within the ends, some four to seven of them.
+const roundTicks = (low, high) => {
+  const rough = (high - low) / 5, power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * [1, 2, 2.5, 5, 10].find((factor) => factor * power >= rough * 0.999);
+  const found = [];
+  for (let count = Math.ceil(low / step - 1e-9); count * step <= high + 1e-9 * step; count += 1) found.push(Number((count * step).toPrecision(12)));
+  return found;
+};
+
 const axes = (() => {
   const made = [];
   const seen = new Set();
   for (const parameter of varying) {
     if (parameter.factor !== null && seen.has(parameter.factor)) continue;
     seen.add(parameter.factor);
-    made.push({ id: parameter.id, title: parameter.name, unit: parameter.unit, column: parameter.values });
+    made.push({ id: parameter.id, title: parameter.name, unit: parameter.unit, column: parameter.values, better: "" });
   }
   for (const measure of effectiveness) {
-    made.push({ id: measure.id, title: measure.id, unit: measure.unit, column: measure.value });
+    made.push({ id: measure.id, title: measure.id, unit: measure.unit, column: measure.value, better: { higher: "↑ better", lower: "↓ better" }[measure.better] ?? "" });
   }
-  made.push({ id: "value", title: "value", unit: "1", column: variants.value });
+  made.push({ id: "value", title: "value", unit: "1", column: variants.value, better: "↑ better" });
   for (const axis of made) {
     const values = variants.id.map((_, place) => at(axis.column, place));
     const there = values.filter(known);
@@ -26,6 +35,8 @@ const axes = (() => {
       axis.position = Float64Array.from(values, (value) => (known(value) ? index.get(String(value)) : NaN));
       axis.ticks = axis.levels.slice(0, 24).map((level) => [index.get(level), level]);
       axis.tell = (share) => axis.levels[Math.round(share * last)] ?? "";
+      axis.write = (share, side) => axis.levels[side < 0 ? Math.ceil(share * last - 1e-9) : Math.floor(share * last + 1e-9)] ?? "";
+      axis.read = (text) => index.get(text) ?? NaN;
     } else {
       let low = Infinity, high = -Infinity;
       for (const value of there) { if (value < low) low = value; if (value > high) high = value; }
@@ -34,8 +45,10 @@ const axes = (() => {
       axis.position = Float64Array.from(values, (value) => (known(value) ? (high === low ? 0.5 : (value - low) / span) : NaN));
       const different = Array.from(new Set(there)).sort((one, other) => one - other);
       const apart = different.every((value, index) => index === 0 || (value - different[index - 1]) / span > 0.05);
-      const few = different.length <= 8 && apart ? different : null;
-      axis.ticks = high === low ? [[0.5, show(low)]] : few ? few.map((value) => [(value - low) / span, show(value)]) : [0, 0.25, 0.5, 0.75, 1].map((share) => [share, show(low + share * span)]);
+      const few = different.length <= 8 && apart ? different : roundTicks(low, high);
+      axis.ticks = high === low ? [[0.5, show(low)]] : few.map((value) => [(value - low) / span, show(value)]);
+      axis.write = (share) => String(Number((low + share * span).toPrecision(6)));
+      axis.read = (text) => (text === "" || high === low ? NaN : Math.min(1, Math.max(0, (Number(text) - low) / span)));
       axis.tell = (share) => show(high === low ? low : low + share * span, axis.unit);
     }
   }
@@ -93,7 +106,9 @@ const parallel = (() => {
     canvas.height = HEIGHT * scale;
     canvas.style.width = `${width}px`;
     canvas.style.height = `${HEIGHT}px`;
-    const pen = canvas.getContext("2d");
+    paint(canvas.getContext("2d"), scale);
+  };
+  const paint = (pen, scale) => {
     const style = getComputedStyle(document.documentElement);
     const ink = style.getPropertyValue("--ink"), muted = style.getPropertyValue("--muted"), paper = style.getPropertyValue("--paper");
     pen.scale(scale, scale);
@@ -128,15 +143,24 @@ const parallel = (() => {
       titleLines(axis.title).forEach((text, row, lines) => pen.fillText(text, x(index), TOP - 28 - 14 * (lines.length - 1 - row), STEP - 6));
       pen.font = "11px system-ui, sans-serif";
       pen.fillStyle = muted;
-      if (axis.unit && axis.unit !== "1") pen.fillText(`[${axis.unit}]`, x(index), TOP - 13, STEP - 6);
+      const under = [axis.unit && axis.unit !== "1" ? `[${axis.unit}]` : "", axis.better].filter(Boolean).join("  ");
+      if (under) pen.fillText(under, x(index), TOP - 13, STEP - 6);
       for (const [share, text] of axis.ticks) {
         const shown = text.length > 14 ? `${text.slice(0, 13)}…` : text;
+        pen.lineWidth = 1;
+        pen.strokeStyle = ink;
+        pen.beginPath();
+        pen.moveTo(x(index) - 4, y(share));
+        pen.lineTo(x(index), y(share));
+        pen.stroke();
+        pen.textAlign = "right";
         pen.lineWidth = 3;
         pen.strokeStyle = paper;
-        pen.strokeText(shown, x(index), y(share) + 4);
+        pen.strokeText(shown, x(index) - 7, y(share) + 4);
         pen.fillStyle = ink;
-        pen.fillText(shown, x(index), y(share) + 4);
+        pen.fillText(shown, x(index) - 7, y(share) + 4);
       }
+      pen.textAlign = "center";
       if (axis.position.some(Number.isNaN)) {
         pen.fillStyle = muted;
         pen.fillText("unknown", x(index), yUnknown + 14);
@@ -184,6 +208,11 @@ const parallel = (() => {
     if (dragged !== null && !dragged.moved) setBrush(dragged.axis, 0, 1);
     dragged = null;
   });
+  downloadsFor(host, "parallel", { csv: true, svg: async () => {
+    const pen = svgPen(width, HEIGHT);
+    paint(pen, 1);
+    return [svgAddress(pen.text()), width, HEIGHT];
+  } });
   return { draw };
 })();
 

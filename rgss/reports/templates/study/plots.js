@@ -21,7 +21,8 @@ const layoutOf = (more) => {
     font: { family: "system-ui, sans-serif", size: 13, color: ink },
     paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
     margin: { l: 60, r: 16, t: 48, b: 64 }, hovermode: "closest",
-    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, traceorder: "normal" }, ...rest, xaxis: axis(xaxis), yaxis: axis(yaxis),
+    legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, traceorder: "normal" },
+    ...Object.fromEntries(Object.entries(rest).map(([name, one]) => [name, /^[xy]axis\d/.test(name) ? axis(one) : one])), xaxis: axis(xaxis), yaxis: axis(yaxis),
   };
 };
 // make() → {traces, layout} or null where there is nothing to draw.
@@ -43,10 +44,12 @@ const plot = (id, make) => {
       return;
     }
     if (!host.classList.contains("js-plotly-plot")) host.replaceChildren();
-    host.style.height = `${made.layout.height || 420}px`;
+    const height = `${made.layout.height || 420}px`, grown = host.style.height !== height;
+    host.style.height = height;
     Plotly.react(host, made.traces, layoutOf({ ...made.layout, height: undefined }), {
       responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], displayModeBar: false,
     });
+    if (grown) Plotly.Plots.resize(host);
     if (!host.dataset.linked) {
       host.dataset.linked = "yes";
       host.on("plotly_click", (event) => {
@@ -62,6 +65,12 @@ const plot = (id, make) => {
   }, { rootMargin: "300px" }).observe(host);
   const redraw = () => draw();
   onShown(redraw);
+  downloadsFor(host, id, { csv: true, svg: async () => {
+    if (stale) draw(true);
+    if (!host.classList.contains("js-plotly-plot")) throw new Error(`plot ${id} has nothing to draw`);
+    const size = { width: host.clientWidth, height: host.clientHeight };
+    return [await Plotly.toImage(host, { format: "svg", ...size }), size.width, size.height];
+  } });
   drawings.push({ redraw, drawForPaper: () => { if (stale) draw(true); }, host });
   return redraw;
 };
@@ -122,7 +131,7 @@ const startMeasures = () => {
     return { traces, layout: {
       shapes: limits.map((one) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: one.threshold, y1: one.threshold, line: { color: "#d55e00", dash: "dash", width: 1.5 } })),
       annotations: limits.map((one) => ({ xref: "paper", x: 1, xanchor: "right", y: one.threshold, yanchor: "bottom", showarrow: false, bgcolor: getComputedStyle(document.documentElement).getPropertyValue("--paper").trim(), opacity: 0.85, text: plotText(`${one.id}: ${one.criterion}`) })),
-      xaxis: { title: { text: "variants, by this measure" } }, yaxis: { title: { text: plotText(withUnit(measure.id, measure.unit)) } },
+      xaxis: { title: { text: "variants, by this measure" } }, yaxis: { title: { text: plotText(withBetter(measure)) } },
     } };
   });
   const update = tableIn("measures-table", {
@@ -167,13 +176,17 @@ const startPareto = () => {
       const others = places.filter((place) => kindOf[place] < FRONT);
       traces.push({ type: "histogram2d", x: others.map((place) => at(horizontal.value, place)), y: others.map((place) => at(vertical.value, place)), nbinsx: 60, nbinsy: 40, colorscale: [[0, "rgba(138,138,138,0)"], [0.001, "#e3e6ea"], [1, "#4d5660"]], colorbar: { title: { text: "variants" } }, hovertemplate: "%{z} variants<extra></extra>" });
     }
+    const groups = coinciding(dense ? places.filter((place) => kindOf[place] >= FRONT) : places, horizontal, vertical);
     for (const kind of [INFEASIBLE, FEASIBLE, FRONT, CHOSEN]) {
-      const mine = places.filter((place) => kindOf[place] === kind);
-      if (!mine.length || (dense && kind < FRONT)) continue;
-      traces.push({ x: mine.map((place) => at(horizontal.value, place)), y: mine.map((place) => at(vertical.value, place)), mode: "markers", name: KINDS[kind].name, marker: markerOf(kind), hoverinfo: "text", meta: mine.map((place) => variants.id[place]),
-        text: mine.map((place) => plotText(`variant ${variants.id[place]}, ${KINDS[kind].name}`) + `<br>${plotText(`${horizontal.id}: ${estimate(horizontal, place)}`)}<br>${plotText(`${vertical.id}: ${estimate(vertical, place)}`)}`) });
+      const mine = groups.filter((group) => kindOf[group[0]] === kind);
+      if (!mine.length) continue;
+      const marker = markerOf(kind);
+      traces.push({ x: mine.map(([place]) => at(horizontal.value, place)), y: mine.map(([place]) => at(vertical.value, place)), mode: "markers+text", name: KINDS[kind].name,
+        marker: { ...marker, size: mine.map((group) => marker.size + 3 * Math.min(3, Math.log2(group.length))) }, hoverinfo: "text", meta: mine.map(([place]) => variants.id[place]),
+        text: mine.map((group) => (group.length > 1 ? `×${group.length}` : "")), textposition: "top right", textfont: { size: 11 }, cliponaxis: false,
+        hovertext: mine.map((group) => namesOf(group) + `<br>${plotText(`${horizontal.id}: ${together(horizontal, group)}`)}<br>${plotText(`${vertical.id}: ${together(vertical, group)}`)}`) });
     }
-    return { traces, layout: { xaxis: { title: { text: plotText(withUnit(horizontal.id, horizontal.unit)) } }, yaxis: { title: { text: plotText(withUnit(vertical.id, vertical.unit)) } } } };
+    return { traces, layout: { xaxis: { title: { text: plotText(withBetter(horizontal)) } }, yaxis: { title: { text: plotText(withBetter(vertical)) } } } };
   });
   for (const select of [across, up]) select.addEventListener("change", redraw);
   onShown(tableIn("pareto-table", {

@@ -10,6 +10,7 @@ onShown(tableIn("parallel-table", {
 }));
 startMeasures();
 startPareto();
+startDistributions();
 startWeights();
 startAcceptability();
 startEffects();
@@ -17,10 +18,12 @@ startPlanning();
 startFailures();
 startTimeline();
 startEvidence();
+startCompare();
 startContents();
 startUnfolding();
 startSorting();
 startFind();
+startAddress();
 parallel.draw();
 
 // Colours come from the style, which follows the reader's scheme; paper is always light.
@@ -50,6 +53,7 @@ else {
   later().then((columns) => {
     for (const [id, column] of Object.entries(columns)) Object.assign(measureOf.get(id), column);
     for (const fill of arrivals) fill();
+    if (addressNow().sent) readAddress();
     ready();
   });
 }

@@ -119,6 +119,7 @@ const refreshers = [];
 // A table inside closed details is filled when it is opened, and kept up to date while it is open.
 const tableIn = (id, specification) => {
   const host = byId(id);
+  specifications.set(id, specification);
   const details = host.closest("details");
   let update = null;
   const refresh = () => {

@@ -3,6 +3,15 @@ const TIE = 1e-9;
 const weighted = data.weights.measures;
 let raw = weighted.map((one) => one.weight);
 
+// Weights that sum to one: what one gains the others lose in proportion; those at 0 return as they were.
+const lastAbove = raw.slice();
+const moveWeight = (index, to) => {
+  const there = raw.some((weight, other) => other !== index && weight > 0) ? raw : lastAbove;
+  const sum = there.reduce((before, weight, other) => (other === index ? before : before + weight), 0);
+  if (raw.length === 1) return;
+  raw = there.map((weight, other) => (other === index ? to : (1 - to) * (sum > 0 ? weight / sum : 1 / (raw.length - 1))));
+  raw.forEach((weight, other) => { if (weight > 0) lastAbove[other] = weight; });
+};
 const normalised = () => {
   const sum = raw.reduce((before, weight) => before + weight, 0);
   return raw.map((weight) => (sum > 0 ? weight / sum : 1 / raw.length));
@@ -48,14 +57,17 @@ const rankAnew = () => {
   else winner.textContent = `Variant ${best} would be the best${data.decision.chosen === null ? "" : `, instead of ${data.decision.chosen}`}.`;
   for (const watcher of rankingWatchers) watcher();
 };
+let setWeights = () => {};
 const drawSliders = () => {
   const rows = weighted.map((one, index) => {
     const slider = element("input", { type: "range", min: 0, max: 1, step: 0.01, id: `weight-${index}` });
     const told = element("output", { for: `weight-${index}` });
     const measure = measureOf.get(one.id);
-    slider.addEventListener("input", () => { raw[index] = Number(slider.value); rankAnew(); });
+    slider.addEventListener("input", () => { moveWeight(index, Number(slider.value)); rankAnew(); });
     rankingWatchers.push(() => {
       const share = normalised()[index];
+      // The one that is moved is left where the hand has it.
+      if (Math.abs(Number(slider.value) - share) > 0.005) slider.value = String(share);
       told.textContent = share.toFixed(3);
       slider.setAttribute("aria-valuetext", `${share.toFixed(3)} of the weight`);
     });
@@ -64,11 +76,12 @@ const drawSliders = () => {
       element("label", { for: `weight-${index}` }, `${one.id}: ${measure.name}`), told, slider, element("span", { class: "small" }, scale)));
     return slider;
   });
-  const reset = () => {
-    raw = weighted.map((one) => one.weight);
+  setWeights = (weights) => {
+    raw = weights.slice();
     rows.forEach((slider, index) => { slider.value = String(raw[index]); });
     rankAnew();
   };
+  const reset = () => setWeights(weighted.map((one) => one.weight));
   byId("weight-reset").addEventListener("click", reset);
   byId("weight-sliders").addEventListener("submit", (event) => event.preventDefault());
   const shownRanking = () => ranking.map((one, index) => ({ ...one, rank: index + 1 })).filter((one) => shownMask[one.place]);

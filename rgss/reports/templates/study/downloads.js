@@ -1,0 +1,85 @@
+// ----------------------------------------------- each plot and its figures as PNG, SVG and CSV
+const specifications = new Map();
+
+const fileName = (id, kind) => `${String(data.study).replace(/[^\w.-]+/g, "-")}-${id}.${kind}`;
+const save = (name, href) => {
+  const link = element("a", { href, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+};
+const saveText = (name, type, text) => {
+  const href = URL.createObjectURL(new Blob([text], { type }));
+  save(name, href);
+  setTimeout(() => URL.revokeObjectURL(href), 10000);
+};
+// A text that a spreadsheet would compute is kept a text.
+const csvCell = (value) => {
+  if (typeof value === "number") return String(value);
+  const text = String(value ?? "");
+  const safe = /^[=+@\t\r-]/.test(text) && Number.isNaN(Number(text)) ? `'${text}` : text;
+  return /[",\r\n]/.test(safe) ? `"${safe.replace(/"/g, '""')}"` : safe;
+};
+const csvOf = ({ columns, rows }) => {
+  const textOf = (one) => (one instanceof Node ? one.textContent.trim() : one ?? "");
+  const figure = (column, row) => {
+    const value = column.number && column.sort ? column.sort(row) : undefined;
+    return typeof value === "number" ? value : textOf(column.cell(row));
+  };
+  const lines = [columns.map((column) => csvCell(textOf(column.head))), ...rows().map((row) => columns.map((column) => csvCell(figure(column, row))))];
+  return `${lines.map((line) => line.join(",")).join("\r\n")}\r\n`;
+};
+// A picture in SVG as one of points, twice as fine as a screen's.
+const savePng = (name, svgAddress, width, height) => {
+  const picture = new Image();
+  picture.addEventListener("load", () => {
+    const canvas = element("canvas", { width: 2 * width, height: 2 * height });
+    const pen = canvas.getContext("2d");
+    pen.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--paper");
+    pen.fillRect(0, 0, canvas.width, canvas.height);
+    pen.drawImage(picture, 0, 0, canvas.width, canvas.height);
+    save(name, canvas.toDataURL("image/png"));
+  });
+  picture.src = svgAddress;
+};
+const svgAddress = (text) => `data:image/svg+xml,${encodeURIComponent(text)}`;
+
+// ways: {svg() → a promise of [address, width, height], csv} for what is shown in the host.
+const downloadsFor = (host, id, { svg = null, csv = false }) => {
+  const button = (text, act) => {
+    const made = element("button", { type: "button", "aria-label": `Save ${id} as ${text}` }, text);
+    made.addEventListener("click", act);
+    return made;
+  };
+  const bar = element("p", { class: "downloads" }, "Save as ");
+  if (svg) {
+    bar.append(button("PNG", () => svg().then(([address, width, height]) => savePng(fileName(id, "png"), address, width, height))), " ");
+    bar.append(button("SVG", () => svg().then(([address]) => save(fileName(id, "svg"), address))), " ");
+  }
+  if (csv) bar.append(button("CSV", () => saveText(fileName(id, "csv"), "text/csv", csvOf(specifications.get(`${id}-table`)))));
+  host.after(bar);
+};
+
+// What draws on a canvas, written as SVG: only what the parallel coordinates use.
+const svgPen = (width, height) => {
+  const marks = [];
+  let path = "";
+  const escaped = (text) => String(text).replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+  const look = (pen) => `stroke="${escaped(pen.strokeStyle)}" stroke-width="${pen.lineWidth}" opacity="${pen.globalAlpha}"${pen.dashes ? ` stroke-dasharray="${pen.dashes}"` : ""}`;
+  const words = (pen, text, x, y, more) => marks.push(`<text x="${x}" y="${y}" text-anchor="${{ right: "end", center: "middle" }[pen.textAlign] ?? "start"}" style="font:${escaped(pen.font)}" ${more}>${escaped(text)}</text>`);
+  const n = (value) => Number(value.toFixed(2));
+  return {
+    globalAlpha: 1, lineWidth: 1, strokeStyle: "#000", fillStyle: "#000", font: "12px sans-serif", textAlign: "start", dashes: "",
+    scale() {},
+    setLineDash(dash) { this.dashes = dash.join(" "); },
+    beginPath() { path = ""; },
+    moveTo(x, y) { path += `M${n(x)} ${n(y)}`; },
+    lineTo(x, y) { path += `L${n(x)} ${n(y)}`; },
+    stroke() { marks.push(`<path d="${path}" fill="none" ${look(this)}/>`); },
+    fillRect(x, y, w, h) { marks.push(`<rect x="${n(x)}" y="${n(y)}" width="${n(w)}" height="${n(h)}" fill="${escaped(this.fillStyle)}"/>`); },
+    strokeRect(x, y, w, h) { marks.push(`<rect x="${n(x)}" y="${n(y)}" width="${n(w)}" height="${n(h)}" fill="none" ${look(this)}/>`); },
+    fillText(text, x, y) { words(this, text, n(x), n(y), `fill="${escaped(this.fillStyle)}"`); },
+    strokeText(text, x, y) { words(this, text, n(x), n(y), `fill="none" stroke="${escaped(this.strokeStyle)}" stroke-width="${this.lineWidth}"`); },
+    text: () => `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${marks.join("")}</svg>`,
+  };
+};

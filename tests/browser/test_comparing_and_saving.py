@@ -1,0 +1,133 @@
+"""Variants side by side, distributions of the measures, and plots as files, driven as a reader would."""
+
+from __future__ import annotations
+
+import csv
+import struct
+import time
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from selenium.webdriver.common.by import By
+
+pytestmark = pytest.mark.browser
+
+
+def name(reader, text: str) -> None:
+    field = reader.driver.find_element(By.ID, "compare-choice")
+    field.clear()
+    field.send_keys(text)
+
+
+def columns(reader) -> list[str]:
+    return reader.script(
+        "return Array.from(document.querySelectorAll('#compare-table thead th'), (one) => one.textContent)"
+    )[2:]
+
+
+def test_any_variants_are_compared_side_by_side(reader, page, study):
+    reader.open(page)
+    document = study.document
+    chosen = document["decision"]["chosen"]
+    assert columns(reader)[0] == f"{chosen} (chosen)"
+    assert len(columns(reader)) == 2
+
+    name(reader, "31, 4 55,7")
+    reader.until("return document.querySelectorAll('#compare-table thead th').length === 6")
+    assert columns(reader) == ["31", "4", "55", "7"]
+    places = [document["variants"]["id"].index(one) for one in (31, 4, 55, 7)]
+    rows = {row[0]: row[2:] for row in reader.rows("#compare-table")}
+    for parameter in document["parameters"]:
+        values = parameter["values"]
+        there = [values[place] if isinstance(values, list) else values for place in places]
+        assert (parameter["name"] in rows) == (len(set(map(str, there))) > 1)
+    cost = next(one for one in document["measures"] if one["id"] == "C_total")
+    figures = [cost["value"][place] for place in places]
+    marked = ["★" in text for text in rows[f"C_total: {cost['name']}"]]
+    assert marked == [one == min(figures) for one in figures]
+
+    reader.driver.find_element(By.ID, "compare-differing").click()
+    assert len(reader.rows("#compare-table")) > len(rows)
+    name(reader, "31, 999")
+    reader.until("return document.getElementById('compare-note').textContent === 'There is no variant 999 here.'")
+    assert columns(reader) == ["31"]
+    assert reader.complaints() == []
+
+
+def test_a_variant_is_added_from_its_evidence_and_the_comparison_is_sent(reader, page):
+    reader.open(page)
+    reader.script("location.hash = '#variant-31'")
+    reader.until("return document.getElementById('variant-choice').value === '31'")
+    reader.driver.find_element(By.ID, "variant-compare").click()
+    reader.until("return location.hash.includes('compare=')")
+    sent = reader.script("return location.hash")
+    shown = columns(reader)
+    assert shown[-1] == "31"
+    reader.driver.get("about:blank")
+    reader.driver.get(page.as_uri() + sent)
+    reader.until("return document.documentElement.dataset.ready === 'yes'")
+    assert columns(reader) == shown
+
+
+def test_distributions_have_the_quartiles_of_each_measure(reader, page, study):
+    reader.open(page)
+    reader.script("document.querySelector('#distributions details').open = true")
+    reader.script("document.getElementById('distributions-plot').scrollIntoView()")
+    reader.until("return document.getElementById('distributions-plot').data?.length > 0")
+    rows = {row[0].split(" [")[0]: row for row in reader.rows("#distributions-table")}
+    boxes = reader.script(
+        "return document.getElementById('distributions-plot').data.filter((one) => one.type === 'box')"
+        ".map((one) => [one.y[0], one.x.length])"
+    )
+    assert len(boxes) == len(rows) >= 4
+    for measure in study.document["measures"]:
+        if measure["id"] not in rows or not isinstance(measure["value"], list):
+            continue
+        values = [one for one in measure["value"] if one is not None]
+        shown = [float(one.replace(",", "")) for one in rows[measure["id"]][3:]]
+        assert shown == pytest.approx(np.percentile(values, (0, 25, 50, 75, 100)), rel=2e-3)
+        assert dict(map(tuple, boxes))[measure["id"]] == len(values)
+
+    reader.script(
+        "const by = document.getElementById('distribution-by'); by.value = 'stands';"
+        "by.dispatchEvent(new Event('change'))"
+    )
+    reader.until("return document.querySelectorAll('#distributions-table tbody tr').length > arguments[0]", len(rows))
+    assert reader.complaints() == []
+
+
+def saved(folder: Path, file: str) -> bytes:
+    """A downloaded file once it is whole."""
+    for _ in range(600):
+        if (folder / file).exists() and (folder / file).stat().st_size > 0:
+            return (folder / file).read_bytes()
+        time.sleep(0.05)
+    raise AssertionError(f"{file} was not saved; there are {sorted(one.name for one in folder.iterdir())}")
+
+
+@pytest.mark.parametrize("plot", ["parallel", "pareto", "distributions"])
+def test_a_plot_is_saved_as_png_svg_and_csv(reader, page, study, tmp_path, plot):
+    reader.open(page)
+    reader.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    for kind in ("PNG", "SVG", "CSV"):
+        button = reader.driver.find_element(By.CSS_SELECTOR, f"button[aria-label='Save {plot} as {kind}']")
+        reader.script("arguments[0].scrollIntoView({block: 'center'}); arguments[0].click()", button)
+    stem = f"{study.document['study']}-{plot}"
+
+    picture = saved(tmp_path, f"{stem}.png")
+    assert picture.startswith(b"\x89PNG")
+    width, height = struct.unpack(">II", picture[16:24])
+    drawing = ET.fromstring(saved(tmp_path, f"{stem}.svg"))  # noqa: S314 - of our own page
+    assert [width, height] == [2 * int(float(drawing.get(one))) for one in ("width", "height")]
+    assert "".join(drawing.itertext()).count("t_e") >= 1
+    rows = list(csv.reader(saved(tmp_path, f"{stem}.csv").decode("utf-8").splitlines()))
+    assert len({len(row) for row in rows}) == 1
+    if plot == "parallel":
+        assert sorted(int(row[0]) for row in rows[1:]) == study.document["variants"]["id"]
+        head = rows[0].index("value")
+        values = dict(zip(study.document["variants"]["id"], study.document["variants"]["value"], strict=True))
+        assert all(float(row[head]) == values[int(row[0])] for row in rows[1:] if row[head] != "–")
+    assert reader.complaints() == []
+    assert reader.requests() == []

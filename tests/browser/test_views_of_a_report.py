@@ -1,0 +1,156 @@
+"""Views that can be sent: filters, weights and choices in the address; marks that coincide; axes."""
+
+from __future__ import annotations
+
+import pytest
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+pytestmark = pytest.mark.browser
+
+
+def address(reader) -> str:
+    return reader.script("return location.hash")
+
+
+def move(reader, index: int, to: float) -> None:
+    reader.script(
+        "const slider = document.getElementById(arguments[0]);"
+        "slider.value = String(arguments[1]); slider.dispatchEvent(new Event('input'))",
+        f"weight-{index}",
+        to,
+    )
+
+
+def weights(reader) -> list[float]:
+    texts = reader.script("return Array.from(document.querySelectorAll('#weight-rows output'), (one) => one.value)")
+    return [float(one) for one in texts]
+
+
+def choose(reader, choice: str, value: str) -> None:
+    reader.script(
+        "const choice = document.getElementById(arguments[0]);"
+        "choice.value = arguments[1]; choice.dispatchEvent(new Event('change'))",
+        choice,
+        value,
+    )
+
+
+def seen(reader) -> list:
+    return [
+        reader.text("#shown"),
+        weights(reader),
+        [row[:3] for row in reader.rows("#ranking-table")],
+        reader.script(
+            "return ['measure-choice', 'pareto-x', 'pareto-y', 'effect-choice', 'variant-choice']"
+            ".map((id) => document.getElementById(id).value)"
+        ),
+    ]
+
+
+def test_a_view_is_sent_by_its_address(reader, page, study):
+    reader.open(page)
+    assert address(reader) == ""
+    opened = seen(reader)
+    slider = reader.driver.find_element(By.CSS_SELECTOR, "input[aria-label='gripper fingers to']")
+    reader.script("document.getElementById('axis-ends').open = true")
+    slider.send_keys(Keys.HOME)
+    move(reader, 1, 0.6)
+    choose(reader, "measure-choice", "P_max")
+    choose(reader, "variant-choice", "31")
+    reader.until(
+        "return ['only=', 'weights=', 'measure=P_max', 'variant=31'].every((one) => location.hash.includes(one))"
+    )
+    sent, view = address(reader), seen(reader)
+    assert view[0] == "36 of 72 variants are shown"
+
+    reader.open(page)
+    assert seen(reader) == opened
+    reader.driver.get("about:blank")
+    reader.driver.get(page.as_uri() + sent)
+    reader.until("return document.documentElement.dataset.ready === 'yes'")
+    assert seen(reader) == view
+    # A link within the page keeps the view, and the way back to how it opened empties the address.
+    reader.driver.find_element(By.CSS_SELECTOR, "#contents a[href='#pareto']").click()
+    reader.until("return location.hash.startsWith('#pareto?') && location.hash.includes('weights=')")
+    assert seen(reader) == view
+    reader.driver.find_element(By.ID, "clear").click()
+    reader.driver.find_element(By.ID, "weight-reset").click()
+    choose(reader, "measure-choice", opened[3][0])
+    choose(reader, "variant-choice", opened[3][4])
+    reader.until("return location.hash === '#pareto'")
+    assert reader.complaints() == []
+    assert reader.requests() == []
+
+
+@pytest.mark.parametrize(
+    "sent",
+    [
+        "#?only=zz:0:1&weights=x",
+        "#?only=d8:5:1&weights=t_e:-1",
+        "#?measure=zz&variant=99999&%E0%A4%A&compare=",
+        "#?only=&weights=,,",
+    ],
+)
+def test_an_address_that_makes_no_sense_opens_the_page_as_it_is(reader, page, sent):
+    reader.open(page)
+    opened = seen(reader)
+    reader.driver.get("about:blank")
+    reader.driver.get(page.as_uri() + sent)
+    reader.until("return document.documentElement.dataset.ready === 'yes'")
+
+    assert seen(reader) == opened
+    assert reader.complaints() == []
+
+
+def test_weights_sum_to_one_as_they_are_moved_and_those_at_0_return(reader, page):
+    reader.open(page)
+    first = weights(reader)
+    for to in (0.3, 1.0, 0.0, 0.77):
+        move(reader, 2, to)
+        assert weights(reader)[2] == to
+        assert sum(weights(reader)) == pytest.approx(1.0, abs=0.003)
+    # After 1.0 the others have the proportions that they had before.
+    others = [one for index, one in enumerate(first) if index != 2]
+    now = [one for index, one in enumerate(weights(reader)) if index != 2]
+    assert now == pytest.approx([0.23 * one / sum(others) for one in others], abs=0.001)
+
+
+def test_marks_that_coincide_are_one_mark_that_names_all(reader, page, study):
+    reader.open(page)
+    reader.script("document.getElementById('pareto-plot').scrollIntoView()")
+    reader.until("return document.getElementById('pareto-plot').data?.length > 0")
+    traces = reader.script(
+        "return document.getElementById('pareto-plot').data.map((one) => [one.x, one.y, one.text, one.hovertext])"
+    )
+    marks = [mark for trace in traces for mark in zip(*trace, strict=True)]
+    names = study.document["variants"]["id"]
+    measures = {one["id"]: one for one in study.document["measures"]}
+    across, up = reader.script("return ['pareto-x', 'pareto-y'].map((id) => document.getElementById(id).value)")
+
+    def known(place):
+        columns = [measures[name]["value"] for name in (across, up)]
+        return all((column[place] if isinstance(column, list) else column) is not None for column in columns)
+
+    counted = sum(int(text[1:]) if text else 1 for _, _, text, _ in marks)
+    assert counted == sum(known(place) for place in range(len(names)))
+    # No two marks are nearer than a mark is large.
+    width = max(one[0] for one in marks) - min(one[0] for one in marks)
+    height = max(one[1] for one in marks) - min(one[1] for one in marks)
+    for index, one in enumerate(marks):
+        for other in marks[index + 1 :]:
+            assert abs(one[0] - other[0]) > width / 95 or abs(one[1] - other[1]) > height / 48
+    largest = max(marks, key=lambda one: int(one[2][1:]) if one[2] else 1)
+    assert largest[2]
+    assert largest[3].startswith("variants ") or "<br>variant" in largest[3]
+
+
+def test_axes_say_which_end_is_better(reader, page, study):
+    reader.open(page)
+    reader.script("document.getElementById('pareto-plot').scrollIntoView()")
+    reader.until("return document.getElementById('pareto-plot').data?.length > 0")
+    across = reader.script("return document.getElementById('pareto-x').value")
+    better = next(one for one in study.document["measures"] if one["id"] == across)["better"]
+    assert reader.script("return document.getElementById('pareto-plot').layout.xaxis.title.text").endswith(
+        f", {better} is better"
+    )
