@@ -75,7 +75,9 @@ def _adapt(schema: _Schema, names: Mapping[str, str]) -> None:
     schema.pop("title", None)
     schema.pop("discriminator", None)
     if "description" in schema:
-        schema["description"] = " ".join(schema["description"].replace("``", "`").split())
+        # The attributes of a dataclass have descriptions of their own.
+        described = schema["description"].partition("\n\nAttributes:\n")[0]
+        schema["description"] = " ".join(described.replace("``", "`").split())
     if "default" in schema and not _is_written_so(schema):
         del schema["default"]
     if "patternProperties" in schema:

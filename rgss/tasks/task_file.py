@@ -35,7 +35,7 @@ from rgss.tasks.wait_step import WaitStep
 Location = tuple[str | int, ...]
 MOST_STEPS = 10_000
 _TOOL_DOWN_ROLL_RAD = 3.141592653589793
-_KINDS = ("move", "grip", "release", "wait", "check", "repeat", "for_each")
+_KINDS = tuple(StepEntry.model_fields)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

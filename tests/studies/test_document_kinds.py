@@ -176,6 +176,11 @@ def test_every_key_is_described_and_no_text_is_left_over():
     assert {model: names for model, names in left_over.items() if names} == {}
 
 
+@pytest.mark.parametrize("kind", DOCUMENT_KINDS, ids=lambda kind: kind.id)
+def test_descriptions_are_prose(kind):
+    assert "Attributes:" not in json.dumps(kind.schema())
+
+
 def test_descriptions_reach_the_keys():
     body = document_kind("scene").schema()["definitions"]["Body"]["properties"]
 
