@@ -17,6 +17,37 @@ def add_study(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("study", nargs="?", metavar="STUDY", help=STUDY_HELP)
 
 
+def add_arm_mass(parser: argparse.ArgumentParser, when: str) -> None:
+    """Add the mass of an arm whose URDF has none."""
+    parser.add_argument(
+        "--mass",
+        metavar="MASS",
+        help=f"{when}: mass of the whole arm, as '20 kg', shared by volume where the URDF has none",
+    )
+
+
+def arm_mass_kg(text: str | None) -> float | None:
+    """The mass that `--mass` gives, in kg; None without it.
+
+    Raises:
+        DefinitionError: It is no mass.
+    """
+    from rgss.errors import DefinitionError, QuantityError
+    from rgss.findings import shown
+    from rgss.quantities import parse_quantity
+
+    if text is None:
+        return None
+    hint = "write it as --mass '20 kg'"
+    try:
+        value = parse_quantity(text, "kg")
+    except QuantityError as error:
+        raise DefinitionError(f"--mass: {error.message}", hint=hint) from error
+    if value <= 0.0:
+        raise DefinitionError(f"--mass must be greater than zero, got {shown(text)}", hint=hint)
+    return value
+
+
 def add_replicates(parser: argparse.ArgumentParser) -> None:
     """Add the number of trials of each variant."""
     parser.add_argument("--replicates", type=int, metavar="N", help="trials of each variant (default: the study's)")

@@ -9,7 +9,14 @@ from rgss.scenes.assembly import (
     link_names_of,
     linkage_hulls,
 )
-from rgss.scenes.convex_shapes import ConvexPart, convex_link_urdf, convex_parts, vertices_of, with_mesh_files
+from rgss.scenes.convex_shapes import (
+    ConvexPart,
+    convex_link_urdf,
+    convex_parts,
+    origin_of,
+    vertices_of,
+    with_mesh_files,
+)
 from rgss.scenes.document import AssumptionEntry, GripperDocument, RobotDocument, SceneDocument
 from rgss.scenes.grasps import (
     Approach,
@@ -43,6 +50,7 @@ from rgss.scenes.hands import (
     too_narrow,
     too_wide,
 )
+from rgss.scenes.link_solids import LinkSolid, link_solid
 from rgss.scenes.linkage import Linkage, LinkageLink, LinkageMotion, LinkagePad
 from rgss.scenes.linkage_assembly import linkage_masses_kg
 from rgss.scenes.mass_properties import (
@@ -84,5 +92,13 @@ from rgss.scenes.shapes import (
     half_extents_m,
     least_height_m,
 )
-from rgss.scenes.urdf_chain import UrdfChain, chain_to, kind_of
+from rgss.scenes.urdf_chain import (
+    UrdfChain,
+    carried_by,
+    chain_to,
+    kind_of,
+    loads_without_inertia,
+    standing_links,
+)
+from rgss.scenes.urdf_file import number_problems
 from rgss.scenes.waypoints import Waypoint, waypoint_poses

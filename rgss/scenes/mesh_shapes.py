@@ -82,6 +82,26 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
     )
 
 
+def mesh_corners(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> Array:
+    """Corners of a mesh in its frame, shape (k, 3), in m.
+
+    Args:
+        path: Its file.
+        scale: Factors along its axes.
+
+    Raises:
+        DefinitionError: The file is no mesh, or is flat.
+    """
+    from scipy.spatial import ConvexHull, QhullError
+
+    points = np.asarray(_read(path, scale).vertices, dtype=float)
+    try:
+        corners: Array = points[ConvexHull(points).vertices]
+    except QhullError:
+        raise DefinitionError(f"{path.name} is flat and has no volume", hint="use a mesh with a thickness") from None
+    return corners
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshMass:
     """Mass properties of a homogeneous mesh.

@@ -157,19 +157,27 @@ def loads_without_inertia(root: ET.Element) -> tuple[str, ...]:
     return tuple(
         link.get("name", "")
         for link in root.findall("link")
-        if link.get("name") not in _standing_links(root) and not _has_inertia(link) and not _is_frame(root, link)
+        if link.get("name") not in standing_links(root) and not _has_inertia(link) and not _is_frame(root, link)
     )
 
 
-def _remove(root: ET.Element, names: Iterable[str]) -> bool:
-    gone = set(names)
+def carried_by(root: ET.Element, names: Iterable[str]) -> set[str]:
+    """Links, and all that they carry.
+
+    Args:
+        root: The URDF.
+        names: The links' names.
+    """
+    found = set(names)
     joints = root.findall("joint")
-    while True:
-        more = {_end(joint, "child") for joint in joints if _end(joint, "parent") in gone} - gone
-        if not more:
-            break
-        gone |= more
-    for joint in joints:
+    while more := {_end(joint, "child") for joint in joints if _end(joint, "parent") in found} - found:
+        found |= more
+    return found
+
+
+def _remove(root: ET.Element, names: Iterable[str]) -> bool:
+    gone = carried_by(root, names)
+    for joint in root.findall("joint"):
         if _end(joint, "child") in gone:
             root.remove(joint)
     for link in root.findall("link"):
@@ -213,8 +221,7 @@ def _fix(joint: ET.Element, position: float) -> None:
 
 def _complete_inertials(root: ET.Element) -> bool:
     """Take the inertia off what stands, where it has no mass, and give one that counts for nothing to mere frames."""
-    changed = False
-    standing = _standing_links(root)
+    changed, standing = False, standing_links(root)
     for link in root.findall("link"):
         if _has_inertia(link):
             continue
@@ -233,20 +240,19 @@ def _complete_inertials(root: ET.Element) -> bool:
     return changed
 
 
-def _standing_links(root: ET.Element) -> set[str]:
-    """The base and what is fixed to it."""
+def standing_links(root: ET.Element) -> set[str]:
+    """The base of a URDF and what is fixed to it.
+
+    Args:
+        root: The URDF.
+    """
     joints = root.findall("joint")
     carried = {_end(joint, "child") for joint in joints}
     standing = {link.get("name", "") for link in root.findall("link")} - carried
-    while True:
-        more = {
-            _end(joint, "child")
-            for joint in joints
-            if joint.get("type") == "fixed" and _end(joint, "parent") in standing
-        } - standing
-        if not more:
-            return standing
+    fixed = [(_end(joint, "parent"), _end(joint, "child")) for joint in joints if joint.get("type") == "fixed"]
+    while more := {child for parent, child in fixed if parent in standing} - standing:
         standing |= more
+    return standing
 
 
 def _is_frame(root: ET.Element, link: ET.Element) -> bool:
@@ -277,15 +283,13 @@ def _triple(text: str) -> tuple[float, float, float]:
 def _rotation(rpy: tuple[float, float, float]) -> NDArray[np.float64]:
     roll, pitch, yaw = rpy
     x, y, z = np.eye(3)
-    found: NDArray[np.float64] = _about(z, yaw) @ _about(y, pitch) @ _about(x, roll)
-    return found
+    return np.asarray(_about(z, yaw) @ _about(y, pitch) @ _about(x, roll))
 
 
 def _about(axis: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    found: NDArray[np.float64] = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
-    return found
+    return np.asarray(np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross)
 
 
 def _roll_pitch_yaw(turn: NDArray[np.float64]) -> tuple[float, float, float]:

@@ -14,7 +14,7 @@ from rgss.findings import Finding, shown
 from rgss.scenes.document import RobotDocument
 from rgss.scenes.findings import Location
 from rgss.scenes.robot import JointKind, RobotFile
-from rgss.scenes.urdf_chain import chain_problems, kind_of, loads_without_inertia, settle
+from rgss.scenes.urdf_chain import carried_by, chain_problems, kind_of, loads_without_inertia, settle
 from rgss.scenes.urdf_meshes import embed_collision_meshes, files_of, without_meshes
 
 _LARGEST_BYTES = 1024 * 1024
@@ -153,7 +153,8 @@ def _problems(root: ET.Element, entry: RobotDocument) -> Iterable[tuple[str, Loc
         if joint.name not in joints:
             yield f"has no joint {joint.name!r}", ("joints", index, "name"), "name the joints as the URDF does"
     yield from chain_problems(root, entry)
-    for name in loads_without_inertia(root):
+    gone = carried_by(root, entry.without)
+    for name in (one for one in loads_without_inertia(root) if one not in gone):
         # One engine would silently assume one kilogram, another none.
         hint = "give it an <inertial> with both; a frame that is fixed and has no collision shape needs none"
         yield f"has no mass or no inertia for link {shown(name)}", ("description",), hint

@@ -20,7 +20,15 @@ if TYPE_CHECKING:
         MetricDescriptor,
         PhaseValue,
     )
-    from rgss.trials.planning import Obstacle, PlannedMove, TaskPlan, plan_of, searches_of, waypoint_configurations
+    from rgss.trials.planning import (
+        Obstacle,
+        PlannedMove,
+        TaskPlan,
+        plan_of,
+        searches_of,
+        serves_every_stop,
+        waypoint_configurations,
+    )
     from rgss.trials.plants import (
         ControlMode,
         ControlSettings,

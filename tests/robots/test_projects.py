@@ -85,8 +85,10 @@ TWO_ARMS = (
 
 
 WITHOUT_ITS_MESH = (
-    '<robot name="r"><link name="base"/><link name="tip"><visual><geometry><mesh filename="no.stl"/></geometry>'
-    '</visual></link><joint name="j" type="revolute"><parent link="base"/><child link="tip"/></joint></robot>'
+    '<robot name="r"><link name="base"/><link name="tip"><inertial><mass value="1"/>'
+    '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
+    '<mesh filename="no.stl"/></geometry></collision></link>'
+    '<joint name="j" type="revolute"><parent link="base"/><child link="tip"/></joint></robot>'
 )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 HELP = "make a new project: one scene, four designs, requirements that trace to them"
@@ -15,6 +16,8 @@ MORE_EXAMPLES = (
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
+    from rgss.cli.options import add_arm_mass
+
     parser.add_argument(
         "folder", nargs="?", type=Path, default=Path(), metavar="FOLDER", help="the new folder (default: this one)"
     )
@@ -24,6 +27,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--flange", metavar="LINK", help="with --robot: the link that carries the gripper (default: the arm's last)"
     )
+    parser.add_argument(
+        "--tool-axis",
+        choices=("x", "-x", "y", "-y", "z", "-z"),
+        help="with --robot: the axis of that link along which the gripper points (default: the first that works)",
+    )
+    add_arm_mass(parser, "with --robot")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -38,12 +47,16 @@ def run(options: argparse.Namespace) -> int:
     folder: Path = options.folder
     if options.project is not None:
         raise DefinitionError("--project names a project that is there", hint=f"rgss init {options.project}")
-    if options.flange is not None and options.robot is None:
-        raise DefinitionError("--flange names a link of a URDF", hint="give the URDF with --robot")
-    files = write_scaffold(folder) if options.robot is None else _robot_files(options)
+    for name, what in (("flange", "names a link"), ("tool_axis", "names an axis"), ("mass", "is that of the arm")):
+        if getattr(options, name) is not None and options.robot is None:
+            option = f"--{name.replace('_', '-')}"
+            raise DefinitionError(f"{option} {what} of a URDF", hint="give the URDF with --robot")
+    files, notes = (write_scaffold(folder), ()) if options.robot is None else _robot_files(options)
     if options.json:
-        print_json({"folder": str(folder), "files": list(files)})
+        print_json({"folder": str(folder), "files": list(files), "assumed": list(notes)})
         return CLEAN
+    for note in notes:
+        print(f"Assumed: {note}", file=sys.stderr)
     print(f"A project of {len(files)} files is in {folder.resolve().name}/; its README.md says what each is for. Next:")
     print()
     if folder.resolve() != Path.cwd():
@@ -54,9 +67,17 @@ def run(options: argparse.Namespace) -> int:
     return CLEAN
 
 
-def _robot_files(options: argparse.Namespace) -> tuple[str, ...]:
+def _robot_files(options: argparse.Namespace) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    from rgss.cli.options import arm_mass_kg
     from rgss.engines import require_engines
     from rgss.studies.robot_project import write_robot_project
 
     require_engines("rgss init --robot")
-    return write_robot_project(options.robot, options.folder, flange=options.flange)
+    written = write_robot_project(
+        options.robot,
+        options.folder,
+        flange=options.flange,
+        tool_axis=options.tool_axis,
+        mass_kg=arm_mass_kg(options.mass),
+    )
+    return written.files, tuple(note.rationale for note in written.notes)

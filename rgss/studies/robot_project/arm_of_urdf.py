@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from rgss.errors import DefinitionError
 from rgss.scenes import MOST_JOINTS, JointKind, chain_to, kind_of
+from rgss.studies.robot_project.urdf_reading import Note
 
 _DEFAULT_RANGE = (-3.141592653589793, 3.141592653589793)
 
@@ -23,6 +24,7 @@ class UrdfJoint:
         upper: Upper end.
         speed: Greatest speed in rad/s or m/s; 0 where the URDF has none.
         effort: Greatest torque in N·m, or force in N; 0 where the URDF has none.
+        is_unbounded: Whether the range is missing for a joint that is not continuous, half a turn either way assumed.
     """
 
     name: str
@@ -31,6 +33,7 @@ class UrdfJoint:
     upper: float
     speed: float
     effort: float
+    is_unbounded: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,12 +45,14 @@ class UrdfArm:
         flange: The link that carries the gripper.
         joints: The arm's joints, from the base to the flange.
         hands: Links on the flange that lead to movable joints, such as a hand: the gripper takes their place.
+        notes: What was assumed about the URDF.
     """
 
     name: str
     flange: str
     joints: tuple[UrdfJoint, ...]
     hands: tuple[str, ...]
+    notes: tuple[Note, ...] = ()
 
 
 def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
@@ -61,6 +66,7 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
         DefinitionError: There is no arm, or it is not clear where it ends.
     """
     links = [link.get("name", "") for link in root.findall("link")]
+    _check_tree(root, links)
     below: dict[str, list[ET.Element]] = {}
     for joint in root.findall("joint"):
         below.setdefault(_end(joint, "parent"), []).append(joint)
@@ -91,6 +97,23 @@ def arm_of_urdf(root: ET.Element, *, flange: str | None = None) -> UrdfArm:
         joints=tuple(_joint(joint) for joint in moving),
         hands=tuple(hands),
     )
+
+
+def _check_tree(root: ET.Element, links: list[str]) -> None:
+    """Check that one link carries all others."""
+    joints = root.findall("joint")
+    for joint in joints:
+        for end in ("parent", "child"):
+            if _end(joint, end) not in links:
+                raise DefinitionError(
+                    f"the joint {joint.get('name')} has the {end} link {_end(joint, end)!r}, which the URDF has not",
+                    hint="is the URDF a part of another one? Name one with all links",
+                )
+    carried = {_end(joint, "child") for joint in joints}
+    bases = [name for name in links if name not in carried]
+    if len(bases) != 1 or len(carried) != len(joints):
+        found = f"{len(bases)} links that nothing carries: {', '.join(bases[:4])}" if bases else "a loop of links"
+        raise DefinitionError(f"the URDF has {found}", hint="join all links to one base, each by one joint")
 
 
 def _last_link(root: ET.Element, below: Mapping[str, list[ET.Element]]) -> str:
@@ -146,7 +169,12 @@ def _joint(joint: ET.Element) -> UrdfJoint:
     kind = kind_of(joint) or JointKind.REVOLUTE
     bounded = joint.get("type") != "continuous" and values.get("lower", 0.0) < values.get("upper", 0.0)
     lower, upper = (values["lower"], values["upper"]) if bounded else _DEFAULT_RANGE
+    if not bounded and kind is JointKind.PRISMATIC:
+        raise DefinitionError(
+            f"the sliding joint {joint.get('name')} has no range", hint="give its lower and upper limit in the URDF"
+        )
     return UrdfJoint(
+        is_unbounded=not bounded and joint.get("type") != "continuous",
         name=joint.get("name", ""),
         kind=kind,
         lower=lower,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 import numpy as np
 
@@ -21,6 +22,7 @@ LARGEST_HULL_RATIO = 1.25
 """Volume of a mesh's hull over its own from which the loss is reported."""
 
 _LARGEST_LENGTH_M, _LARGEST_MASS_KG = 10.0, 1000.0
+_LIMITS = (("joints.torque", "effort", "effort"), ("joints.speed", "velocity", "velocity"))
 _NOTES = frozenset({"robot.open-mesh", "robot.concave-mesh"})
 
 
@@ -32,9 +34,10 @@ def robot_findings(project: Project) -> tuple[Finding, ...]:
     """
     scene = PurePosixPath(project.study.scene)
     robot = scene.parent / read_document(project.folder / scene, label=str(scene)).data["robot"]["description"]
-    urdf = robot.parent / read_document(project.folder / robot, label=str(robot)).data["description"]
+    data = read_document(project.folder / robot, label=str(robot)).data
+    urdf = robot.parent / data["description"]
     path = project.folder / urdf
-    found = description_findings(project.scene.robot, path, str(urdf))
+    found = description_findings(project.scene.robot, path, str(urdf), assumed=assumed_subjects(data))
     return (*found, *unchecked_pairs(project.scene.robot, path, str(urdf)), *_misfit_findings(project))
 
 
@@ -82,25 +85,43 @@ def unchecked_pairs(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]
     )
 
 
-def description_findings(robot: Robot, urdf: Path, label: str) -> tuple[Finding, ...]:
+def assumed_subjects(data: Mapping[str, Any]) -> frozenset[str]:
+    """What a robot file's assumptions are about.
+
+    Args:
+        data: The file's content.
+    """
+    return frozenset(str(entry["about"]) for entry in data.get("assumptions", ()))
+
+
+def description_findings(
+    robot: Robot, urdf: Path, label: str, *, assumed: Collection[str] = (), lines_of: Path | None = None
+) -> tuple[Finding, ...]:
     """Findings on a description that can be used: units, masses, inertias, limits, meshes.
+
+    A limit that the URDF lacks is a note where the robot file states that its own value is an assumption.
 
     Args:
         robot: The arm.
         urdf: Its URDF.
         label: The URDF's name in messages.
+        assumed: What the robot file's assumptions are about.
+        lines_of: The file whose lines are named, if it is another one than the URDF.
     """
     text = urdf.read_text(encoding="utf-8-sig")
     root = ET.fromstring(text)  # noqa: S314 - entities and document types were refused on reading
-    lines = text.splitlines()
+    lines = (urdf if lines_of is None else lines_of).read_text(encoding="utf-8-sig").splitlines()
     found = []
     used = {link.get("name", "") for link in ET.fromstring(robot.urdf).findall("link")}  # noqa: S314 - as above
     for link in root.findall("link"):
         if link.get("name") not in used:
             root.remove(link)
-    for name, rule, message, hint in (*_lengths(root), *_masses(root), *_limits(root, robot), *_meshes(root, urdf)):
+    stated = tuple(_limits(root, robot, _subjects(assumed, kept=True)))
+    lacking = (*_lengths(root), *_masses(root), *_limits(root, robot, _subjects(assumed, kept=False)))
+    for name, rule, message, hint in (*lacking, *stated, *_meshes(root, urdf)):
         at = next((number for number, line in enumerate(lines, start=1) if f'"{name}"' in line), 1)
-        severity = Severity.INFO if rule in _NOTES else Severity.WARNING
+        noted = rule in _NOTES or (name, rule, message, hint) in stated
+        severity = Severity.INFO if noted else Severity.WARNING
         found.append(Finding(file=label, line=at, column=1, rule=rule, severity=severity, message=message, hint=hint))
     return tuple(dict.fromkeys(found))
 
@@ -138,13 +159,20 @@ def _masses(root: ET.Element) -> Iterator[tuple[str, str, str, str]]:
             )
 
 
-def _limits(root: ET.Element, robot: Robot) -> Iterator[tuple[str, str, str, str]]:
+def _subjects(assumed: Collection[str], *, kept: bool) -> tuple[tuple[str, str], ...]:
+    """The limits, as the URDF and messages name them, that the robot file assumes or does not."""
+    return tuple((key, what) for about, key, what in _LIMITS if (about in assumed) is kept)
+
+
+def _limits(
+    root: ET.Element, robot: Robot, subjects: Collection[tuple[str, str]]
+) -> Iterator[tuple[str, str, str, str]]:
     names = {joint.name for joint in robot.joints}
     for joint in root.findall("joint"):
         name, limit = joint.get("name", ""), joint.find("limit")
         if name not in names:
             continue
-        for key, what in (("effort", "effort"), ("velocity", "velocity")):
+        for key, what in subjects:
             if limit is None or float(limit.get(key, "0")) <= 0.0:
                 yield name, "robot.limit", f"joint {name} has no {what}", "the robot file's value is used alone"
 

@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rgss.errors import DefinitionError
 from rgss.kinematics import Arm, ArmDynamics, Load, inverse_kinematics
 from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint, load_scene, waypoint_poses
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
 from rgss.studies.robot_project.overhead_layout import overhead_layouts
 from rgss.tasks import default_task
-from rgss.trials import Workcell, waypoint_configurations
+from rgss.trials import Workcell, serves_every_stop, waypoint_configurations
 
 Array = NDArray[np.float64]
 
 _SAMPLES = 2048
+_POINTING_SAMPLES, _MOST_TOUCHING = 96, 0.9
 _LEAST_REACH_M = 0.2
 _POSE_FREEDOMS = 6
 _ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
@@ -89,35 +90,51 @@ class FittedCell:
     upper: tuple[float, ...]
 
 
-def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]) -> FittedCell:
-    """The first layout in which the arm reaches every waypoint with every gripper, and a home for it.
+def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]) -> FittedCell | None:
+    """The first layout in which the arm reaches every waypoint with every gripper, and a home for it; None without one.
 
     Args:
         folder: The project, with all files but the scene.
         robot: The arm.
         robot_file: Name of its file.
         geometries: The grippers.
-
-    Raises:
-        DefinitionError: There is none.
     """
     path = folder / "scenes" / "kitchen.yaml"
     reach_m = horizontal_reach_m(robot)
     on_pedestal = layouts(reach_m) if reach_m >= _LEAST_REACH_M else ()
+    pointing: bool | None = None
     for layout in itertools.chain(on_pedestal, _overhead(robot, geometries)):
         path.write_text(scene_text(layout, robot=robot_file, is_yaw_free=is_yaw_free(robot)), encoding="utf-8")
         scene = load_scene(path, project=folder)
         if not all(_reaches_ends(scene, geometry) for geometry in geometries):
             continue
-        stops = [_stops(scene, geometry) for geometry in geometries]
+        cells = [Workcell(scene, geometry, clearance_m=_CLEARANCE_M, task=default_task()) for geometry in geometries]
+        if pointing is None:
+            pointing = not any(_points_into_arm(cell) for cell in cells)
+        if not pointing:
+            return None
+        if not all(serves_every_stop(cell) for cell in cells):
+            continue
+        # Valid configurations at the waypoints, with the least travel from one to the next.
+        stops = [waypoint_configurations(cell) for cell in cells]
         if all(len(one) == len(Waypoint) for one in stops):
             lower, upper = _ranges(robot, np.array([q for one in stops for q in one.values()]))
             home = stops[0][Waypoint.GRASP_DEPARTURE].tolist()
             return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper)
-    raise DefinitionError(
-        f"no layout was found in which {robot.id} grasps a cup on a table with its tool pointing down",
-        hint="is --flange the link whose z axis points out of the arm? Does the arm turn its tool down at all?",
+    return None
+
+
+def _points_into_arm(cell: Workcell) -> bool:
+    """Whether the gripper touches the arm in most configurations, as where it is mounted the wrong way round."""
+    robot = cell.scene.robot
+    model = next(iter(cell.planning.values()))
+    links = {link.get("name") for link in ET.fromstring(robot.urdf).findall("link")}  # noqa: S314 - checked on reading
+    others = {body.id for body in cell.scene.bodies} | {cell.scene.workpiece.id}
+    samples = sampled_configurations(robot)[:_POINTING_SAMPLES]
+    touching = sum(
+        any(len({*pair} & links) == 1 and not {*pair} & others for pair in model.contacts(q)) for q in samples
     )
+    return touching > _MOST_TOUCHING * len(samples)
 
 
 def _overhead(robot: Robot, geometries: Sequence[GripperGeometry]) -> Iterator[Layout]:
@@ -126,11 +143,6 @@ def _overhead(robot: Robot, geometries: Sequence[GripperGeometry]) -> Iterator[L
     tools = np.array([Arm(replace(robot, base=Pose()), Pose()).tool_matrix(q) for q in samples])
     tool_m = max(geometry.grasp_centre.position_m[2] for geometry in geometries)
     yield from overhead_layouts(tools[:, :3, 3], tools[:, :3, 2], tool_m=tool_m)
-
-
-def _stops(scene: Scene, geometry: GripperGeometry) -> Mapping[str, Array]:
-    """Valid configurations at the waypoints, with the least travel from one to the next."""
-    return waypoint_configurations(Workcell(scene, geometry, clearance_m=_CLEARANCE_M, task=default_task()))
 
 
 def _ranges(robot: Robot, configurations: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -10,6 +10,7 @@ _PEDESTAL_HEIGHT_M = 0.6
 _SHARES_OF_REACH = (0.55, 0.6, 0.5, 0.65, 0.45, 0.7, 0.4, 0.35)
 _HEIGHT_SHARES = (0.0, 0.1, -0.1, 0.2, -0.2, -0.3)
 _AZIMUTH_RAD = math.radians(35.0)
+_NEAR_M, _LEAST_NEAR_M = 0.08, 0.04
 
 
 _SCENE = """\
@@ -118,12 +119,19 @@ def layouts(reach_m: float) -> Iterator[Layout]:
         for share in _SHARES_OF_REACH:
             table_m = max(0.1, _PEDESTAL_HEIGHT_M + height * reach_m)
             distance_m = share * reach_m
+            if distance_m * math.cos(_AZIMUTH_RAD) - _depth_m(reach_m) / 2 < _LEAST_NEAR_M:
+                continue
             yield Layout(
                 reach_m=reach_m,
                 x_m=distance_m * math.cos(_AZIMUTH_RAD),
                 y_m=distance_m * math.sin(_AZIMUTH_RAD),
                 table_m=round(table_m, 3),
             )
+
+
+def _depth_m(reach_m: float) -> float:
+    """Depth of the tables; those of a small arm bear a cup and leave room for its pedestal."""
+    return max(min(0.2, 0.4 * reach_m), 0.3 * reach_m)
 
 
 def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
@@ -136,8 +144,9 @@ def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
     """
     reach = layout.reach_m
     x, y = layout.x_m, layout.y_m
-    long, deep = 0.45 * reach, max(0.2, 0.3 * reach)
+    long, deep = max(0.2, 0.45 * reach), _depth_m(reach)
     near = x - deep / 2
+    foot = min(0.14, near * 0.7 if near < _NEAR_M else near * 0.5)
     post = 0.05 * reach
     high = min(0.24, 0.2 * reach)
     approach = min(0.15, 0.12 * reach)
@@ -150,7 +159,7 @@ def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
         base_y=layout.base_m[1],
         base_z=layout.base_m[2],
         base_yaw=f"  yaw: {math.degrees(layout.base_yaw_rad):g} deg\n" if layout.base_yaw_rad else "",
-        pedestal="" if layout.is_overhead else _PEDESTAL.format(foot=min(0.14, near * 0.5), height=_PEDESTAL_HEIGHT_M),
+        pedestal="" if layout.is_overhead else _PEDESTAL.format(foot=foot, height=_PEDESTAL_HEIGHT_M),
         carried=_CARRIED if layout.is_overhead else "",
         deep=deep,
         long=long,

@@ -21,6 +21,7 @@ _ENDS = (1.0, 99.0)
 _SHARES_OF_HALF_LENGTH = (0.6, 0.5, 0.7, 0.4)
 _SHARES_OF_DEPTH = (0.1, 0.2, 0.3, 0.05)
 _LENGTH_OF_DEPTH = 2.0
+_LEAST_SIZE_M = 0.05
 
 
 def overhead_layouts(positions_m: Array, axes: Array, *, tool_m: float) -> Iterator[Layout]:
@@ -39,6 +40,8 @@ def overhead_layouts(positions_m: Array, axes: Array, *, tool_m: float) -> Itera
     # The longer side lies along the y axis of the world.
     yaw_rad = 0.0 if size[1] >= size[0] else math.pi / 2
     length_m, depth_m = float(max(size[:2])), float(size[2])
+    if min(length_m, depth_m) < _LEAST_SIZE_M:
+        return
     cosine, sine = round(math.cos(yaw_rad)), round(math.sin(yaw_rad))
     x = -(cosine * middle[0] - sine * middle[1])
     y = -(sine * middle[0] + cosine * middle[1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
 
@@ -42,7 +43,7 @@ def robot_text(arm: UrdfArm, *, id_: str, urdf: str, home: Sequence[float], payl
         lines.append(f"without: [{', '.join(arm.hands)}]")
     lines.append("assumptions:")
     for about, rationale in _assumptions(arm):
-        lines += [f"  - about: {about}", f"    rationale: {rationale}"]
+        lines += [f"  - about: {about}", f"    rationale: {json.dumps(rationale, ensure_ascii=False)}"]
     return "\n".join(lines) + "\n"
 
 
@@ -63,13 +64,16 @@ def _assumptions(arm: UrdfArm) -> Sequence[tuple[str, str]]:
     ]
     slow = [joint.name for joint in arm.joints if joint.speed <= 0.0]
     weak = [joint.name for joint in arm.joints if joint.effort <= 0.0]
+    unbounded = [joint.name for joint in arm.joints if joint.is_unbounded]
+    if unbounded:
+        found.append(("joints.range", f"The URDF has no range of {', '.join(unbounded)}: half a turn either way."))
     if slow:
         found.append(("joints.speed", f"The URDF has no speed of {', '.join(slow)}."))
     if weak:
         found.append(("joints.torque", f"The URDF has no effort of {', '.join(weak)}."))
     if arm.hands:
         found.append(("without", "The hand of the URDF is left out; the design's gripper takes its place."))
-    return found
+    return [*found, *((note.about, note.rationale) for note in arm.notes)]
 
 
 def _joint_line(joint: UrdfJoint) -> str:
@@ -85,6 +89,10 @@ def _joint_line(joint: UrdfJoint) -> str:
 
 
 def _position(joint: UrdfJoint, value: float) -> str:
-    if joint.kind is JointKind.PRISMATIC:
-        return f"{value * 1e3:.1f} mm"
-    return f"{math.degrees(value):.2f} deg"
+    """A position in round numbers where they lie within the range."""
+    slides = joint.kind is JointKind.PRISMATIC
+    text = f"{value * 1e3:.1f}" if slides else f"{math.degrees(value):.2f}"
+    rounded = float(text) / 1e3 if slides else math.radians(float(text))
+    if joint.lower < rounded < joint.upper:
+        return f"{text} {'mm' if slides else 'deg'}"
+    return f"{value!r} {'m' if slides else 'rad'}"

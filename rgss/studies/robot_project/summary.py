@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import xml.etree.ElementTree as ET
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from rgss.documents import read_document
 from rgss.findings import Finding, Severity
 from rgss.kinematics import Arm, lasting_contacts, touching_links
 from rgss.scenes import Pose, Robot, convex_parts, load_robot
-from rgss.studies.robot_project.description import description_findings
+from rgss.studies.robot_project.description import assumed_subjects, description_findings
 from rgss.studies.robot_project.draft import drafted_robot
 from rgss.studies.robot_project.fitting import horizontal_reach_m, payload_at_reach_kg, sampled_configurations
 
@@ -48,12 +49,13 @@ class RobotSummary:
     findings: tuple[Finding, ...]
 
 
-def robot_summary(path: Path, *, flange: str | None = None) -> RobotSummary:
+def robot_summary(path: Path, *, flange: str | None = None, mass_kg: float | None = None) -> RobotSummary:
     """Summarise the arm of a URDF or of a robot file.
 
     Args:
         path: The URDF, or the robot file.
         flange: Of a URDF, the link that carries the gripper; found where None.
+        mass_kg: Of a URDF without masses, that of the whole arm.
 
     Raises:
         DefinitionError: There is no arm in the file.
@@ -62,14 +64,17 @@ def robot_summary(path: Path, *, flange: str | None = None) -> RobotSummary:
     if path.suffix.lower() in _YAML:
         project = next((one for one in path.resolve().parents if (one / "scenes").is_dir()), path.resolve().parent)
         robot = load_robot(path, base=Pose(), label=path.name, project=project)
-        urdf = path.parent / str(read_document(path, label=path.name).data["description"])
-        return _summary(robot, urdf, urdf.name)
+        data = read_document(path, label=path.name).data
+        urdf = path.parent / str(data["description"])
+        return _summary(robot, urdf, urdf.name, assumed_subjects(data))
     with tempfile.TemporaryDirectory() as folder:
-        drafted = drafted_robot(path, Path(folder), flange=flange)
-        return _summary(drafted.robot, drafted.file.with_suffix(".urdf"), path.name)
+        drafted = drafted_robot(path, Path(folder), flange=flange, mass_kg=mass_kg)
+        return _summary(drafted.robot, drafted.file.with_suffix(".urdf"), path.name, lines_of=path)
 
 
-def _summary(robot: Robot, urdf: Path, label: str) -> RobotSummary:
+def _summary(
+    robot: Robot, urdf: Path, label: str, assumed: Collection[str] = (), lines_of: Path | None = None
+) -> RobotSummary:
     root = ET.fromstring(robot.urdf)  # noqa: S314 - entities and document types were refused on reading
     masses = {
         link.get("name", ""): float(mass.get("value", "0"))
@@ -77,7 +82,7 @@ def _summary(robot: Robot, urdf: Path, label: str) -> RobotSummary:
         for mass in link.findall("inertial/mass")
     }
     at_home = touching_links(robot, robot.home_rad)
-    findings = list(description_findings(robot, urdf, label))
+    findings = list(description_findings(robot, urdf, label, assumed=assumed, lines_of=lines_of))
     left_out = lasting_contacts(robot)
     pairs = [pair for pair in at_home if frozenset(pair) not in left_out]
     findings += [

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import tempfile
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
 from rgss.errors import DefinitionError
@@ -14,11 +14,34 @@ from rgss.studies.robot_project.draft import drafted_robot
 from rgss.studies.robot_project.fitting import fitted, is_yaw_free, payload_at_reach_kg
 from rgss.studies.robot_project.layout import scene_text
 from rgss.studies.robot_project.robot_text import robot_text
+from rgss.studies.robot_project.urdf_reading import Note
 from rgss.studies.scaffolding import scaffold_texts
 from rgss.studies.schema_headers import cannot_write
 
+_MOST_AXES = 3
 
-def write_robot_project(urdf: Path, folder: Path, *, flange: str | None = None) -> tuple[str, ...]:
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotProject:
+    """A project that was written round an arm.
+
+    Attributes:
+        files: Names of the files, relative to the folder.
+        notes: What was assumed about the URDF; the robot file states it too.
+    """
+
+    files: tuple[str, ...]
+    notes: tuple[Note, ...]
+
+
+def write_robot_project(
+    urdf: Path,
+    folder: Path,
+    *,
+    flange: str | None = None,
+    tool_axis: str | None = None,
+    mass_kg: float | None = None,
+) -> RobotProject:
     """Write a new project round the arm of a URDF into a folder, which is made if it is not there.
 
     The URDF and the meshes that it names are copied. The robot file has the URDF's limits; the tables are scaled to
@@ -28,9 +51,8 @@ def write_robot_project(urdf: Path, folder: Path, *, flange: str | None = None) 
         urdf: The URDF.
         folder: The folder; nothing in it is overwritten.
         flange: The link that carries the gripper; found where None.
-
-    Returns:
-        The names of the files that were written, relative to the folder.
+        tool_axis: The axis of that link along which the gripper points; the first that works where None.
+        mass_kg: Mass of the arm with its base, for a URDF without masses.
 
     Raises:
         DefinitionError: The URDF has no arm that the task can be fitted to, or a file is there already.
@@ -38,7 +60,7 @@ def write_robot_project(urdf: Path, folder: Path, *, flange: str | None = None) 
     """
     with tempfile.TemporaryDirectory() as scratch:
         project = Path(scratch) / "project"
-        _write_files(project, urdf, flange)
+        notes = _write_files(project, urdf, flange, tool_axis, mass_kg)
         names = tuple(sorted(path.relative_to(project).as_posix() for path in project.rglob("*") if path.is_file()))
         try:
             for name in names:
@@ -51,12 +73,14 @@ def write_robot_project(urdf: Path, folder: Path, *, flange: str | None = None) 
                 shutil.copyfile(project / name, folder / name)
         except (OSError, ValueError) as error:
             raise cannot_write(folder, error) from error
-    return names
+    return RobotProject(files=names, notes=notes)
 
 
-def _write_files(project: Path, urdf: Path, flange: str | None) -> None:
-    drafted = drafted_robot(urdf, project, flange=flange)
-    arm, robot, id_ = drafted.arm, drafted.robot, drafted.robot.id
+def _write_files(
+    project: Path, urdf: Path, flange: str | None, tool_axis: str | None, mass_kg: float | None
+) -> tuple[Note, ...]:
+    drafted = drafted_robot(urdf, project, flange=flange, tool_axis=tool_axis or "z", mass_kg=mass_kg)
+    id_ = drafted.robot.id
     texts = scaffold_texts()
     (old,) = (PurePosixPath(name).stem for name in texts if re.fullmatch(r"scenes/robots/[^/]+\.yaml", name))
     for name, content in texts.items():
@@ -64,9 +88,21 @@ def _write_files(project: Path, urdf: Path, flange: str | None) -> None:
             continue
         path = project / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(_renamed(content, old, id_, arm.name), encoding="utf-8", newline="\n")
+        path.write_text(_renamed(content, old, id_, drafted.arm.name), encoding="utf-8", newline="\n")
     geometries = [load_gripper(path) for path in sorted((project / "scenes" / "grippers").glob("*.yaml"))]
-    cell = fitted(project, robot, drafted.file.name, geometries)
+    axes = drafted.likely_tool_axes[:_MOST_AXES] if tool_axis is None else (tool_axis,)
+    for axis in axes:
+        drafted = drafted_robot(urdf, project, flange=flange, tool_axis=axis, mass_kg=mass_kg)
+        cell = fitted(project, drafted.robot, drafted.file.name, geometries)
+        if cell is not None:
+            break
+    else:
+        raise DefinitionError(
+            f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down",
+            hint=f"tried: the {', '.join(axes)} axis of {drafted.flange}. Is --flange the link that carries the "
+            "gripper, --tool-axis its axis out of the arm? Does the arm turn its tool down at all?",
+        )
+    arm, robot = drafted.arm, drafted.robot
     ranges = zip(arm.joints, cell.lower, cell.upper, strict=True)
     narrowed = replace(arm, joints=tuple(replace(joint, lower=low, upper=high) for joint, low, high in ranges))
     payload_kg = payload_at_reach_kg(robot)
@@ -75,6 +111,7 @@ def _write_files(project: Path, urdf: Path, flange: str | None) -> None:
     (project / "scenes" / "kitchen.yaml").write_text(
         scene_text(cell.layout, robot=drafted.file.name, is_yaw_free=is_yaw_free(robot)), encoding="utf-8"
     )
+    return arm.notes
 
 
 def _renamed(text: str, old: str, id_: str, name: str) -> str:

@@ -71,6 +71,18 @@ def stops_of(cell: Workcell) -> TaskStops:
     return TaskStops(configurations=found, direct=direct, reasons=reasons)
 
 
+def serves_every_stop(cell: Workcell) -> bool:
+    """True if each stop has a configuration that is valid in every move that meets there; not whether moves are.
+
+    Args:
+        cell: Scene, arm and collision models.
+    """
+    return all(
+        any(all(model.is_valid(q) for model in _meeting(cell, index)) for q in _solutions(cell, stop))
+        for index, stop in enumerate(cell.route.stops)
+    )
+
+
 def waypoint_configurations(cell: Workcell) -> Mapping[str, Array]:
     """The configuration of each stop that is served, by its name.
 

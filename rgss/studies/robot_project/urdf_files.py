@@ -1,0 +1,128 @@
+"""Copies of the files that a URDF names, found as robot packages lay them out."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+
+from rgss.documents import content_digest
+from rgss.errors import DefinitionError
+from rgss.studies.robot_project.urdf_reading import Note
+
+_SCHEME = re.compile(r"^(package|model|file)://")
+_LARGEST_MESH_BYTES = 256 * 1024 * 1024
+_PACKAGE_FILE = "package.xml"
+_FOLDERS_UP = 4
+
+
+def copy_named_files(root: ET.Element, urdf: Path, robots: Path) -> list[Note]:
+    """Copy the files that a URDF names beside its copy, and give their names as they are there.
+
+    What is only looked at, a visual mesh or a texture, takes part in no simulation: it is left out where it is missing.
+
+    Args:
+        root: The URDF; it is changed.
+        urdf: Its file.
+        robots: The folder of the copy.
+
+    Returns:
+        What was assumed.
+
+    Raises:
+        DefinitionError: A collision mesh is missing or too large.
+    """
+    notes = list(_leave_out_missing_looks(root, urdf))
+    for element in (one for tag in ("mesh", "texture") for one in root.iter(tag)):
+        name = element.get("filename", "").strip()
+        source = find_named_file(name, urdf)
+        if source is None:
+            raise DefinitionError(
+                f"the file {name} of {urdf.name} is not there",
+                hint="put it where the URDF names it, relative to the URDF or in a folder of the package's name above",
+            )
+        if content_digest(source, largest_bytes=_LARGEST_MESH_BYTES) is None:
+            raise DefinitionError(
+                f"the file {name} is larger than {_LARGEST_MESH_BYTES // 1024**2} MiB", hint="simplify it"
+            )
+        rest = PurePosixPath(_SCHEME.sub("", name).replace("\\", "/"))
+        inside = not rest.is_absolute() and ".." not in rest.parts
+        kept = rest if inside else PurePosixPath("meshes") / rest.name
+        (robots / kept).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, robots / kept)
+        element.set("filename", kept.as_posix())
+    return notes
+
+
+def find_named_file(name: str, urdf: Path) -> Path | None:
+    """The file that a name means, seen from a URDF; None where it is not there.
+
+    A package is a folder above the URDF, or in such a folder, that has its name or a package file that states it. Where
+    there is none, the package is taken to be the one that the URDF is in, as with copies under another name.
+
+    Args:
+        name: The name: a path relative to the URDF, or one with ``package://``, ``model://`` or ``file://``.
+        urdf: The URDF.
+    """
+    rest = _SCHEME.sub("", name.strip()).replace("\\", "/")
+    if not rest:
+        return None
+    scheme = name.strip().partition("://")[0]
+    candidates = [urdf.parent / rest] if scheme not in ("package", "model") else _in_package(rest, urdf.resolve())
+    return next((found for path in candidates if (found := _file(path)) is not None), None)
+
+
+def _in_package(rest: str, urdf: Path) -> Iterator[Path]:
+    package, _, below = rest.partition("/")
+    for folder in urdf.parents:
+        if folder.name == package or _package_name(folder) == package:
+            yield folder / below
+        yield folder / package / below
+    # The package goes by another name here: what follows its name, or a part of that, is looked for above the URDF.
+    parts = PurePosixPath(rest).parts
+    for folder in list(urdf.parents)[:_FOLDERS_UP]:
+        for skipped in range(len(parts) - 1):
+            yield folder / PurePosixPath(*parts[skipped:])
+
+
+def _package_name(folder: Path) -> str | None:
+    try:
+        found = re.search(r"<name>\s*([^<\s]+)\s*</name>", (folder / _PACKAGE_FILE).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError):
+        return None
+    return None if found is None else found[1]
+
+
+def _file(path: Path) -> Path | None:
+    """A file, also where the case of its name differs, as on the systems of some who wrote URDFs."""
+    try:
+        if path.is_file():
+            return path
+        return next((one for one in path.parent.iterdir() if one.name.lower() == path.name.lower()), None)
+    except OSError:
+        return None
+
+
+def _leave_out_missing_looks(root: ET.Element, urdf: Path) -> Iterator[Note]:
+    gone = []
+    for link in root.findall("link"):
+        for visual in link.findall("visual"):
+            mesh = visual.find("geometry/mesh")
+            name = "" if mesh is None else mesh.get("filename", "")
+            if mesh is not None and find_named_file(name, urdf) is None:
+                link.remove(visual)
+                gone.append(name)
+    for material in root.iter("material"):
+        for texture in material.findall("texture"):
+            name = texture.get("filename", "")
+            if find_named_file(name, urdf) is None:
+                material.remove(texture)
+                gone.append(name)
+    if gone:
+        yield Note(
+            about="description",
+            rationale=f"{len(gone)} visual meshes and textures are not there and left out, {gone[0] or 'nameless'} the"
+            " first; they take part in no simulation.",
+        )

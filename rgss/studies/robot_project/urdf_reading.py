@@ -1,0 +1,165 @@
+"""Reading of a URDF as others write it: old prefixes, padded names, names that are no identifiers, empty shapes."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from rgss.errors import DefinitionError
+from rgss.scenes import number_problems
+
+_LARGEST_URDF_BYTES = 1024 * 1024
+_KEPT = frozenset({"link", "joint", "material"})
+_PREFIX = re.compile(r"</?([A-Za-z_][\w.-]*):")
+_SUBSTITUTION = re.compile(r"\$[({][^)}]*[)}]?")
+_SHAPES = {"box": ("size",), "cylinder": ("radius", "length"), "sphere": ("radius",)}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Note:
+    """Something that was assumed about a URDF when a project was made round it.
+
+    Attributes:
+        about: What it is about, as an assumption of the robot file names it.
+        rationale: What was assumed, and why.
+    """
+
+    about: str
+    rationale: str
+
+
+def read_arm_urdf(urdf: Path) -> tuple[ET.Element, list[Note]]:
+    """Read a URDF for a new project: links, joints and materials, with names that are identifiers.
+
+    Args:
+        urdf: The URDF.
+
+    Returns:
+        The URDF, and what was assumed about it.
+
+    Raises:
+        DefinitionError: It cannot be read, or is a xacro.
+    """
+    root = _parsed(urdf)
+    for child in list(root):
+        if child.tag not in _KEPT:
+            root.remove(child)
+    if not root.get("name", "").strip():
+        root.set("name", urdf.stem)
+    notes = [*_rename(root), *_drop_empty_shapes(root)]
+    problems = [
+        f"{urdf.name} {problem}"
+        for problem, _, _ in number_problems(root)
+        if "in <mass>" not in problem and "in <inertia>" not in problem
+    ]
+    if problems:
+        more = f", and {len(problems) - 1} problems more" if len(problems) > 1 else ""
+        raise DefinitionError(f"{problems[0]}{more}", hint="correct the numbers of the URDF")
+    return root, notes
+
+
+def _parsed(urdf: Path) -> ET.Element:
+    hint = "name a URDF; a xacro is expanded with the tool of that name first"
+    try:
+        content = urdf.read_bytes()[: _LARGEST_URDF_BYTES + 1]
+        text = content.decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise DefinitionError(f"{urdf} cannot be read: {error}", hint=hint) from error
+    if len(content) > _LARGEST_URDF_BYTES or "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise DefinitionError(f"{urdf} is larger than 1 MiB or declares a document type", hint=hint)
+    try:
+        root = ET.fromstring(_with_known_prefixes(text))  # noqa: S314 - entities and document types are refused above
+    except ET.ParseError as error:
+        raise DefinitionError(f"{urdf} is not XML: {error}", hint=hint) from error
+    left = next(_xacro_leftovers(root), None)
+    if left is not None:
+        raise DefinitionError(f"{urdf} is a xacro: it has {left}", hint=f"xacro {urdf.name} > arm.urdf")
+    if root.tag != "robot" or root.find("link") is None:
+        raise DefinitionError(f"{urdf} is not a URDF: it has no robot with links", hint=hint)
+    return root
+
+
+def _with_known_prefixes(text: str) -> str:
+    """A text whose prefixes are all declared: older files use those of a simulator without it."""
+    unknown = sorted({prefix for prefix in _PREFIX.findall(text) if f"xmlns:{prefix}" not in text})
+    declared = "".join(f' xmlns:{prefix}="urn:{prefix}"' for prefix in unknown)
+    return re.sub(r"<robot\b", lambda found: found[0] + declared, text, count=1)
+
+
+def _xacro_leftovers(root: ET.Element) -> Iterator[str]:
+    for element in root.iter():
+        if "xacro" in element.tag.partition("}")[0] and "}" in element.tag:
+            yield f"<xacro:{element.tag.partition('}')[2]}>"
+        if element.tag in _KEPT:
+            for one in element.iter():
+                for value in one.attrib.values():
+                    found = _SUBSTITUTION.search(value)
+                    if found:
+                        yield found[0]
+
+
+def _rename(root: ET.Element) -> Iterator[Note]:
+    """Give links and joints names that are identifiers, where theirs are not."""
+    for kind in ("link", "joint"):
+        parts = root.findall(kind)
+        for part in parts:
+            part.set("name", part.get("name", "").strip())
+        new = _identifiers([part.get("name", "") for part in parts], kind)
+        for part in parts:
+            part.set("name", new.get(part.get("name", ""), part.get("name", "")))
+        for joint in root.findall("joint"):
+            for end in joint.findall("parent") + joint.findall("child") if kind == "link" else joint.findall("mimic"):
+                key = "link" if kind == "link" else "joint"
+                name = end.get(key, "").strip()
+                end.set(key, new.get(name, name))
+        if new:
+            pairs = ", ".join(f"{name!r} is {identifier}" for name, identifier in new.items())
+            yield Note(
+                about="description",
+                rationale=f"A name is a letter, then letters, digits and _ . -, so that of the {kind}s {pairs}.",
+            )
+
+
+def _identifiers(names: list[str], kind: str) -> dict[str, str]:
+    """Identifiers for the names that are none."""
+    taken = set(names)
+    found: dict[str, str] = {}
+    for name in names:
+        if re.fullmatch(r"[A-Za-z][A-Za-z0-9_.-]{0,79}", name) or name in found:
+            continue
+        stem = re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("_.-")[:60]
+        stem = stem if stem[:1].isalpha() else f"{kind}_{stem}".rstrip("_")
+        identifier, number = stem, 1
+        while identifier in taken:
+            number += 1
+            identifier = f"{stem}_{number}"
+        taken.add(identifier)
+        found[name] = identifier
+    return found
+
+
+def _drop_empty_shapes(root: ET.Element) -> Iterator[Note]:
+    """Remove shapes without an extent, which some exporters write for frames."""
+    dropped = []
+    for link in root.findall("link"):
+        for kind in ("visual", "collision"):
+            for shape in link.findall(kind):
+                geometry = shape.find("geometry")
+                if geometry is None or len(geometry) == 0 or _is_empty(geometry[0]):
+                    link.remove(shape)
+                    if kind == "collision":
+                        dropped.append(link.get("name", ""))
+    if dropped:
+        names = ", ".join(dict.fromkeys(dropped))
+        yield Note(about="description", rationale=f"Collision shapes of zero size are left out, of {names}.")
+
+
+def _is_empty(shape: ET.Element) -> bool:
+    sizes = " ".join(shape.get(key, "0") for key in _SHAPES.get(shape.tag, ())).split()
+    try:
+        return bool(sizes) and any(float(word) == 0.0 for word in sizes)
+    except ValueError:
+        return False
