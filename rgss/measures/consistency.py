@@ -148,9 +148,9 @@ def _kind_problems(
     if entry.kind is MeasureKind.PERFORMANCE and not entry.contributes_to:
         message = f"measure of performance {entry.id!r} contributes to no measure of effectiveness"
         yield ("contribution", message, (), "add 'contributes_to'")
-    if entry.kind is not MeasureKind.PERFORMANCE and entry.contributes_to:
+    if entry.kind is MeasureKind.SUPPLEMENTARY and entry.contributes_to:
         hint = "remove 'contributes_to', or make it a mop"
-        message = "only a measure of performance contributes to measures of effectiveness"
+        message = "a supplementary measure contributes to no measure of effectiveness"
         yield ("contribution", message, ("contributes_to",), hint)
         return
     for place, name in enumerate(entry.contributes_to):

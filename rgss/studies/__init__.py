@@ -5,7 +5,12 @@ from typing import TYPE_CHECKING
 from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
-    from rgss.studies.checks import bench_findings, impact_findings, task_time_findings
+    from rgss.studies.checks import (
+        bench_findings,
+        double_counting_findings,
+        impact_findings,
+        task_time_findings,
+    )
     from rgss.studies.document import MOST_REPLICATES, StudyDocument
     from rgss.studies.document_kinds import DOCUMENT_KINDS, document_kind
     from rgss.studies.expansion import trial_settings, trial_specs

@@ -117,6 +117,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
     from rgss.studies import (
         bench_findings,
         check_scene,
+        double_counting_findings,
         impact_findings,
         load_project,
         task_time_findings,
@@ -135,6 +136,7 @@ def _checked(folder: Path, study: str | None, options: argparse.Namespace) -> _C
             *bench_findings(project),
             *impact_findings(project),
             *task_time_findings(project),
+            *double_counting_findings(project),
             *assumption_findings(project),
             *scene.findings,
             *robot_findings(project),

@@ -6,6 +6,7 @@ from rgss.lazy_exports import lazy_exports
 
 if TYPE_CHECKING:
     from rgss.studies.checks.bench_check import bench_findings
+    from rgss.studies.checks.double_counting import double_counting_findings
     from rgss.studies.checks.impact_check import impact_findings
     from rgss.studies.checks.task_time_check import task_time_findings
 else:

@@ -42,10 +42,10 @@ def _aimless(model: TraceModel) -> Iterator[Violation]:
 
 
 def _without_performance(model: TraceModel) -> Iterator[Violation]:
-    contributed = {target for measure in _of_kind(model, MeasureKind.MOP) for target in measure.contributes_to}
+    contributed = {target for measure in model.measures for target in measure.contributes_to}
     for measure in _of_kind(model, MeasureKind.MOE):
         if measure.id not in contributed and not measure.observed:
-            message = f"no measure of performance contributes to measure of effectiveness {measure.id!r}"
+            message = f"no other measure contributes to measure of effectiveness {measure.id!r}"
             yield Violation(subject=measure, message=message, hint="compute it from one, or from the trials themselves")
 
 
@@ -128,8 +128,8 @@ RULES: tuple[ModelRule, ...] = (
         of_elements=False,
         severity=Severity.ERROR,
         explanation=(
-            "A measure of effectiveness is computed from a measure of performance, or observed in the trials "
-            "themselves; otherwise it has no value."
+            "A measure of effectiveness is computed from measures of performance or of effectiveness, or observed "
+            "in the trials themselves; otherwise it has no value."
         ),
         check=_without_performance,
     ),

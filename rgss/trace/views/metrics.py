@@ -100,12 +100,11 @@ def _of_links(model: TraceModel, matrices: TraceMatrices) -> Iterable[CoverageMe
         ((need, need not in unmeasured) for need in needs),
     )
     effectiveness = [measure for measure in model.measures if measure.kind is MeasureKind.MOE]
-    performance = [measure for measure in model.measures if measure.kind is MeasureKind.MOP]
-    contributed = {target for measure in performance for target in measure.contributes_to}
+    contributed = {target for measure in model.measures for target in measure.contributes_to}
     yield _metric(
         "moes-computed",
-        "no measure of performance",
-        "measures of effectiveness that a measure of performance, or the trials themselves, give a value",
+        "no measure that it is computed from",
+        "measures of effectiveness that other measures, or the trials themselves, give a value",
         ((measure.id, measure.observed or measure.id in contributed) for measure in effectiveness),
     )
     orphans = set(matrices.system_by_stakeholder.empty_rows)

@@ -106,7 +106,7 @@ def test_measure_of_effectiveness_without_measure_of_performance(project):
     project.add("S", MeasureKind.MOE, traces=("STK-1",))
     assert project.findings() == [
         (
-            "requirements/measures.yaml:4:5: error: no measure of performance contributes to measure of effectiveness "
+            "requirements/measures.yaml:4:5: error: no other measure contributes to measure of effectiveness "
             "'S' (compute it from one, or from the trials themselves) [trace.moe-without-mop]"
         )
     ]
