@@ -231,11 +231,15 @@ class _Reader:
         catalogue = designs.catalogue
         for component in catalogue.of_role(GRIPPER):
             name = component.geometry
-            if name and place_of(self._folder / name, self._folder) is FilePlace.OUTSIDE:
-                place = ("components", list(catalogue.components).index(component), "geometry")
+            found = place_of(self._folder / name, self._folder)
+            place = ("components", list(catalogue.components).index(component), "geometry")
+            if name and found is FilePlace.OUTSIDE:
                 message = f"geometry {shown(name)} leads out of the project"
                 hint = "copy the file into the project and name it"
                 self._findings.append(catalogue.document.finding("design.geometry", message, place, hint=hint))
+            elif name and found is FilePlace.MISSING:
+                message, hint = f"there is no file {shown(name)}", "file names are relative to the project"
+                self._findings.append(catalogue.document.finding("design.missing-file", message, place, hint=hint))
             elif name and name not in shapes:
                 shape = self._try(lambda name=name: self._gripper(name))  # type: ignore[misc]
                 if shape is not None:
