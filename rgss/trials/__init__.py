@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         plan_of,
         searches_of,
         serves_every_stop,
+        unserved_waypoints,
         waypoint_configurations,
     )
     from rgss.trials.plants import (

@@ -268,3 +268,21 @@ def test_efforts_that_are_stated_assumptions_are_notes(projects, draft, tmp_path
     assert {finding.severity.value for finding in found if finding.rule == "robot.limit"} == {"info"}
     found = robot_summary(tmp_path / "package" / "arm.urdf").findings
     assert {finding.severity.value for finding in found if finding.rule == "robot.limit"} == {"warning"}
+
+
+def test_an_arm_whose_shapes_reach_below_its_base_has_a_lower_pedestal(tmp_path):
+    from tests.robots.conftest import urdf_of
+
+    package = tmp_path / "xarm"
+    shutil.copytree(urdf_of("six").parent, package)
+    root = parsed(urdf_of("six").read_text(encoding="utf-8"))
+    first = next(joint for joint in root.findall("joint") if joint.get("type") == "revolute").find("child").get("link")
+    link = next(link for link in root.findall("link") if link.get("name") == first)
+    # The first joint is 267 mm above the base, so that this ball ends 133 mm below it.
+    ball = '<collision><origin xyz="0 0 -0.3"/><geometry><sphere radius="0.1"/></geometry></collision>'
+    link.append(parsed(ball))
+    (package / "below.urdf").write_text(written(root), encoding="utf-8")
+    write_robot_project(package / "below.urdf", tmp_path / "project")
+    scene = (tmp_path / "project" / "scenes" / "kitchen.yaml").read_text(encoding="utf-8")
+    assert "height: 0.45 m" in scene
+    assert "The pedestal ends below the arm's base" in scene

@@ -17,12 +17,13 @@ from rgss.scenes import GripperGeometry, JointKind, Pose, Robot, Scene, Waypoint
 from rgss.studies.robot_project.layout import Layout, layouts, scene_text
 from rgss.studies.robot_project.overhead_layout import overhead_layouts
 from rgss.tasks import default_task
-from rgss.trials import Workcell, serves_every_stop, waypoint_configurations
+from rgss.trials import Workcell, serves_every_stop, unserved_waypoints, waypoint_configurations
 
 Array = NDArray[np.float64]
 
 _SAMPLES = 2048
 _POINTING_SAMPLES, _MOST_TOUCHING = 96, 0.9
+_PEDESTAL, _PEDESTAL_GAP_M = "pedestal", 0.15
 _LEAST_REACH_M = 0.2
 _POSE_FREEDOMS = 6
 _ROOM = {JointKind.REVOLUTE: 0.6, JointKind.PRISMATIC: 0.15}
@@ -90,38 +91,65 @@ class FittedCell:
     upper: tuple[float, ...]
 
 
-def fitted(folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]) -> FittedCell | None:
-    """The first layout in which the arm reaches every waypoint with every gripper, and a home for it; None without one.
+def fitted(
+    folder: Path, robot: Robot, robot_file: str, geometries: Sequence[GripperGeometry]
+) -> tuple[FittedCell | None, str]:
+    """The first layout in which the arm reaches every waypoint with every gripper, and a home for it.
 
     Args:
         folder: The project, with all files but the scene.
         robot: The arm.
         robot_file: Name of its file.
         geometries: The grippers.
+
+    Returns:
+        The cell; None without one, and an example of what prevents it.
     """
     path = folder / "scenes" / "kitchen.yaml"
     reach_m = horizontal_reach_m(robot)
     on_pedestal = layouts(reach_m) if reach_m >= _LEAST_REACH_M else ()
-    pointing: bool | None = None
-    for layout in itertools.chain(on_pedestal, _overhead(robot, geometries)):
-        path.write_text(scene_text(layout, robot=robot_file, is_yaw_free=is_yaw_free(robot)), encoding="utf-8")
-        scene = load_scene(path, project=folder)
+    gap_m: float | None = None
+    reason = "the tool does not come down to an object on a table"
+    for tried in itertools.chain(on_pedestal, _overhead(robot, geometries)):
+        layout = tried if not gap_m or tried.is_overhead else replace(tried, pedestal_gap_m=gap_m)
+        scene = _scene(path, layout, robot, robot_file)
         if not all(_reaches_ends(scene, geometry) for geometry in geometries):
             continue
-        cells = [Workcell(scene, geometry, clearance_m=_CLEARANCE_M, task=default_task()) for geometry in geometries]
-        if pointing is None:
-            pointing = not any(_points_into_arm(cell) for cell in cells)
-        if not pointing:
-            return None
-        if not all(serves_every_stop(cell) for cell in cells):
+        if gap_m is None and not layout.is_overhead:
+            gap_m = _PEDESTAL_GAP_M if _stands_in_pedestal(_cells(scene, geometries)[0]) else 0.0
+            layout = replace(layout, pedestal_gap_m=gap_m)
+            scene = _scene(path, layout, robot, robot_file)
+        cells = _cells(scene, geometries)
+        if any(_points_into_arm(cell) for cell in cells):
+            return None, "the gripper touches the arm in most configurations"
+        unserved = next((cell for cell in cells if not serves_every_stop(cell)), None)
+        if unserved is not None:
+            reason = next((str(one) for one in unserved_waypoints(unserved).values()), reason)
             continue
         # Valid configurations at the waypoints, with the least travel from one to the next.
         stops = [waypoint_configurations(cell) for cell in cells]
         if all(len(one) == len(Waypoint) for one in stops):
             lower, upper = _ranges(robot, np.array([q for one in stops for q in one.values()]))
             home = stops[0][Waypoint.GRASP_DEPARTURE].tolist()
-            return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper)
-    return None
+            return FittedCell(layout=layout, home=tuple(home), lower=lower, upper=upper), ""
+    return None, reason
+
+
+def _scene(path: Path, layout: Layout, robot: Robot, robot_file: str) -> Scene:
+    path.write_text(scene_text(layout, robot=robot_file, is_yaw_free=is_yaw_free(robot)), encoding="utf-8")
+    return load_scene(path, project=path.parents[1])
+
+
+def _cells(scene: Scene, geometries: Sequence[GripperGeometry]) -> list[Workcell]:
+    return [Workcell(scene, geometry, clearance_m=_CLEARANCE_M, task=default_task()) for geometry in geometries]
+
+
+def _stands_in_pedestal(cell: Workcell) -> bool:
+    """Whether the arm touches its pedestal in most configurations."""
+    model = next(iter(cell.planning.values()))
+    samples = sampled_configurations(cell.scene.robot)[:_POINTING_SAMPLES]
+    touching = sum(any(_PEDESTAL in pair for pair in model.contacts(q)) for q in samples)
+    return touching > _MOST_TOUCHING * len(samples)
 
 
 def _points_into_arm(cell: Workcell) -> bool:

@@ -83,6 +83,10 @@ _CARRIED = """\
   - about: robot.base
     rationale: What carries the arm above the tables is not modelled; it is outside of the tool's region.
 """
+_LOWERED = """\
+  - about: bodies
+    rationale: The pedestal ends below the arm's base, for collision shapes of the arm reach below its base.
+"""
 _FREE_YAW = "  free_yaw: true # the cup is round: an arm of few joints turns the gripper as it can\n"
 
 
@@ -98,6 +102,7 @@ class Layout:
         base_m: Position of the arm's base in the world.
         base_yaw_rad: Its turn about the vertical.
         is_overhead: Whether the arm hangs above the tables, instead of standing on a pedestal before them.
+        pedestal_gap_m: Distance of the pedestal's top below the arm's base, where shapes of the arm reach below it.
     """
 
     reach_m: float
@@ -107,6 +112,7 @@ class Layout:
     base_m: tuple[float, float, float] = (0.0, 0.0, _PEDESTAL_HEIGHT_M)
     base_yaw_rad: float = 0.0
     is_overhead: bool = False
+    pedestal_gap_m: float = 0.0
 
 
 def layouts(reach_m: float) -> Iterator[Layout]:
@@ -146,6 +152,7 @@ def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
     x, y = layout.x_m, layout.y_m
     long, deep = max(0.2, 0.45 * reach), _depth_m(reach)
     near = x - deep / 2
+    height = _PEDESTAL_HEIGHT_M - layout.pedestal_gap_m
     foot = min(0.14, near * 0.7 if near < _NEAR_M else near * 0.5)
     post = 0.05 * reach
     high = min(0.24, 0.2 * reach)
@@ -159,8 +166,8 @@ def scene_text(layout: Layout, *, robot: str, is_yaw_free: bool = False) -> str:
         base_y=layout.base_m[1],
         base_z=layout.base_m[2],
         base_yaw=f"  yaw: {math.degrees(layout.base_yaw_rad):g} deg\n" if layout.base_yaw_rad else "",
-        pedestal="" if layout.is_overhead else _PEDESTAL.format(foot=foot, height=_PEDESTAL_HEIGHT_M),
-        carried=_CARRIED if layout.is_overhead else "",
+        pedestal="" if layout.is_overhead else _PEDESTAL.format(foot=foot, height=height),
+        carried=_CARRIED if layout.is_overhead else _LOWERED if layout.pedestal_gap_m else "",
         deep=deep,
         long=long,
         table=layout.table_m,

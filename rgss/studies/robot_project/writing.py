@@ -91,16 +91,19 @@ def _write_files(
         path.write_text(_renamed(content, old, id_, drafted.arm.name), encoding="utf-8", newline="\n")
     geometries = [load_gripper(path) for path in sorted((project / "scenes" / "grippers").glob("*.yaml"))]
     axes = drafted.likely_tool_axes[:_MOST_AXES] if tool_axis is None else (tool_axis,)
+    reasons = []
     for axis in axes:
         drafted = drafted_robot(urdf, project, flange=flange, tool_axis=axis, mass_kg=mass_kg)
-        cell = fitted(project, drafted.robot, drafted.file.name, geometries)
+        cell, reason = fitted(project, drafted.robot, drafted.file.name, geometries)
         if cell is not None:
             break
+        reasons.append(f"with the gripper along {axis}, {reason}")
     else:
         raise DefinitionError(
-            f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down",
-            hint=f"tried: the {', '.join(axes)} axis of {drafted.flange}. Is --flange the link that carries the "
-            "gripper, --tool-axis its axis out of the arm? Does the arm turn its tool down at all?",
+            f"no layout was found in which {id_} grasps a cup on a table with its tool pointing down: "
+            f"{'; '.join(reasons)}",
+            hint=f"is {drafted.flange} the link that carries the gripper (--flange), and one of these its axis out of "
+            "the arm (--tool-axis)? Does the arm turn its tool down at all?",
         )
     arm, robot = drafted.arm, drafted.robot
     ranges = zip(arm.joints, cell.lower, cell.upper, strict=True)
