@@ -52,6 +52,32 @@ def test_a_truncated_normal_keeps_its_ends():
     assert all(7.0 <= cut.quantile(share) <= 7.5 for share in np.linspace(0.001, 0.999, 50))
 
 
+def test_quantiles_have_the_nine_digits_of_scipys_own():
+    generator = np.random.default_rng(11)
+    for _ in range(300):
+        mean, sd = generator.uniform(-5.0, 5.0), 10.0 ** generator.uniform(-4.0, 1.0)
+        low, high = np.sort(mean + sd * generator.uniform(-6.0, 6.0, 2))
+        share = generator.uniform(1e-6, 1.0 - 1e-6)
+        weights = generator.random(5)
+        found = [
+            Normal(mean=mean, sd=sd).quantile(share),
+            TruncatedNormal(mean=mean, sd=sd, low=low, high=high).quantile(share),
+            LogNormal(median=sd, geometric_sd=1.0 + low**2).quantile(share),
+            Discrete(values=(0.0, 1.0, 2.0, 3.0, 4.0), weights=tuple(weights.tolist())).quantile(share),
+        ]
+        few = stats.rv_discrete(values=(range(5), weights / weights.sum()))
+        assert found == pytest.approx(
+            [
+                stats.norm.ppf(share, mean, sd),
+                stats.truncnorm.ppf(share, (low - mean) / sd, (high - mean) / sd, mean, sd),
+                stats.lognorm.ppf(share, math.log1p(low**2), scale=sd),
+                few.ppf(share),
+            ],
+            rel=1e-9,
+            abs=1e-12,
+        )
+
+
 def test_few_values_are_drawn_by_their_weights():
     three = Discrete(values=(0.1, 0.2, 0.4), weights=(1.0, 2.0, 1.0))
 
