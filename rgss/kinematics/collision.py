@@ -16,6 +16,7 @@ from rgss.kinematics.collision_context import CollisionContext
 from rgss.kinematics.description import build_model
 from rgss.kinematics.geometry import Part, collision_parts
 from rgss.kinematics.link_contacts import lasting_contacts
+from rgss.kinematics.separation_bounds import SeparationBounds
 from rgss.scenes import GripperGeometry, Scene
 
 Vector = NDArray[np.float64]
@@ -114,6 +115,7 @@ class CollisionModel:
             _forget_history(request)
         for request in self._state.distanceRequests:
             _forget_history(request)
+        self._bounds = SeparationBounds.of(self._geometry, self._clear)
         # The manager reads the margins when it is made and keeps references to what it is made from. With a
         # few dozen solids, comparing all boxes takes half the time of keeping a tree of them in order.
         self._manager = pinocchio.BroadPhaseManager_NaiveCollisionManager(self._model, self._geometry, self._state)
@@ -194,9 +196,17 @@ class CollisionModel:
         Args:
             q: Joint positions, shape (n,).
         """
-        self._engine.computeDistances(self._model, self._data, self._geometry, self._state, np.asarray(q, dtype=float))
-        results = self._state.distanceResults
-        return min((float(results[index].min_distance) for index in self._clear), default=math.inf)
+        engine, geometry, state = self._engine, self._geometry, self._state
+        engine.updateGeometryPlacements(self._model, self._data, geometry, state, np.asarray(q, dtype=float))
+        bounds = self._bounds.least_distances_m(state.oMg)
+        least = math.inf
+        for place in np.argsort(bounds, kind="stable").tolist():
+            # What is left is farther away than what was found.
+            if bounds[place] >= least:
+                break
+            index = self._clear[place]
+            least = min(least, float(engine.computeDistance(geometry, state, index).min_distance))
+        return least
 
     def nearest_pair(self, q: Sequence[float] | Vector) -> NearestPair | None:
         """The pair of parts with the least distance beyond its clearance; None where no pair is checked.

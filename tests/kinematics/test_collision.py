@@ -328,3 +328,15 @@ def test_links_of_the_arm_do_not_count_as_clearance(scene, gripper, empty, confi
     model = CollisionModel(scene, gripper, empty)
     assert any(model.clearance_m(q) > model.distance(q) + 0.01 for q in configurations(100))
     assert all(model.clearance_m(q) >= model.distance(q) for q in configurations(100))
+
+
+def test_the_clearance_is_the_least_of_all_pairs_that_keep_one(scene, gripper, empty, configurations):
+    """Also where the arm is in the furniture: the depth then."""
+    model = CollisionModel(scene, gripper, empty)
+    inside = 0
+    for q in configurations(300):
+        model.distance(q)
+        everything = [float(model._state.distanceResults[index].min_distance) for index in model._clear]
+        assert model.clearance_m(q) == min(everything)
+        inside += min(everything) < 0.0
+    assert 20 < inside < 290
