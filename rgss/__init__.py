@@ -27,7 +27,7 @@ def load_study(
 ) -> Study:
     """Read a project and one of its studies, to look at what is known of it as pandas frames.
 
-    Nothing is simulated and no evidence is read until it is asked for.
+    Nothing is simulated and no evidence is read until it is requested.
 
     Args:
         folder: The project's folder, or a study file (``.yaml``) in one; the nearest folder at or

@@ -21,7 +21,7 @@ class Column:
 
     Attributes:
         name: Its name; parts in capitals stand for what a project has, such as ``PARAMETER``.
-        unit: The unit of its numbers, in SI; ``"1"`` for a pure number, empty for what is no number;
+        unit: The unit of its numbers, in SI; ``"1"`` for a pure number, empty for what is not a number;
             where another column or the project says it, words that say so.
         meaning: What it says.
         kind: What its cells are.

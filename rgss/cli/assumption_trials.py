@@ -1,4 +1,4 @@
-"""Trials that suppositions need: counted, or run where asked for."""
+"""Trials that suppositions need: counted, or run where requested."""
 
 from __future__ import annotations
 

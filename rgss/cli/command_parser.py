@@ -60,7 +60,7 @@ class CommandParser(argparse.ArgumentParser):
         return True
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """Refuse what is no choice; name the one that was probably meant, or else all."""
+        """Refuse what is not a choice; name the one that was probably meant, or else all."""
         if action.choices is None or value in action.choices:
             return
         choices = [str(choice) for choice in action.choices]

@@ -99,7 +99,7 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 
 def _page(options: argparse.Namespace) -> AbstractContextManager[object]:
-    """The page of what a verb prints; what programs read is no page."""
+    """The page of what a verb prints; what programs read is not a page."""
     if options.json or not options.is_fitted or sys.stdout is None or not sys.stdout.isatty():
         return nullcontext()
     from rgss.cli.terminal import fitted_page

@@ -2,8 +2,8 @@
 
 Replicates are added where the choice is open, so that two designs seldom have the same seeds. They are compared on
 those that both have, by the posterior that names ties in the study itself; but a seed in which one of them alone
-succeeded is no proof that it is the better one. Whether they meet every requirement is told by all seeds of each: four
-seeds in which the one succeeds each time do not outdo a hundred in which the other succeeds nine times of ten.
+succeeded does not prove that it is the better one. Whether they meet every requirement is judged by all seeds of each:
+four seeds in which the one succeeds each time do not outweigh a hundred in which the other succeeds nine times of ten.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ def import_sdk(module: str, *, distribution: str, extra: str) -> ModuleType:
         DefinitionError: It is not installed.
     """
     try:
-        # Some SDKs print their version when they are imported, which is no part of our output.
+        # Some SDKs print their version when they are imported, which is not part of our output.
         with contextlib.redirect_stdout(sys.stderr):
             return importlib.import_module(module)
     except ImportError as error:

@@ -65,7 +65,7 @@ class Attribute:
         path: The keys that lead to it in an entry of a YAML file.
         form: How it is written as one text.
         choices: What it chooses from; empty unless it is a choice.
-        link: The relation that it states; None if it states none, or one that is no link.
+        link: The relation that it states; None if it states none, or one that is not a link.
     """
 
     name: str

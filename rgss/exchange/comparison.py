@@ -75,7 +75,7 @@ class Wishes:
 def compare(own: Content, foreign: Content, wishes: Wishes) -> tuple[ElementChange, ...]:
     """Changes by a file: changed and added elements in its own order, then removed ones.
 
-    Ids under one attribute have no order, so another order is no change.
+    Ids under one attribute have no order, so another order is not a change.
 
     Args:
         own: The project.

@@ -18,7 +18,7 @@ _SAME = 1e-9
 
 
 class Verdict(NamedTuple):
-    """Verdict on a property, with its margin if that was asked for."""
+    """Verdict on a property, with its margin if that was requested."""
 
     holds: bool
     margin: float | None
@@ -61,7 +61,7 @@ class GraspGeometry:
         return ball_radius(self.edges.matrix) if self.force.holds else 0.0
 
     def is_of(self, grasp: Grasp, *, cone_edges: int, with_margins: bool) -> bool:
-        """True if another grasp has the same geometry, to a nanometre, and the same is asked of it."""
+        """True if another grasp has the same geometry, to a nanometre, and the same is required of it."""
         mine = self._grasp
         return (
             self._asked == (cone_edges, with_margins)

@@ -28,7 +28,7 @@ class GraspPolygon:
         corners_m: In their order round their mean, in the plane, shape (k, 2); measured from the centre of mass.
         centroid_m: Of its area, in space, from the centre of mass, shape (3,). Along the axis it is as high as the
             corners are on average; where there is no area it is the middle of the segment.
-        is_flat: Tells whether it has no area: fewer than three corners, or all in a line.
+        is_flat: Whether it has no area: fewer than three corners, or all in a line.
     """
 
     corners_m: Matrix

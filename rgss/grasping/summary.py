@@ -26,12 +26,12 @@ class GraspQuality:
         contact_count: Number of contact points.
         finger_count: Number of fingers that they belong to.
         characteristic_length_m: What torques are divided by.
-        equilibrium: Tells whether a squeeze can balance itself.
+        equilibrium: Whether a squeeze can balance itself.
         equilibrium_margin_1: See `rgss.grasping.closure.equilibrium`; None, like the other two, if margins were not
             asked for.
-        force_closure: Tells whether every wrench can be resisted.
+        force_closure: Whether every wrench can be resisted.
         force_closure_margin_1: See `rgss.grasping.closure.force_closure`.
-        form_closure: Tells whether the normals alone immobilise the object.
+        form_closure: Whether the normals alone immobilise the object.
         form_closure_margin_1: See `rgss.grasping.closure.form_closure`.
         q_msv_1: Smallest singular value of the grasp matrix.
         q_voe_1: Volume of the ellipsoid of wrenches.
@@ -40,7 +40,7 @@ class GraspQuality:
         q_diff_m: Distance from the polygon's centroid to the centre of mass.
         q_smw_n: Smallest maximum wrench; None, like the load factor, if strength was not asked for.
         net_wrench_n: Norm of the contacts' present net wrench.
-        wrench_resistance: Tells whether the given load can be resisted; None if none was given.
+        wrench_resistance: Whether the given load can be resisted; None if none was given.
         load_factor_1: The greatest multiple of that load; None if none was given, or a load of zero.
     """
 

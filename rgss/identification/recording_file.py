@@ -76,7 +76,7 @@ def read_recording(path: Path) -> Recording:
         path: The CSV file.
 
     Raises:
-        DocumentError: The file is no recording; with its first problem.
+        DocumentError: The file is not a recording; with its first problem.
     """
     try:
         content = path.read_bytes()

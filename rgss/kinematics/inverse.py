@@ -57,7 +57,7 @@ def inverse_kinematics(arm: Arm, *, is_turn_free: bool = False) -> InverseKinema
 
     Args:
         arm: The arm with its tool.
-        is_turn_free: Whether of a pose the position and the tool's axis alone are asked for, which is numerical.
+        is_turn_free: Whether of a pose the position and the tool's axis alone are requested, which is numerical.
     """
     if is_turn_free:
         return NumericalInverse(arm, is_turn_free=True)

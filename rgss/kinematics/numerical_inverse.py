@@ -45,7 +45,7 @@ class NumericalInverse:
     Source: T. Sugihara, "Solvability-Unconcerned Inverse Kinematics by the Levenberg-Marquardt Method", IEEE T-RO
     27(5), 2011: the damping is proportional to the squared error.
 
-    Where the turn about the tool's axis is free, position and axis alone are asked for, five freedoms. Their
+    Where the turn about the tool's axis is free, position and axis alone are requested, five freedoms. Their
     configurations count as a continuum: an arm of more joints has one, and an arm of five has one if its last axis is
     the tool's.
 

@@ -21,7 +21,7 @@ class PoseResidual:
     Attributes:
         position_m: Position of the target in the world, shape (3,).
         rotation: Its orientation, shape (3, 3).
-        is_axis_alone: Whether of the orientation the tool's axis, z, is asked for alone.
+        is_axis_alone: Whether of the orientation the tool's axis, z, is requested alone.
     """
 
     position_m: Array

@@ -48,7 +48,7 @@ class SmoothPath:
         breaks: The parameter at the ends of the pieces, shape (pieces + 1,), from 0.
         coefficients: Of each piece in powers of (s - its start), shape (pieces, 6, joints).
         stops: Indices of the breaks at which a motion must come to rest, the first and the last included.
-        curved: Tells for each piece whether it is a blend.
+        curved: For each piece, whether it is a blend.
     """
 
     breaks: Vector
@@ -81,7 +81,7 @@ class BlendedPath:
 
     Attributes:
         path: The smooth path.
-        is_valid: Tells whether every state that was checked along it is valid.
+        is_valid: Whether every state that was checked along it is valid.
         blended: Number of corners that are rounded.
         stops: Number of corners at which the motion comes to rest.
         checks: Number of validity checks.
@@ -107,7 +107,7 @@ def blend(
 
     Args:
         path: A valid polyline.
-        validity: Tells valid states from invalid ones.
+        validity: State-validity checker.
         resolution_rad: Greatest distance between two checked states. The straight pieces are checked where
             the polyline was, so that they are valid if it was; the blends four times as densely.
         largest_deviation_rad: Greatest distance of a blend from its corner.
@@ -146,7 +146,7 @@ def unblended(path: JointPath, validity: StateValidity, *, resolution_rad: float
 
     Args:
         path: A valid polyline.
-        validity: Tells valid states from invalid ones.
+        validity: State-validity checker.
         resolution_rad: Greatest distance between two checked states.
 
     Raises:

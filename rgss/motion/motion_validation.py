@@ -32,7 +32,7 @@ def motion_validator(
         engine: The planning engine.
         information: Space information of a real vector space; it must outlive the validator.
         angles_of: Reads the joint angles (rad) of a state.
-        is_valid: Tells whether joint angles (rad) are valid.
+        is_valid: Whether joint angles (rad) are valid.
         first_invalid: Finds the first invalid one among joint angles (n, joints) between the two states.
     """
     space = information.getStateSpace()

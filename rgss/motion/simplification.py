@@ -67,7 +67,7 @@ def shorten(
 
     Args:
         points: Corners of a valid path in rad, shape (n, joints).
-        validity: Tells valid states from invalid ones.
+        validity: State-validity checker.
         generator: Source of the random choices.
         budget_checks: Greatest number of validity checks of looking for shortcuts.
         resolution_rad: Greatest distance between the states that are checked.

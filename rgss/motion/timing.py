@@ -66,7 +66,7 @@ def time_move(
 
     Args:
         path: A valid polyline.
-        validity: Tells valid states from invalid ones.
+        validity: State-validity checker.
         tool: Kinematics of the tool centre.
         limits: What the motion keeps.
         resolution_rad: Greatest distance in joint space between two checked states.

@@ -49,7 +49,7 @@ def verified(
 
     Args:
         corners: Corners of the path in rad, shape (n, joints); every corner is valid.
-        validity: Tells valid states from invalid ones.
+        validity: State-validity checker.
         resolution_rad: Greatest Euclidean distance in joint space between two checked states.
         replan: Replans a motion; None ends the verification at the first that is not valid.
     """

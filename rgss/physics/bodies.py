@@ -49,7 +49,7 @@ def add_body(
             pose.position_m,
             pose.quaternion_xyzw,
             baseInertialFramePosition=(0.0, 0.0, centre_of_mass_m),
-            # What stands still is no articulated body without links: the same results, to the bit, for less
+            # What stands still is not an articulated body without links: the same results, to the bit, for less
             # time. What moves is one, since the engine has a rougher law of friction between two that are not.
             useMaximalCoordinates=int(mass_kg == 0.0),
             physicsClientId=client,

@@ -68,7 +68,7 @@ class ContactReader:
         robot, workpiece = self._robot, self._workpiece
         names, finger_of_link = self._scene_names, self._finger_of_link
         is_robot_touching = False
-        # All are asked for: asked for one body's, the engine names it A, yet does not turn the friction round.
+        # All are requested: for one body's alone, the engine names it A, yet does not turn the friction round.
         for point in self._engine.getContactPoints(-1, -1, -2, -2, self._client):
             force = point[9]
             if force <= 0.0 and point[8] > 0.0:

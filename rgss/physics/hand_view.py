@@ -13,7 +13,7 @@ Quadruple = tuple[float, float, float, float]
 class HandView(NamedTuple):
     """Object, flange and fingers at one instant.
 
-    An object that is carried is looked at many times a second, and mostly nothing but its place is asked for.
+    An object that is carried is looked at many times a second, and mostly nothing but its place is requested.
 
     Attributes:
         workpiece_m: Position of the workpiece in the world.

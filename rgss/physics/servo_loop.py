@@ -18,7 +18,7 @@ def mean_commands(times_s: Array, commands: Array, edges_s: Array) -> Array:
     """Means over steps of a command that keeps each sample's value until the next one.
 
     Before the first sample the command has the first value. The means depend continuously on the edges, and so
-    on a delay that is no multiple of the sampling time.
+    on a delay that is not a multiple of the sampling time.
 
     Args:
         times_s: Times of the samples, shape (times,).

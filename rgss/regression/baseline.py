@@ -176,7 +176,7 @@ def read_baseline(path: Path, *, label: str) -> Baseline:
     except UnicodeDecodeError:
         raise EvidenceError(f"the baseline {label} is not UTF-8", hint=again) from None
     if not isinstance(data, dict) or "schema" not in data:
-        raise EvidenceError(f"{label} is no baseline: it has no 'schema'", hint=again)
+        raise EvidenceError(f"{label} is not a baseline: it has no 'schema'", hint=again)
     if data["schema"] in (_WITHOUT_VALUES, _WITHOUT_PHASE_RECORD):
         _add_empty_values(data)
     elif data["schema"] != SCHEMA:

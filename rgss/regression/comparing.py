@@ -96,7 +96,7 @@ class Pairs:
         worse_seeds: How many seeds are worse on some variant.
         better_seeds: How many seeds are better on some variant.
         count: How many pairs there are.
-        lost: Pairs that the baseline tells and the present does not.
+        lost: Pairs that the baseline contains and the present does not.
         baseline_mean: Mean of the baseline's values in the pairs.
         current_mean: Mean of the present ones.
     """

@@ -153,7 +153,7 @@ def decision_changes(
             there being many; without one, what moved is taken to have moved.
 
     Returns:
-        What fails, and what is told.
+        What fails, and what is only reported.
     """
     failing: list[Failing] = []
     notes: list[str] = []

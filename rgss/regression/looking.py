@@ -40,7 +40,7 @@ def settle(
             need more seeds, None for all of them.
         looks: How often may be looked.
         error_rate: The error rate of all looks.
-        on_look: Told the number of each look and how many comparisons are open before it.
+        on_look: Callback before each look, with its number and how many comparisons are open.
     """
     latest: dict[Subject, Comparison] = {}
     look = 0

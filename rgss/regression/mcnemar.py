@@ -73,7 +73,7 @@ def worsening_below(worse: int, seeds: int, margin: float) -> float:
         margin: The share that success may fall by, between 0 and 1.
 
     Raises:
-        DefinitionError: The margin is no share between 0 and 1.
+        DefinitionError: The margin is not a share between 0 and 1.
     """
     if not 0.0 < margin < 1.0:
         raise DefinitionError(

@@ -82,7 +82,7 @@ class RegressionReport:
         comparisons: Every metric, by run, metric and phase.
         behaviour: Comparison of the trials' records bit by bit.
         failing: What fails beside metrics that are worse or missing.
-        notes: What is told of the decision and the inputs and does not fail.
+        notes: Reported facts of the decision and the inputs that do not fail.
         looks: How often was looked.
         trials: How many trials each run took for each variant.
         error_rate: The probability of any false alarm.

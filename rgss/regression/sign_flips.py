@@ -20,7 +20,7 @@ def adjusted_p_values(differences: Mapping[str, Sequence[float]]) -> dict[str, f
 
     If nothing but the seeds differs, before and after can be swapped for any seed, for everything that
     was observed with it at once. Each swap of some seeds gives the greatest of all statistics
-    ``|Σ d| / sqrt(Σ d²)``; a difference counts by the share of swaps in which that is no smaller than its
+    ``|Σ d| / sqrt(Σ d²)``; a difference counts by the share of swaps in which that is not smaller than its
     own (Westfall and Young, *Resampling-Based Multiple Testing*, 1993). The chance that any p-value is at
     most α is then at most α, whatever the observations have in common.
 

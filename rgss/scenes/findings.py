@@ -64,7 +64,7 @@ def named_file_findings(
     """
     hint = "file names are relative to this file"
     if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or "\\" in name:
-        message = f"{shown(name)} is no relative path"
+        message = f"{shown(name)} is not a relative path"
         yield document.finding("scene.outside", message, location, hint=f"copy the file into the project; {hint}")
         return
     place = place_of(folder / name, project)

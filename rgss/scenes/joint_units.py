@@ -63,7 +63,7 @@ def home_findings(entry: RobotDocument, document: Document) -> Iterable[Finding]
 
 
 def _quantities(entry: RobotDocument) -> Iterator[tuple[str, Location, JointQuantity, tuple[str, str]]]:
-    """Joint, place, value, and an example of an angular and a linear one, of everything that is told of joints."""
+    """Joint, place, value, and an example of an angular and a linear one, of all joint quantities."""
     positions = ("90 deg", "120 mm")
     for index, joint in enumerate(entry.joints):
         for end, quantity in enumerate(joint.range):

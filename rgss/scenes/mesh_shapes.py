@@ -56,7 +56,7 @@ def shapes_of_mesh(
         how: What the shapes are.
 
     Raises:
-        DefinitionError: The file is no mesh, or has no volume.
+        DefinitionError: The file is not a mesh, or has no volume.
     """
     return _shapes(path, sha256, scale, how)
 
@@ -69,7 +69,7 @@ def mesh_summary(path: Path, *, scale: tuple[float, float, float] = (1.0, 1.0, 1
         scale: Factors along its axes.
 
     Raises:
-        DefinitionError: The file is no mesh.
+        DefinitionError: The file is not a mesh.
     """
     mesh = _read(path, scale)
     closed = bool(mesh.is_watertight)
@@ -125,7 +125,7 @@ def mesh_mass(path: Path, *, scale: float = 1.0) -> MeshMass:
         scale: Factor of its lengths.
 
     Raises:
-        DefinitionError: The file is no mesh, or encloses no volume.
+        DefinitionError: The file is not a mesh, or encloses no volume.
     """
     mesh = _read(path, (scale, scale, scale))
     if not mesh.is_watertight or not mesh.volume > 0.0:
@@ -156,7 +156,7 @@ def _read(path: Path, scale: tuple[float, float, float]) -> Any:
     import trimesh
 
     if path.suffix.lower() not in _SUFFIXES:
-        raise DefinitionError(f"{path.name} is no mesh that is read", hint="use STL, OBJ or PLY")
+        raise DefinitionError(f"{path.name} is not a mesh format that can be read", hint="use STL, OBJ or PLY")
     try:
         mesh = trimesh.load_mesh(str(path), process=True)
         if isinstance(mesh, trimesh.Scene):
@@ -166,7 +166,7 @@ def _read(path: Path, scale: tuple[float, float, float]) -> Any:
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, OSError) as error:
         raise DefinitionError(f"{path.name} cannot be read as a mesh: {error}", hint="use STL, OBJ or PLY") from error
     if len(mesh.vertices) < 4 or not np.all(np.isfinite(mesh.vertices)):
-        raise DefinitionError(f"{path.name} is no mesh with a volume", hint="use STL, OBJ or PLY")
+        raise DefinitionError(f"{path.name} is not a mesh with a volume", hint="use STL, OBJ or PLY")
     # Corners that differ in normal or texture alone are one, or no mesh with sharp edges would be closed.
     mesh.merge_vertices(merge_tex=True, merge_norm=True)
     mesh.apply_scale(scale)

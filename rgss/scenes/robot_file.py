@@ -108,7 +108,7 @@ def _calibration(
     known = [joint.name for joint in entry.joints]
     for joint, _ in calibration.servos:
         if joint not in known:
-            message = f"the calibration has a servo of {shown(joint)}, which is no joint of the robot"
+            message = f"the calibration has a servo of {shown(joint)}, which is not a joint of the robot"
             hint = f"joints: {', '.join(known)}"
             findings.append(document.finding("scene.calibration", message, ("calibration",), hint=hint))
     return calibration

@@ -23,7 +23,7 @@ _DEEPEST_NESTING = 40
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,3})?")
 _INERTIA = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
-# How many numbers each attribute holds, by element. The engines read what is no number as zero.
+# How many numbers each attribute holds, by element. The engines read what is not a number as zero.
 _NUMBERS: Mapping[str, Mapping[str, int]] = {
     "origin": {"xyz": 3, "rpy": 3},
     "axis": {"xyz": 3},

@@ -191,10 +191,10 @@ def _target(name: str, path: Path, project: Path) -> tuple[Path | None, str, str
     hint = "name it relative to the URDF, or as package://FOLDER/FILE with a folder of the project"
     scheme, separator, _ = name.partition("://")
     if separator and scheme != "package":
-        return None, f"is named by {shown(scheme + '://')}, which is no path inside the project", hint
+        return None, f"is named by {shown(scheme + '://')}, which is not a path inside the project", hint
     rest = name.removeprefix(_PACKAGE)
     if not separator and (PurePosixPath(rest).is_absolute() or "\\" in rest or rest[1:2] == ":"):
-        return None, "is no relative path", hint
+        return None, "is not a relative path", hint
     missing = False
     for candidate in _package_candidates(rest, path, project) if separator else (path.parent / rest,):
         place = place_of(candidate, project)
@@ -203,7 +203,7 @@ def _target(name: str, path: Path, project: Path) -> tuple[Path | None, str, str
         if place is FilePlace.OUTSIDE:
             return None, "leads out of the project", "copy it into the project; links that lead out do not count"
         missing = True
-    return None, "is not there" if missing else "is no path inside the project", hint
+    return None, "is not there" if missing else "is not a path inside the project", hint
 
 
 def _package_candidates(rest: str, path: Path, project: Path) -> Iterator[Path]:

@@ -25,7 +25,7 @@ _OF_THE_ARM = (
     "joint_saturated_s",
     "tracking_error_m",
 )
-"""What the arm's dynamics show of a move, and contact physics, which drives the joints as it is told, does not."""
+"""What the arm's dynamics show of a move, and contact physics, which drives the joints as commanded, does not."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

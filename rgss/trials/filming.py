@@ -35,7 +35,7 @@ class Frame:
 
 
 class Film:
-    """The frames of a trial, each drawn when it is asked for; a context manager that closes its cameras."""
+    """The frames of a trial, each drawn when it is requested; a context manager that closes its cameras."""
 
     def __init__(
         self,

@@ -72,7 +72,7 @@ def test_a_reason_is_text_whatever_it_holds(tmp_path, baseline):
         (None, "there is no baseline b.json (make it with 'rgss regress --update --reason TEXT')"),
         (b"", "the baseline b.json is not JSON: "),
         (b"\xff", "the baseline b.json is not UTF-8 (make it"),
-        (b"[]", "b.json is no baseline: it has no 'schema' (make it"),
+        (b"[]", "b.json is not a baseline: it has no 'schema' (make it"),
         (b'{"schema": 5}', "the baseline b.json has schema 5; 4 is read (make it"),
         (b'{"schema": 4}', "b.json: baseline lacks 'study' (make it"),
         (b'{"schema": 2}', "b.json: baseline lacks 'study' (make it"),

@@ -170,7 +170,7 @@ def test_the_hand_of_a_whole_robot_is_read_from_its_urdf(tmp_path):
         (
             '<child link="camera"/>',
             '<child link="lens"/>',
-            "lets the joint 'camera_joint' carry 'lens', which it has not",
+            "lets the joint 'camera_joint' carry 'lens', which is not one of its links",
         ),
         ('<child link="camera"/>', '<child link="left"/>', "has several joints that carry the link 'left'"),
     ],

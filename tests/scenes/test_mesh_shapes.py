@@ -96,7 +96,7 @@ def test_what_a_mesh_is(saved):
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
-        ("part.step", b"ISO-10303-21;", "part.step is no mesh that is read"),
+        ("part.step", b"ISO-10303-21;", "part.step is not a mesh format that can be read"),
         ("part.stl", b"solid", "part.stl"),
         ("part.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n", "part.obj is flat and has no volume"),
     ],

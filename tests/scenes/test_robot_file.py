@@ -124,7 +124,7 @@ def test_a_description_that_is_not_in_the_project_is_found_where_it_is_named(kit
     (finding,) = kitchen.findings(what)
     place, rule, message = finding.split(" ", 2)
     assert (place, rule) == (kitchen.marks()[0], "scene.outside")
-    assert ("is no relative path" if how == "absolute" else "leads out of the project") in message
+    assert ("is not a relative path" if how == "absolute" else "leads out of the project") in message
     assert "copy the file into the project" in message
 
 
@@ -176,12 +176,12 @@ def test_a_mesh_that_collides_but_is_none_is_found(kitchen):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("/part.stl", "is no relative path"),
-        ("file:///part.stl", "is named by 'file://', which is no path inside the project"),
-        ("model://part.stl", "is named by 'model://', which is no path inside the project"),
-        ("C:\\part.stl", "is no relative path"),
+        ("/part.stl", "is not a relative path"),
+        ("file:///part.stl", "is named by 'file://', which is not a path inside the project"),
+        ("model://part.stl", "is named by 'model://', which is not a path inside the project"),
+        ("C:\\part.stl", "is not a relative path"),
         ("../../../part.stl", "leads out of the project"),
-        ("package://../part.stl", "is no path inside the project"),
+        ("package://../part.stl", "is not a path inside the project"),
         ("package://robots/../../part.stl", "leads out of the project"),
         ("link.stl", "leads out of the project"),
         ("none.stl", "is not there"),

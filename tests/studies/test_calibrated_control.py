@@ -110,7 +110,7 @@ def test_delay_and_gains_show_in_the_tracking_error(folder, calibrate, capsys):
         ),
         (
             {"extra": "  tail_joint: {velocity_gain: 9 s^-1, position_gain: 9 s^-2}\n"},
-            r"ur10\.yaml:\d+:\d+: error: the calibration has a servo of 'tail_joint', which is no joint of the robot",
+            r"ur10\.yaml:\d+:\d+: error: the calibration has a servo of 'tail_joint', which is not a joint of",
         ),
         ({"delay": "-1 ms"}, r"ur10\.servos\.yaml:9:\d+: error: delay_s must not be negative"),
         (

@@ -258,7 +258,7 @@ def picture_size(text: str, option: str = "--size") -> tuple[int, int]:
     """Width and height of a text such as ``640x480``.
 
     Raises:
-        DefinitionError: It is no size, or one out of range.
+        DefinitionError: It is not a size, or one out of range.
     """
     match = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text, re.ASCII)
     if match is None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class SweepProgress:
-    """A bar with rate, remaining time, outcomes and pieces; silent where standard error is no terminal."""
+    """A bar with rate, remaining time, outcomes and pieces; silent where standard error is not a terminal."""
 
     def __init__(self, total: int) -> None:
         """Prepare the bar.

@@ -27,7 +27,7 @@ class Pager:
 
     @classmethod
     def of(cls, environment: Mapping[str, str]) -> Pager | None:
-        """The pager that is asked for, or `less`; None if there is none, or if it is ``cat`` or empty.
+        """The pager that is requested, or `less`; None if there is none, or if it is ``cat`` or empty.
 
         Args:
             environment: Variables of the process; ``RGSS_PAGER`` comes before ``PAGER``.

@@ -1,4 +1,4 @@
-"""``rgss check``: the project's files, their wording, their traceability and, where asked for, their evidence."""
+"""``rgss check``: the project's files, their wording, their traceability and, where requested, their evidence."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rgss.exchange import Content, ElementChange, FileChange, Part
     from rgss.studies import Project
 
-HELP = "show what a file of another tool would change in the requirements, and apply it if asked to"
+HELP = "show what a file of another tool would change in the requirements, and apply it on request"
 EXAMPLE = "rgss import xlsx requirements.xlsx --apply"
 MORE_EXAMPLES = (("rgss import csv requirements.csv", "show what would change, and change nothing"),)
 FORMATS = ("reqif", "csv", "xlsx")
@@ -40,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Report and, if asked to, apply; 1 if changes are not applied, or something of the file is not taken over."""
+    """Report and, on request, apply; 1 if changes are not applied, or something of the file is not taken over."""
     from rgss.cli.import_report import print_report, report_as_json
     from rgss.cli.main import CLEAN, FINDINGS
     from rgss.cli.output import print_json

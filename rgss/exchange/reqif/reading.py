@@ -36,7 +36,7 @@ def read_reqif(path: Path, *, known: Mapping[str, Part] | None = None, part: Par
 
     Raises:
         DefinitionError: The package reqif is not installed.
-        DocumentError: The file cannot be read, is no ReqIF, or has a document type, an entity or
+        DocumentError: The file cannot be read, is not a ReqIF, or has a document type, an entity or
             a relation to an object that is not there.
     """
     file = str(path)

@@ -12,7 +12,7 @@ PARTS = "Part definitions"
 class Parts:
     """Paths of the blocks' parts.
 
-    A block that is one kind of its parent is no piece of it: its definition specialises the
+    A block that is one kind of its parent is not a piece of it: its definition specialises the
     parent's, and its part subsets the parent's part, beside which it stands.
     """
 

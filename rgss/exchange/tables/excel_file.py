@@ -58,7 +58,7 @@ def read_excel(path: Path) -> Content:
 
     Raises:
         DefinitionError: The package openpyxl is not installed.
-        DocumentError: The file is no workbook, would unpack to too much, or has other sheets or columns.
+        DocumentError: The file is not a workbook, would unpack to too much, or has other sheets or columns.
     """
     _require_openpyxl()
     from openpyxl import load_workbook

@@ -30,7 +30,7 @@ _ORDER = tuple(Approach)
 
 
 class Unfit(str, Enum):
-    """Why a tool frame is no grasp of the object with the gripper."""
+    """Why a tool frame is not a grasp of the object with the gripper."""
 
     APPROACH = "approach"
     CONTACT = "contact"

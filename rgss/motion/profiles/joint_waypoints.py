@@ -41,7 +41,7 @@ def time_move_by_joint_waypoints(
 
     Args:
         path: A valid polyline, whose points are the waypoints.
-        validity: Tells valid states from invalid ones.
+        validity: State-validity checker.
         tool: Kinematics of the tool centre.
         limits: Limits of the motion; where the tool exceeds its own, the whole way between two waypoints is slowed
             down evenly.

@@ -43,7 +43,7 @@ def time_move_by_trapezoids(
 
     Args:
         path: A valid polyline.
-        validity: Tells valid states from invalid ones.
+        validity: State-validity checker.
         tool: Kinematics of the tool centre.
         limits: Limits of the motion.
         resolution_rad: Greatest distance in joint space between two checked states.

@@ -55,7 +55,7 @@ def read_links(urdf: str) -> tuple[RobotLink, ...]:
         urdf: The description.
 
     Raises:
-        SimulationError: It has a collision shape that is no box, cylinder, sphere or convex shape.
+        SimulationError: It has a collision shape that is not a box, cylinder, sphere or convex shape.
     """
     root = ET.fromstring(urdf)  # noqa: S314 - entities and document types are refused on reading
     links = {link.get("name", ""): link for link in root.findall("link")}

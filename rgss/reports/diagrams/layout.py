@@ -95,7 +95,7 @@ def layout(graph: Graph, sizes: Mapping[str, Size]) -> Layout:
         width, height = sizes[node.id]
         drawn.add_node(
             names[node.id],
-            # What has a text above or below it is no circle any more.
+            # What has a text above or below it is not a circle any more.
             shape="box" if node.name and node.shape in _ROUND else _SHAPES.get(node.shape, "box"),
             width=f"{width / _POINTS_PER_INCH:.4f}",
             height=f"{height / _POINTS_PER_INCH:.4f}",

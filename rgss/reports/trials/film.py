@@ -50,7 +50,7 @@ def write_film(
 
     Args:
         path: The file.
-        frame_at: Gives the frame of an index; it is asked for a few of them twice.
+        frame_at: Gives the frame of an index; it is requested a few of them twice.
         count: How many frames there are.
         rate_hz: Frames a second, at most 50.
         on_frame: Called after each frame.

@@ -86,7 +86,8 @@ def mechanism_problems(root: ET.Element, entry: LinkageGripperDocument) -> Itera
     for joint in root.findall("joint"):
         child = _end(joint, "child")
         if child not in links:
-            yield f"lets the joint {joint.get('name')!r} carry {child!r}, which it has not", ("description",), ""
+            problem = f"lets the joint {joint.get('name')!r} carry {child!r}, which is not one of its links"
+            yield problem, ("description",), ""
         elif child in carried:
             hint = "a link has one joint; let joints follow with <mimic> instead of closing a loop"
             yield (
@@ -160,7 +161,7 @@ def _mimic_problems(joints: Mapping[str, ET.Element]) -> Iterable[Problem]:
         followed = mimic.get("joint", "")
         if followed not in joints:
             hint = f"joints: {', '.join(joints)}"
-            yield f"lets the joint {name!r} follow {followed!r}, which it has not", ("description",), hint
+            yield f"lets the joint {name!r} follow {followed!r}, which is not one of its joints", ("description",), hint
             continue
         if joints[followed].get("type") == "fixed":
             hint = "let it follow the driven joint"

@@ -47,7 +47,7 @@ class ParallelGripper:
     model: type[DocumentModel] = ParallelGripperDocument
 
     def findings(self, entry: ParallelGripperDocument, document: Document) -> Iterable[Finding]:
-        """Problems of sizes, of mountings without travel, and of a default that is no mounting."""
+        """Problems of sizes, of mountings without travel, and of a default that is not a mounting."""
         others: list[tuple[Location, float]] = [(("grasp_depth",), entry.grasp_depth)]
         if entry.command is not None:
             others.append((("command", "travel_time"), entry.command.travel_time))

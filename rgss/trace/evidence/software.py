@@ -136,7 +136,7 @@ def run_properties(project: Path, requirements: Iterable[Requirement], *, qualif
     Args:
         project: The project's folder.
         requirements: System requirements of one set.
-        qualifier: What tells them from those of the default set, such as ``bench/``; empty for the default.
+        qualifier: What distinguishes them from those of the default set, such as ``bench/``; empty for the default.
 
     Raises:
         EvidenceError: A file of the project cannot be read.

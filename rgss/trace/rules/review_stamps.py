@@ -55,7 +55,7 @@ def stamped(requirements: RequirementSet, ids: Sequence[str], reviewer: str) -> 
         Every review by id, sorted. Reviews of elements that are gone are left out.
 
     Raises:
-        DefinitionError: An id names nothing, or the reviewer's name is no single line of text.
+        DefinitionError: An id names nothing, or the reviewer's name is not a single line of text.
     """
     name = " ".join(reviewer.split())
     if not name or len(name) > LONGEST_REVIEWER or not name.isprintable():

@@ -106,7 +106,7 @@ _ONWARD: Mapping[Relation, frozenset[Relation]] = {
     Relation.COMPUTED_FROM: _NOTHING,
 }
 """Where a chain goes on after a relation, where that is not everywhere: it is not to wander through the
-architecture, nor through the inside of a measure, when it was asked for something else."""
+architecture, nor through the inside of a measure, when something else was requested."""
 
 
 def _upward(root: Named, neighbours: Neighbours) -> _Next:

@@ -114,7 +114,7 @@ class MinimaxRegret(Program):
         """Scenarios one by one: each is where the last choice is worst, until its regret is what was proven.
 
         The regret over some weights never exceeds that over all, so the choice is best as soon as its
-        own regret over all weights is no larger. There are finitely many worst weights.
+        own regret over all weights is not larger. There are finitely many worst weights.
         """
         from rgss.tradeoff.programs.worst_weights import WeightProgram
 

@@ -144,7 +144,7 @@ class _Placing:
             rival, least = dominating
             return made(KeptFor.DOMINATED, least, None, (self.first_of[int(others[rival])],))
         shortfall, weights, mixture = _least_shortfall(leads, self.among)
-        # One that another never trails is best only where both tie, which is no reason of its own.
+        # One that another never trails is best only where both tie, which is not a reason of its own.
         tied_only = dominating_rival(leads, self.here, self.among, margin=0.0) is not None
         if shortfall <= TIE_TOLERANCE and not tied_only:
             return made(KeptFor.BEST_FOR_SOME, shortfall, self._nearest(leads, shortfall, weights))

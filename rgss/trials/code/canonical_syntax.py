@@ -24,7 +24,7 @@ def canonical_form(tree: ast.Module, *, leave_out: frozenset[ast.stmt] = frozens
 
     Args:
         tree: The tree.
-        leave_out: Statements that do not count, such as imports that are told otherwise.
+        leave_out: Statements that do not count, such as imports that are recorded elsewhere.
     """
     parts: list[str] = []
     _write_block(tree.body, parts, leave_out, in_function=False)

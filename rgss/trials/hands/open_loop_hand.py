@@ -1,4 +1,4 @@
-"""Hand of fingers that are only told to open or to close: no force or position is read."""
+"""Hand of fingers that are only commanded to open or to close: no force or position is read."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 class ForceSensor:
     """Moving average of each finger's normal force, with its greatest value.
 
-    The window is kept exactly: where it is no whole number of steps, the oldest step counts in part. A window
+    The window is kept exactly: where it is not a whole number of steps, the oldest step counts in part. A window
     shorter than a step is that step.
 
     Attributes:

@@ -15,7 +15,7 @@ class HandMotion:
     """Object and fingers at the ends of a short time.
 
     Velocities are from places, not from the engine's velocities: of bodies that go round a bend
-    together these differ by the acceleration times a step, which is no slip.
+    together these differ by the acceleration times a step, which is not slip.
 
     Attributes:
         before: Transform of the object to the grasp centre at the start.

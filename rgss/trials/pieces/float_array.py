@@ -43,7 +43,7 @@ class FloatArray:
         """The array, bit for bit.
 
         Raises:
-            EvidenceError: The text is no array of that shape, or a number is not finite.
+            EvidenceError: The text is not an array of that shape, or a number is not finite.
         """
         try:
             content = base64.b64decode(self.base64, validate=True)

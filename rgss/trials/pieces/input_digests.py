@@ -45,7 +45,7 @@ class TrialDigests:
             settings, fidelity, and the controller of the joints where the fidelity simulates it.
         bench: The gripper, the object, the acceleration and the physics settings; empty where the
             trial's fidelity knows no bench.
-        trial: The execution, the bench, the planning limit and the draws; the variant's number is no input.
+        trial: The execution, the bench, the planning limit and the draws; the variant's number is not an input.
     """
 
     plan: str
@@ -112,7 +112,7 @@ def bench_digest(spec: BenchSpec, versions: Mapping[str, str]) -> str:
     """The digest of the inputs of a bench, by which designs with the same gripper share one.
 
     Args:
-        spec: The bench; the name of the gripper's shape is no input.
+        spec: The bench; the name of the gripper's shape is not an input.
         versions: Versions of the code and the engines; only those that a bench uses are taken.
     """
     return _bench_digest(spec, _version_digests(tuple(sorted(versions.items())))["bench"])
@@ -183,13 +183,13 @@ def _controller_digest(spec: TrialSpec) -> tuple[str, ...]:
 
 
 def _stated(settings: TimingSettings | JointController) -> tuple[str, ...]:
-    """Digest of settings that differ from the default, which is no input: it is what pieces had without them."""
+    """Digest of settings that differ from the default, which is not an input: it is what pieces had without them."""
     return () if settings == type(settings)() else (_digest_of(settings),)
 
 
 @lru_cache(maxsize=_KEPT)
 def _task_digest(task: TaskProgram) -> str:
-    """Digest of the steps of a task without what only its execution depends on; its name is no input."""
+    """Digest of the steps of a task without what only its execution depends on; its name is not an input."""
     steps = [[type(step).__name__, _without(to_plain(step), _EXECUTED)] for step in task.steps]
     return digest([to_plain(task.start), steps])
 

@@ -176,7 +176,7 @@ def _direct(
 
 
 def _tool_path_length(cell: Workcell, path: Array, resolution_rad: float) -> float:
-    """Length of the way of the tool along a joint path, which between its corners is no straight line."""
+    """Length of the way of the tool along a joint path, which between its corners is not a straight line."""
     states = [path[:1]]
     for start, end in itertools.pairwise(path):
         states.append(segment_states(start, end, resolution_rad))

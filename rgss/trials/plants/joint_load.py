@@ -39,7 +39,7 @@ class JointLoad:
         """Add one step.
 
         Args:
-            torques_n_m: Torque of each joint: what its motor gave, or what its controller asked for.
+            torques_n_m: Torque of each joint: what its motor gave, or what its controller commanded.
             step_s: Length of the step.
         """
         self.note_all(np.array([torques_n_m]), step_s)

@@ -53,7 +53,7 @@ def _graph_points(cell: Workcell, graph: SearchGraph) -> NDArray[np.float64]:
 
 
 def _path_points(cell: Workcell, path: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Tool positions along a joint path, which between its corners is no straight line."""
+    """Tool positions along a joint path, which between its corners is not a straight line."""
     states = [path[:1]]
     for start, end in itertools.pairwise(path):
         states.append(segment_states(start, end, _RESOLUTION_RAD))

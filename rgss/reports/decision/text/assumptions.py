@@ -38,7 +38,7 @@ def _row(found: RobustnessFindings, one: AssumptionFinding) -> list[str]:
     if span is None:
         return [*cells, *[UNKNOWN] * 4]
     about = "" if span.exact else "≈ "
-    # Where nothing changed as far as a scan went, the end of the scan is no end of the range.
+    # Where nothing changed as far as a scan went, the end of the scan is not an end of the range.
     low = amount(span.lowest, unit) if span.exact else f"≤ {amount(span.lowest, unit)}"
     high = "∞" if math.isinf(span.highest) else f"≥ {amount(span.highest, unit)}"
     return [
