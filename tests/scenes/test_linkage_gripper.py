@@ -141,7 +141,7 @@ def test_the_hand_of_a_whole_robot_is_read_from_its_urdf(tmp_path):
         (
             '<mimic joint="left_joint"/>',
             '<mimic joint="lift"/>',
-            "lets the joint 'right_joint' follow 'lift', which it",
+            "lets the joint 'right_joint' follow 'lift', which is",
         ),
         ('<mimic joint="left_joint"/>', '<mimic joint="camera_joint"/>', "follow the fixed joint 'camera_joint'"),
         ('<mimic joint="left_joint"/>', '<mimic joint="right_joint"/>', "lets the joint 'right_joint' follow itself"),
