@@ -81,6 +81,7 @@ class TrialPictures:
         player: Its replay in three dimensions; None if nothing moved.
         variant: Which variant it is of; None if that does not matter.
         still: A PNG of the carried object; empty without one.
+        failed: Whether the trial failed.
     """
 
     title: str
@@ -91,6 +92,7 @@ class TrialPictures:
     player: PackedReplay | None = None
     variant: int | None = None
     still: bytes = b""
+    failed: bool = False
 
 
 def study_report_to_html(
@@ -149,6 +151,7 @@ def study_report_to_html(
         compared_trials=_compared_trials(document),
         report_sections=_SECTIONS[1:] if glance is None else _SECTIONS,
         pictures=[_picture(one) for one in pictures],
+        worst_failure=next((place for place, one in enumerate(pictures) if one.failed), None),
         pictures_notice=pictures_notice,
         tornado=_markup(tornado),
         data=_markup(packed_json(embedded_json(first)) if packed else plain),

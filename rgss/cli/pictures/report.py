@@ -127,6 +127,7 @@ def _pictures(project: Project, one: NotableTrial, spec: TrialSpec, look: FilmLo
         filmstrip=strip,
         film=film,
         player=packed_trial(seen, spec),
+        failed=not one.record.success,
     )
 
 

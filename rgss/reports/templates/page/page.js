@@ -20,6 +20,8 @@
       shown += row.hidden ? 0 : 1;
     }
     const filtered = words.length > 0 || gaps;
+    // What fits is shown, also where it was folded.
+    if (filtered) for (const fold of all("details.fold:not([open])")) fold.open = all("[data-row]", fold).some((row) => !row.hidden);
     count.textContent = filtered ? `${shown} of ${rows.length} rows and diagrams` : "";
     for (const none of all("[data-none]")) {
       const mine = all("[data-row]", none.closest("section"));
@@ -69,6 +71,7 @@
   };
   setTimeout(makeRoom);
   addEventListener("resize", makeRoom);
+  document.addEventListener("toggle", (event) => { if (event.target.matches(".fold")) makeRoom(); }, true);
 
   // -------------------------------------------------- cells by the arrow keys
   for (const table of all("table.matrix")) {

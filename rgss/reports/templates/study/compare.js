@@ -86,7 +86,7 @@ const startDistributions = () => {
     if (!found.length) return null;
     const names = [...new Set(found.map((row) => row.name))];
     const measures = effectiveness.filter((measure) => found.some((row) => row.measure === measure));
-    const each = 1 / measures.length, layout = { height: 60 + measures.length * (86 + 26 * (names.length - 1)), boxmode: "group", showlegend: names.length > 1, margin: { l: 90, r: 16, t: 48, b: 40 } };
+    const each = 1 / measures.length, layout = { height: 60 + measures.length * (76 + 22 * (names.length - 1)), boxmode: "group", showlegend: names.length > 1, margin: { l: 90, r: 16, t: 48, b: 40 } };
     const colourOf = (name) => (by.value === "stands" ? KINDS.find((one) => one.name === name).colour : PALETTE[names.indexOf(name) % PALETTE.length]);
     const traces = [];
     measures.forEach((measure, index) => {

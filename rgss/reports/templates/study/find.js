@@ -34,9 +34,15 @@ const unfold = (target) => {
 const startUnfolding = () => {
   const follow = () => {
     const target = byId(named(addressNow().anchor));
-    if (target === null || target.closest("details:not([open])") === null) return;
+    if (target === null) return;
     unfold(target);
-    target.scrollIntoView();
+    // What was folded or not yet drawn moves the rest; the target is sought again once that is done.
+    const seek = () => {
+      const { top, bottom } = target.getBoundingClientRect();
+      if (bottom < 0 || top > innerHeight * 0.7) target.scrollIntoView();
+    };
+    requestAnimationFrame(() => requestAnimationFrame(seek));
+    setTimeout(seek, 400);
   };
   addEventListener("hashchange", follow);
   addEventListener("click", (event) => {

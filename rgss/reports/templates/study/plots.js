@@ -44,7 +44,8 @@ const plot = (id, make) => {
       return;
     }
     if (!host.classList.contains("js-plotly-plot")) host.replaceChildren();
-    const height = `${made.layout.height || 420}px`, grown = host.style.height !== height;
+    const height = `${made.layout.height || 340}px`, grown = host.style.height !== height;
+    host.style.minHeight = "0";
     host.style.height = height;
     Plotly.react(host, made.traces, layoutOf({ ...made.layout, height: undefined }), {
       responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], displayModeBar: false,
@@ -285,7 +286,7 @@ const startEffects = () => {
     if (shownPlaces.length < total) {
       traces.push({ x: across(found), y: found.map((row) => row.brushed), mode: "markers", name: "mean of the shown variants", marker: { symbol: "x", size: 10, color: "#d55e00" } });
     }
-    return { traces, layout: { xaxis: narrow ? { type: "linear", tickvals: found.map((_, index) => index), ticktext: found.map((row) => plotText(row.level)), tickangle: -90 } : { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withUnit(one.measure, one.unit)}`) } }, height: 460 } };
+    return { traces, layout: { xaxis: narrow ? { type: "linear", tickvals: found.map((_, index) => index), ticktext: found.map((row) => plotText(row.level)), tickangle: -90 } : { type: "multicategory" }, yaxis: { title: { text: plotText(`mean of ${withUnit(one.measure, one.unit)}`) } }, height: 390 } };
   });
   const update = tableIn("effects-table", {
     label: "Main effects",

@@ -1,0 +1,114 @@
+"""A reader who has the page alone answers the questions of a decision with few clicks."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import pytest
+from selenium.webdriver.common.by import By
+
+from rgss.reports.diagrams import diagrams_of, drawings_for_page
+from rgss.reports.study_page import study_report_to_html
+from rgss.studies.project import load_project
+
+pytestmark = pytest.mark.browser
+
+HIGHEST = 15_000
+"""Pixels of the page at a width of 1,440, with everything but the tables of evidence folded as it opens."""
+
+
+@pytest.fixture(scope="module")
+def whole_page(study, pictures, tmp_path_factory):
+    """The report with its diagrams, and with pictures of a trial that failed."""
+    failed = dataclasses.replace(pictures[0], title="Variant 7, seed 2: first that failed", failed=True)
+    requirements = load_project(study.folder).requirements
+    file = tmp_path_factory.mktemp("whole") / "report.html"
+    html = study_report_to_html(
+        study.document, study.trace, drawings=drawings_for_page(diagrams_of(requirements)), pictures=(*pictures, failed)
+    )
+    file.write_text(html, encoding="utf-8")
+    return file
+
+
+class Clicks:
+    """A reader's clicks, counted; what is not in sight must be led to by them."""
+
+    def __init__(self, reader) -> None:
+        self.reader, self.count = reader, 0
+
+    def on(self, element) -> None:
+        # Selenium scrolls to what is clicked; a reader would have to look for it.
+        assert self.sees(element), element.text
+        element.click()
+        self.count += 1
+
+    def sees(self, element) -> bool:
+        # A jump may be on its way.
+        self.reader.until(
+            "const box = arguments[0].getBoundingClientRect();"
+            "return box.height > 0 && box.top < innerHeight && box.bottom > 0",
+            element,
+        )
+        return True
+
+
+def find(reader, selector: str):
+    return reader.driver.find_element(By.CSS_SELECTOR, selector)
+
+
+def test_five_questions_are_answered_in_two_clicks_each(reader, whole_page, study):
+    decision = study.document["decision"]
+
+    def opened() -> Clicks:
+        reader.driver.get("about:blank")
+        reader.open(whole_page, width=1440)
+        return Clicks(reader)
+
+    clicks = opened()
+    which = find(reader, "#glance-title")
+    assert clicks.sees(which)
+    assert str(decision["chosen"]) in which.text
+    is_open, would_change = reader.driver.find_elements(By.CSS_SELECTOR, ".glance-lists h3")
+    assert (is_open.text, would_change.text) == ("What is open", "What would change it")
+    assert clicks.sees(is_open)
+    assert clicks.sees(would_change)
+    assert clicks.count == 0
+    clicks.on(find(reader, ".glance-lists .reasons a"))
+    assert clicks.sees(find(reader, reader.script("return location.hash")))
+    assert clicks.count == 1
+
+    clicks = opened()
+    clicks.on(reader.driver.find_element(By.LINK_TEXT, "Why this design"))
+    assert clicks.sees(find(reader, "#why + .reasons"))
+    assert find(reader, "#why + .reasons").text.splitlines()[0] == decision["reasons"][0]
+    assert clicks.count == 1
+
+    clicks = opened()
+    clicks.on(reader.driver.find_element(By.PARTIAL_LINK_TEXT, "The worst failure"))
+    figure = find(reader, "#worst-failure")
+    assert "first that failed" in figure.text
+    clicks.on(figure.find_element(By.XPATH, ".//summary[. = 'Replay in three dimensions']"))
+    reader.until("return document.querySelector('#worst-failure [data-replay]').dataset.state === 'ready'")
+    assert clicks.count == 2
+    assert [one for one in reader.complaints() if "GL Driver Message" not in one] == []
+    assert reader.requests() == []
+
+
+def test_the_page_is_folded_and_what_a_link_leads_to_is_unfolded(reader, whole_page):
+    reader.open(whole_page, width=1440)
+    reader.see_all_plots()
+    assert reader.script("return document.documentElement.scrollHeight") < HIGHEST
+    # Nothing of a diagram is laid out before it is wanted.
+    shown = "return [...document.querySelectorAll('#diagrams figure')].filter((one) => one.checkVisibility()).length"
+    assert reader.script(shown) == 0
+    count = reader.script("return document.querySelectorAll('#diagrams figure').length")
+    assert count > 5
+    anchor = reader.script("return document.querySelectorAll('#diagrams figure')[3].id")
+    reader.script("location.hash = arguments[0]", f"#{anchor}")
+    reader.until(f"{shown} === 1")
+    # The filter of the traceability shows what fits, also where it is folded.
+    search = find(reader, "#search")
+    reader.script("arguments[0].scrollIntoView({block: 'center'})", search)
+    search.send_keys("SYS-024")
+    reader.until("return document.querySelector('#verification details.fold').open")
+    assert reader.complaints() == []
