@@ -146,8 +146,8 @@ def study_report_to_html(
         title=f"Report of the study {document['study']}",
         report=document,
         glance=glance,
-        glance_picture=_chosen_picture(document["decision"]["chosen"], pictures),
-        comparison=_comparison(document),
+        glance_picture=chosen_picture(document["decision"]["chosen"], pictures),
+        comparison=comparison_rows(document),
         compared_trials=_compared_trials(document),
         report_sections=_SECTIONS[1:] if glance is None else _SECTIONS,
         pictures=[_picture(one) for one in pictures],
@@ -231,8 +231,12 @@ def find_and_sort_library() -> str:
     return place.read_text(encoding="utf-8")
 
 
-def _comparison(document: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The chosen variant beside the runner-up, a row for each parameter that varies and each weighted measure."""
+def comparison_rows(document: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The chosen variant beside the runner-up, a row for each parameter that varies and each weighted measure.
+
+    Args:
+        document: What the report shows.
+    """
     decision, variants = document["decision"], document["variants"]
     shown = [variants["id"].index(one) for one in (decision["chosen"], decision["runner_up"]) if one is not None]
     if not shown:
@@ -319,9 +323,14 @@ def _value(value: float | str | None, unit: str = "1") -> str:
     return value if isinstance(value, str) else value_in_words(value, unit or "1")
 
 
-def _chosen_picture(chosen: int | None, pictures: Sequence[TrialPictures]) -> str:
-    """The address of the first picture of the chosen variant; empty without one."""
-    return next((_data_address("image/png", one.still) for one in pictures if one.variant == chosen), "")
+def chosen_picture(chosen: int | None, pictures: Sequence[TrialPictures]) -> str:
+    """The address of the first picture of the chosen variant; empty without one.
+
+    Args:
+        chosen: The chosen variant.
+        pictures: Pictures of trials.
+    """
+    return next((data_address("image/png", one.still) for one in pictures if one.variant == chosen), "")
 
 
 def _picture(one: TrialPictures) -> dict[str, Any]:
@@ -329,13 +338,19 @@ def _picture(one: TrialPictures) -> dict[str, Any]:
         "title": one.title,
         "note": one.note,
         "replay": one.replay,
-        "filmstrip": _data_address("image/png", one.filmstrip),
-        "film": _data_address("video/webm", one.film),
+        "filmstrip": data_address("image/png", one.filmstrip),
+        "film": data_address("video/webm", one.film),
         "replays": [] if one.player is None else [as_context(one.player)],
     }
 
 
-def _data_address(kind: str, content: bytes) -> str:
+def data_address(kind: str, content: bytes) -> str:
+    """A file as an address that holds it; empty if the file is.
+
+    Args:
+        kind: Its media type.
+        content: Its bytes.
+    """
     return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}" if content else ""
 
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from rgss.assessment import VariantMeasures, VerdictRecord
+    from rgss.reports import TrialPictures
     from rgss.reports.trace import TraceReport
     from rgss.studies import Project
     from rgss.trace.evidence import EvidenceState
@@ -22,6 +23,7 @@ HELP = "write the decision with its evidence as one HTML page"
 EXAMPLE = "rgss report --out report.html"
 MORE_EXAMPLES = (
     ("rgss report --no-film", "without films, for which a few trials are run again"),
+    ("rgss report --board --pdf", "the choice on at most five printed pages, as board.html and board.pdf"),
     ("rgss report --film-size 640x480 --film-rate 12", "with larger and smoother films"),
 )
 LARGEST_PAGE = 15_000_000
@@ -29,14 +31,17 @@ LARGEST_PAGE = 15_000_000
 MOST_PLANNED_SEEDS = 10
 """Seeds of the planners' comparison at most: each is a search for every move, planner and shape of gripper."""
 DEFAULT_FILE = Path("report.html")
+BOARD_FILE = Path("board.html")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     add_evidence_choice(parser)
     parser.add_argument(
-        "-o", "--out", type=Path, default=DEFAULT_FILE, metavar="FILE", help=f"the page (default: {DEFAULT_FILE})"
+        "-o", "--out", type=Path, metavar="FILE", help=f"the page (default: {DEFAULT_FILE}; {BOARD_FILE} with --board)"
     )
+    parser.add_argument("--board", action="store_true", help="the choice alone, on at most five printed pages")
+    parser.add_argument("--pdf", action="store_true", help="with --board: a PDF beside the page, printed by Chromium")
     parser.add_argument(
         "--no-film",
         action="store_true",
@@ -67,13 +72,14 @@ def run(options: argparse.Namespace) -> int:
     from rgss.decision.study_decision import decide_study
     from rgss.errors import EvidenceError
     from rgss.evidence import EvidenceStore
-    from rgss.reports import study_report_to_html
     from rgss.reports.decision import tornado_svg
-    from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
     from rgss.reports.study import notable_trials, report_document
 
+    if options.out is None:
+        options.out = BOARD_FILE if options.board else DEFAULT_FILE
     _check_file(options.out)
     _check_films(options)
+    browser = _browser(options)
     project = chosen_project(options)
     label = shown_path(project.evidence)
     recorded = read_record(project.folder)
@@ -101,18 +107,60 @@ def run(options: argparse.Namespace) -> int:
     look = None if options.no_film else ordered_look(options.film_size, options.film_rate, films=len(notable))
     pictures, notice = trial_pictures(project, notable, look=look)
     sensitivity = made.sensitivity
+    tornado = "" if sensitivity is None or sensitivity.tornado is None else tornado_svg(sensitivity.tornado)
+    trace = _trace(project, measured, made.decision, state)
+    page = _rendered(options, project, document, trace, pictures, notice, tornado)
+    _write(options.out, page)
+    if browser is not None:
+        _print_pdf(options.out, browser)
+    _print_result(options, document, len(page))
+    return CLEAN if made.is_final else FINDINGS
+
+
+def _browser(options: argparse.Namespace) -> str | None:
+    """The browser that prints, looked for first, since printing comes last."""
+    from rgss.cli.printing import printing_browser
+    from rgss.errors import DefinitionError
+
+    if not options.pdf:
+        return None
+    if not options.board:
+        raise DefinitionError("--pdf is given without --board", hint="add --board, or print the page in a browser")
+    _check_writable(options.out.with_suffix(".pdf"))
+    return printing_browser()
+
+
+def _print_pdf(path: Path, browser: str) -> None:
+    from rgss.cli.printing import print_page
+
+    _write(path.with_suffix(".pdf"), print_page(path, browser))
+
+
+def _rendered(
+    options: argparse.Namespace,
+    project: Project,
+    document: dict[str, Any],
+    trace: TraceReport,
+    pictures: Sequence[TrialPictures],
+    notice: str,
+    tornado: str,
+) -> bytes:
+    """The board edition or the whole report."""
+    from rgss.reports import board_to_html, study_report_to_html
+    from rgss.reports.diagrams import diagrams_of, drawings_for_page, missing_diagrams
+
+    if options.board:
+        return board_to_html(document, pictures=pictures, tornado=tornado).encode("utf-8")
     page = study_report_to_html(
         document,
-        _trace(project, measured, made.decision, state),
+        trace,
         drawings=drawings_for_page(diagrams_of(project.requirements)),
         drawings_notice=missing_diagrams(project.requirements),
         pictures=pictures,
         pictures_notice=notice,
-        tornado="" if sensitivity is None or sensitivity.tornado is None else tornado_svg(sensitivity.tornado),
-    ).encode("utf-8")
-    _write(options.out, page)
-    _print_result(options, document, len(page))
-    return CLEAN if made.is_final else FINDINGS
+        tornado=tornado,
+    )
+    return page.encode("utf-8")
 
 
 def _check_films(options: argparse.Namespace) -> None:
@@ -177,12 +225,18 @@ def _planners(project: Project) -> dict[str, Any] | None:
 
 
 def _check_file(path: Path) -> None:
-    from rgss.documents import why_not_writable
     from rgss.errors import DefinitionError
 
     if path.suffix.lower() not in (".html", ".htm"):
         # A report must not replace a file that is not a report.
         raise DefinitionError(f"{str(path)!r} does not end in .html", hint="name the file so")
+    _check_writable(path)
+
+
+def _check_writable(path: Path) -> None:
+    from rgss.documents import why_not_writable
+    from rgss.errors import DefinitionError
+
     problem = why_not_writable(path)
     if problem:
         raise DefinitionError(f"{str(path)!r} cannot be written: {problem}", hint="name a file that can be")
@@ -207,3 +261,5 @@ def _print_result(options: argparse.Namespace, document: dict[str, Any], size: i
         print(line)
     large = "; --film-size and --film-rate make it smaller" if size > LARGEST_PAGE and not options.no_film else ""
     print(f"Wrote {options.out} ({size / 1e6:.1f} MB{large})")
+    if options.pdf:
+        print(f"Wrote {options.out.with_suffix('.pdf')}")

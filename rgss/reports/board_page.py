@@ -1,0 +1,157 @@
+"""Board edition of a study's report: the choice on at most five printed pages."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from rgss.reports.page import render_page, template_text
+from rgss.reports.study import first_screen_content
+from rgss.reports.study_page import TrialPictures, chosen_picture, comparison_rows, data_address
+from rgss.trace.views import value_in_words
+
+MOST_PAGES = 5
+"""Printed pages at most, A4 in landscape."""
+
+_MOST_LINES = 5
+_MOST_ROWS = 10
+_MOST_COMPARED = 18
+_MOST_MEASURES = 6
+_LONGEST = 160
+
+
+def board_to_html(document: Mapping[str, Any], *, pictures: Sequence[TrialPictures] = (), tornado: str = "") -> str:
+    """Write the board edition as one page that makes no request; printed it has at most `MOST_PAGES` pages.
+
+    Lists are cut to what a page holds and say so; the whole report has the rest.
+
+    Args:
+        document: What the report shows, as `rgss.reports.study.document.report_document` gives it.
+        pictures: Pictures of the trials that are worth looking at.
+        tornado: The picture of the sensitivity, as `rgss.reports.decision.tornado_svg` draws it.
+
+    Raises:
+        DefinitionError: The package ``jinja2`` is not installed.
+    """
+    from markupsafe import Markup
+
+    decision, glance = document["decision"], first_screen_content(document)
+    if glance is not None:
+        glance = {**glance, "changes": _cut(glance["changes"])}
+    heads, rows = _best(document)
+    ranked = sum(rank is not None for rank in document["variants"]["rank"])
+    modelling = [row["cells"] for row in decision["modelling"]["rows"]]
+    provenance = document["provenance"]
+    return render_page(
+        "study/board.html.j2",
+        styles=[template_text(f"study/{name}") for name in ("report.css", "tool.css", "board.css")],
+        images=True,
+        title=f"Board edition: study {document['study']}",
+        report=document,
+        anchors={},
+        glance=glance,
+        glance_picture=chosen_picture(decision["chosen"], pictures),
+        open=[] if glance is None else _cut(_open_lines(glance)),
+        reasons=_cut(decision["reasons"]),
+        cautions=_cut(decision["cautions"]),
+        comparison=[
+            [row["name"], *(cell["text"] for cell in row["cells"])]
+            for row in comparison_rows(document)[:_MOST_COMPARED]
+        ],
+        compared_heads=[
+            "",
+            *(f"variant {one}" for one in (decision["chosen"], decision["runner_up"]) if one is not None),
+        ],
+        best_heads=heads,
+        best=rows,
+        left_out=f"{ranked} variants are ranked; the first {len(rows)} are shown.",
+        tornado=Markup(tornado),  # noqa: S704 - this package's own drawing
+        failures=_failures(document["trials"], document["variants"]["id"]),
+        pictures=[
+            {**_texts_of(one), "filmstrip": data_address("image/png", one.filmstrip)} for one in pictures if one.failed
+        ][:2],
+        modelling=[[_short(str(cell)) for cell in cells] for cells in modelling[:_MOST_ROWS]],
+        modelling_heads=decision["modelling"]["heads"] if modelling else [],
+        facts=[(name, _short(str(value))) for name, value in provenance["study"]][:_MOST_COMPARED],
+    )
+
+
+def _texts_of(one: TrialPictures) -> dict[str, str]:
+    return {"title": one.title, "note": _short(one.note), "replay": one.replay}
+
+
+def _open_lines(glance: Mapping[str, Any]) -> list[str]:
+    missed = [f"{one['id']}: missed. {one['text']}" for one in glance["missed"]]
+    return missed + [f"{one['id']}: {one['text']}" for one in glance["open"]]
+
+
+def _cut(lines: Sequence[str]) -> list[str]:
+    """As many lines as a page holds, each of a length that it holds, and how many more there are."""
+    shown = [_short(line) for line in lines[:_MOST_LINES]]
+    more = len(lines) - len(shown)
+    return [*shown, f"and {more} more, in the whole report"] if more else shown
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+
+
+def _best(document: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
+    """The best variants with their weighted measures: heads and rows."""
+    variants = document["variants"]
+    weighted = sorted(
+        (one for one in document["measures"] if one["weight"]), key=lambda one: (-one["weight"], one["id"])
+    )[:_MOST_MEASURES]
+    order = sorted(
+        (place for place, rank in enumerate(variants["rank"]) if rank is not None),
+        key=lambda place: variants["rank"][place],
+    )
+    varying = [one for one in document["parameters"] if one["varies"]][:_MOST_MEASURES]
+    heads = ["variant", "rank", "value", *(one["name"] for one in varying), *(one["id"] for one in weighted)]
+    rows = [
+        [
+            str(variants["id"][place]),
+            str(variants["rank"][place]),
+            value_in_words(variants["value"][place]),
+            *(_figure(one["values"], place, one["unit"]) for one in varying),
+            *(_figure(one["value"], place, one["unit"]) for one in weighted),
+        ]
+        for place in order[:_MOST_ROWS]
+    ]
+    return heads, rows
+
+
+def _figure(column: Any, place: int, unit: str) -> str:
+    value = column[place] if isinstance(column, list) else column
+    return value if isinstance(value, str) else value_in_words(value, unit or "1")
+
+
+def _failures(trials: Mapping[str, Any], ids: Sequence[int]) -> list[list[str]]:
+    """What ended trials, the most frequent first: failure, phase, trials, where it was first."""
+
+    def at(name: str, trial: int) -> Any:
+        column = trials[name]
+        return column[trial] if isinstance(column, list) else column
+
+    counted: Counter[tuple[int, int]] = Counter()
+    first: dict[tuple[int, int], int] = {}
+    for trial in range(len(trials["variant"])):
+        failure = at("failure", trial)
+        if failure >= 0:
+            kind = (failure, at("failed_phase", trial))
+            counted[kind] += 1
+            first.setdefault(kind, trial)
+
+    def phase(place: int) -> str:
+        return trials["phases"][place] if 0 <= place < len(trials["phases"]) else "–"
+
+    return [
+        [
+            trials["failures"][failure],
+            phase(ended),
+            str(count),
+            f"variant {ids[at('variant', first[failure, ended])]}, seed {at('seed', first[failure, ended])}",
+        ]
+        for (failure, ended), count in sorted(counted.items(), key=lambda one: (-one[1], one[0]))[:_MOST_ROWS]
+    ]
